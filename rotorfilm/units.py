@@ -78,6 +78,7 @@ UNITS: dict[str, Unit] = {
     "m3": Unit(1.0, {"m": 3}),
     "m2/s": Unit(1.0, {"m": 2, "s": -1}),
     "m3/s": Unit(1.0, {"m": 3, "s": -1}),
+    "m2/(Pa.s)": Unit(1.0, {"kg": -1, "m": 3, "s": 1}),
 }
 """The SI units of signals, by their FMI spelling."""
 
@@ -85,6 +86,7 @@ DISPLAY_UNITS: dict[str, Unit] = {
     **UNITS,
     "Pa s": UNITS["Pa.s"],
     "kg m": UNITS["kg.m"],
+    "m2/(Pa s)": UNITS["m2/(Pa.s)"],
     "kg m2": UNITS["kg.m2"],
     "N m": UNITS["N.m"],
     "N m/rad": UNITS["N.m/rad"],

@@ -108,6 +108,14 @@ class Sprung(InertialModel):
         if heavy is not None:
             heavy.require_range(frequency)
 
+    def force_along(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+        """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `InertialModel`."""
+        if isinstance(self.reaction, InertialModel):
+            film = self.reaction.force_along(position, velocity, acceleration)
+        else:
+            film = self.reaction.force(position, velocity, 0.0)
+        return film - self.stiffness * position
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of the reaction with these springs; None where it takes none."""
         if type(self) is not Sprung or not isinstance(self.reaction, HasKernel):

@@ -14,7 +14,7 @@ from . import printing as console
 from .command import Argument, Option, Said, SignalFile
 
 if TYPE_CHECKING:
-    from ..bearings.damper import PorousCage
+    from ..bearings.damper import EndSeal, PorousCage
     from ..scenes import Scene
     from ..scenes.damper.damper_runs import DamperRun
     from ..scenes.damper.solve_damper import DamperAnswer
@@ -50,20 +50,34 @@ def damper(
     vented: Annotated[bool, Option("--vented", help="Open back of the cage.")] = False,
     full: Annotated[bool, Option("--full", help="Full film, tension included.")] = False,
     film: Annotated[Squeeze, Option(help="Film law.")] = Squeeze.SHORT,
+    density: Annotated[
+        str, Option(help="Of the oil, whose inertia then counts.", metavar='"850 kg/m3"')
+    ] = "0",
+    leakage: Annotated[
+        str | None, Option(help="Of seals at both ends; 0 for tight ones.", metavar='"4e-10 m2/(Pa s)"')
+    ] = None,
+    gap: Annotated[str | None, Option(help="Of seals that are gaps, instead.", metavar='"30 um"')] = None,
+    gap_length: Annotated[str | None, Option(help="Along the axis.", metavar='"2 mm"')] = None,
     chart: Annotated[Path | None, Option(help="Draw the transmissibility into this PNG.")] = None,
 ) -> Said:
-    """Find the synchronous orbits of an unbalanced rotor on a solid or porous squeeze-film damper."""
+    """Find the synchronous orbits of an unbalanced rotor on a solid or porous squeeze-film damper.
+
+    Beyond a squeeze Reynolds number of 20 (10 where the film ruptures) the inertia of the oil is refused.
+    """
     from ..bearings.damper import PorousDamper
     from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
     from ..scenes.damper.damper_table import SQUEEZES
     from ..scenes.damper.solve_damper import solve_damper
     from ..scenes.reading.tables import Quantity
 
+    size, thick = Quantity("m")("--radius", radius), Quantity("Pa.s")("--viscosity", viscosity)
     support = PorousDamper(
-        radius=Quantity("m")("--radius", radius),
+        radius=size,
         length=Quantity("m")("--length", length),
         clearance=Quantity("m")("--clearance", clearance),
-        viscosity=Quantity("Pa.s")("--viscosity", viscosity),
+        viscosity=thick,
+        density=Quantity("kg/m3")("--density", density),
+        seals=_seals(leakage, gap, gap_length, viscosity=thick, radius=size),
         extent=FullFilm() if full else HalfSommerfeld(),
         cage=_cage(thickness, permeability, grading, anisotropy, vented),
         film=SQUEEZES[film.value].makes(),
@@ -139,6 +153,21 @@ def _cage(
         anisotropy=anisotropy,
         vented=vented,
     )
+
+
+def _seals(
+    leakage: str | None, gap: str | None, gap_length: str | None, *, viscosity: float, radius: float
+) -> EndSeal | None:
+    from ..scenes.damper.seal_table import SealsTable
+    from ..scenes.reading.tables import Quantity
+
+    if leakage is None and gap is None and gap_length is None:
+        return None
+    return SealsTable(
+        leakage=None if leakage is None else Quantity("m2/(Pa.s)")("--leakage", leakage),
+        gap=None if gap is None else Quantity("m")("--gap", gap),
+        gap_length=None if gap_length is None else Quantity("m")("--gap-length", gap_length),
+    ).seal(viscosity=viscosity, radius=radius)
 
 
 def damper_run(

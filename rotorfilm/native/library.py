@@ -91,6 +91,8 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_sprung_at": [c_void_p] * 4,
     "rf_rub_at": [c_void_p] * 4,
     "rf_both_at": [c_void_p] * 4,
+    "rf_oil_damper_at": [c_void_p] * 4,
+    "rf_oil_damper_mass": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],
     "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],
     "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],

@@ -17,6 +17,8 @@ KINDS = (
     "journal",
     "grooved_journal",
     "short_journal",
+    "damper",
+    "oil_damper",
     "reynolds_journal",
     "pressure_dam",
     "lobed_journal",

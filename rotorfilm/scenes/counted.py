@@ -8,23 +8,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.contact_place import WalledReaction, minimum_film
-from ..bearings.reaction import StaticReaction
+from ..bearings.inertial_model import InertialModel
 from ..errors import require_vector
 from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
-from ..reactions.added_mass import require_massless
+from ..reactions.added_mass import inertial
 
 
-class Counted(StaticReaction):
+class Counted(InertialModel):
     """A static reaction, and how many forces and tangents it was asked for.
 
     Parameters
     ----------
     reaction : Reaction
-        Without states and added mass.
+        Without states.
     """
 
     def __init__(self, reaction: Reaction) -> None:
-        require_massless("reaction", reaction)
         self._reaction = reaction
         self.forces = 0
         self.tangents = 0
@@ -57,6 +56,25 @@ class Counted(StaticReaction):
         return result
 
     prepared_force, prepared_jacobian = force, jacobian
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the reaction has an added mass, which comes with its forces."""
+        return inertial(self._reaction) is not None
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+        """Return the added mass [kg], shape (2, 2, ...)."""
+        return self._reaction.mass(position, velocity)  # type: ignore[attr-defined,no-any-return]
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
+        return self._reaction.mass_slopes(position, velocity)  # type: ignore[attr-defined,no-any-return]
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the inertia of the reaction ends, at a frequency [rad/s]."""
+        heavy = inertial(self._reaction)
+        if heavy is not None:
+            heavy.require_range(frequency)
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers."""

@@ -11,6 +11,7 @@ from rotorfilm.native import pad_kernels
 from rotorfilm.native.layouts import (
     ball_structs,
     conserved_structs,
+    damper_structs,
     heat_structs,
     master_structs,
     pad_structs,
@@ -26,6 +27,7 @@ KINDS = {
         structs,
         ball_structs,
         conserved_structs,
+        damper_structs,
         heat_structs,
         master_structs,
         pad_kernels,

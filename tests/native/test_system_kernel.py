@@ -1,5 +1,7 @@
 """A rotor with its bearings in one kernel, against the Python model and independent integrations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Model, FMU2Slave
@@ -7,12 +9,18 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 
 from rotorfilm import (
+    EndSeal,
+    FiniteSqueeze,
+    FullFilm,
     JournalBearing,
+    MapSqueeze,
     ReynoldsFilm,
     RigidRotor,
     ShortFilm,
     SpeedProfile,
     SplittingFilm,
+    Sprung,
+    SqueezeFilmDamper,
     equilibrium,
     simulate,
 )
@@ -32,6 +40,10 @@ from rotorfilm.rotors import (
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 WIDE = JournalBearing(radius=0.05, length=0.05, clearance=1.2e-4, viscosity=0.05)
 SHORT = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+DAMPER = SqueezeFilmDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.01, film=MapSqueeze())
+HEAVY = Sprung(reaction=replace(DAMPER, density=850.0), stiffness=1e6)
+SEALED = replace(DAMPER, density=850.0, extent=FullFilm(), film=FiniteSqueeze(), seals=EndSeal(leakage=2e-10))
+"""It adds 35 kg."""
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RUN_UP = SpeedProfile((0.0, 0.01, 0.03), (100.0, 150.0, 120.0))
 
@@ -69,6 +81,9 @@ def systems():
         "free station": mount(reduced(RUN_UP), {"right": WIDE}),
         "whole shaft": mount(shaft(150.0), {"left": WIDE, "right": BEARING}),
         "rigid": rigid(RUN_UP),
+        "damper": mount(reduced(RUN_UP), {"left": DAMPER, "right": BEARING}),
+        "sealed damper": mount(RigidRotor(mass=2.0, speed=RUN_UP, unbalance=1e-5), {"": SEALED}),
+        "two dampers": mount(shaft(150.0), {"left": SEALED, "right": HEAVY}),
     }
 
 
@@ -141,6 +156,18 @@ def test_steps_follow_an_independent_integration(unzipped, kind, steps):
         client.step(k * end / steps, end / steps)
     answer = client.get("x", "y")
     np.testing.assert_allclose(answer, reference(system, end)[:2], atol=1e-8 * BEARING.clearance)
+
+
+@pytest.mark.parametrize("damper", [SEALED, HEAVY], ids=["sealed", "ruptured"])
+def test_a_rotor_lighter_than_its_oil_follows_an_independent_integration(unzipped, damper):
+    rotor = RigidRotor(mass=2.0, speed=400.0, unbalance=2e-4, position=(1e-5, 0.0), velocity=(0.0, 1e-3))
+    system, end = mount(rotor, {"": damper}), 0.01
+    client = unzipped(system).open(FMU2Slave).start(tolerance=1e-8)
+    for k in range(20):
+        client.step(k * end / 20, end / 20)
+    right = reference(system, end, 1e-9)
+    np.testing.assert_allclose(client.get("x", "y"), right[:2], atol=1e-6 * damper.clearance)
+    np.testing.assert_allclose(client.get("mass_xx"), system.output(end, right, [])[-3], rtol=1e-5)
 
 
 def test_one_degree_at_the_default_tolerance_is_the_monolithic_solution(unzipped):

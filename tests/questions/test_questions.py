@@ -201,7 +201,9 @@ def test_march_is_of_the_declared_order_and_meets_the_closed_form():
         pull = np.zeros((2, t.size))
         pull[0] = 0.1
         np.testing.assert_allclose(
-            linear_march(1.0, K, C, pull, 5.0 / count).position, path.position, atol=1e-9
+            linear_march(0.25 * K, K, C, pull, 5.0 / count).position,
+            path.position,
+            atol=1e-9,
         )
         return np.abs(path.position[0] - exact).max()
 

@@ -26,15 +26,16 @@ from ..films.kernel_film import BoundKernel
 from ..films.law import options
 from ..reaction import NOMINAL_SPEED
 from .built.end_seals import EndSeal
-from .built.film_range import warn_of_short_seals
+from .built.film_range import warn_of_length, warn_of_short_seals
 from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm
+from .built.oil_kernel import oil_bound, oil_spec
 from .built.squeeze_inertia import SqueezeInertia
 from .cage import AxialFeed, PorousCage, RadialFeed
 from .damper_kernel import DIMENSIONS, damper_spec
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import MappedSqueezeFilm
 from .porous_layer import LayerModes, PorousLayer, layer_modes
-from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, SqueezeOptions, parabola_mean
+from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, SqueezeOptions
 
 LARGEST_RATIO = 0.5
 """Largest thickness / radius of a layer that may be unrolled to a plane."""
@@ -80,7 +81,7 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     Notes
     -----
-    Cusano & Funk (1977) without the wedge term, which a race that does not spin does not have. Full films
+    Cusano & Funk (1977) without the wedge term, as a race that does not spin has none. Full films
     have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form: the center is no exception.
     Inertia to first order in the squeeze Reynolds number frequency clearance^2 density/viscosity: up to 10,
     a ruptured film to 5; see `require_range`.
@@ -134,14 +135,16 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     @property
     def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length.
-
-        A film of finite length with seals or inertia to 0.95.
-        """
+        """Eccentricity ratio to which the film is meant: the last node of a map; 0.95 to 0.99 for others."""
         reach = self._options.largest_eccentricity_ratio
         if isinstance(self.bound_film, TabulatedSqueezeFilm):
-            reach = min(reach, LARGEST_TABULATED)
+            reach = LARGEST_TABULATED
         return min(reach, self.film_inertia.reach) if self.has_inertia else reach
+
+    @property
+    def is_built(self) -> bool:
+        """Whether it has seals or inertia."""
+        return self.seals is not None or self.has_inertia
 
     @property
     def is_fed(self) -> bool:
@@ -161,18 +164,21 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     @cached_property
     def film_in_c(self) -> BoundKernel | None:
-        """The film in SI units in C, to be asked at speed 0; None where the law is no map."""
-        if self.has_inertia or not isinstance(self.bound_film, MappedSqueezeFilm):
+        """The film in SI units in C, to be asked at speed 0; None where the law is no map, or table."""
+        if self.is_built:
+            case = self.squeeze_case
+            return oil_bound(self, case.end_leak, cavitated=case.cavitated)
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
             return None
         return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this damper; None if its film is no map.
-
-        Nor has one with seals or inertia, nor a subclass, which may differ from it.
-        """
-        if type(self) not in KERNELS or self.has_inertia:
+        """Return the kernel of this damper in the C library; None if its film has none, or for a subclass."""
+        if type(self) not in KERNELS:
             return None
+        if self.is_built:
+            case = self.squeeze_case
+            return oil_spec(self, case.end_leak, cavitated=case.cavitated)
         dimensions = {name: getattr(self, name) for name, _, _ in DIMENSIONS}
         caged = self.cage is not None
         return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
@@ -181,6 +187,11 @@ class SqueezeFilmDamper(SqueezeInertia):
         """Return this damper with a film that carries the table it needs; see `model.Portable`."""
         carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
+
+    @property
+    def slenderness_limit(self) -> float:
+        """Largest length / diameter for which the film is meant [1]; infinite for one of finite length."""
+        return self._options.slenderness_limit
 
     @property
     def _options(self) -> SqueezeOptions:
@@ -202,6 +213,7 @@ class SqueezeFilmDamper(SqueezeInertia):
             ends=(ends.start_pressure * rate, ends.end_pressure * rate),
             cavitated=isinstance(self.extent, HalfSommerfeld),
             end_leak=self._end_leak,
+            heavy=self.has_inertia,
         )
 
     @property
@@ -213,14 +225,11 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
-        if self.film_in_c is None:
+        film = self.film_in_c
+        if film is None:
             return super().prepare()
-        in_c = self.film_in_c.call
-
-        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-            return in_c(x, y, vx, vy, 0.0)
-
-        return call
+        in_c = film.call
+        return lambda x, y, vx, vy, speed: in_c(x, y, vx, vy, 0.0)
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers; in C for a map."""
@@ -269,14 +278,8 @@ class SqueezeFilmDamper(SqueezeInertia):
         return self.cage is not None and self.cage.vented
 
     def _warn(self) -> None:
-        limit = self._options.slenderness_limit
-        if self.slenderness > limit:
-            excess = 1.0 / parabola_mean(self.slenderness) - 1.0
-            warn_user(
-                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
-                f"the damping of a solid cage is too large by {100.0 * excess:.2g} % in small motion; "
-                "FiniteMapSqueeze() covers it",
-            )
+        limit = self.slenderness_limit
+        warn_of_length(self.film, self.slenderness, limit)
         if self.seals is not None and limit < math.inf:
             warn_of_short_seals(self.slenderness, self._end_leak)
         if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:

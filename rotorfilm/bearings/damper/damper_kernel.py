@@ -42,18 +42,10 @@ def damper_spec(
     if caged:
         held |= {"length", "clearance"}
     parameters = [
-        _dimension(name, unit, text, float(dimensions[name]), fixed=name in held)
+        dimension(name, unit, text, float(dimensions[name]), fixed=name in held)
         for name, unit, text in DIMENSIONS
     ]
-    spring = NativeParameter(
-        name="stiffness",
-        unit="N/m",
-        value=0.0,
-        tunable=True,
-        minimum=0.0,
-        nominal=nominal_force / dimensions["clearance"],
-        description="of the retainer springs along either axis, whose force is part of the output",
-    )
+    spring = spring_parameter(nominal_force / dimensions["clearance"])
     return NativeSpec(
         kernel=KERNEL,
         parameters=(*parameters, spring),
@@ -63,7 +55,21 @@ def damper_spec(
     )
 
 
-def _dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
+def spring_parameter(nominal: float) -> NativeParameter:
+    """Return the stiffness of springs, none yet, of a nominal value [N/m]."""
+    return NativeParameter(
+        name="stiffness",
+        unit="N/m",
+        value=0.0,
+        tunable=True,
+        minimum=0.0,
+        nominal=nominal,
+        description="of the retainer springs along either axis, whose force is part of the output",
+    )
+
+
+def dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
+    """Return a dimension, which the map of the film may hold for only."""
     return NativeParameter(
         name=name,
         unit=unit,

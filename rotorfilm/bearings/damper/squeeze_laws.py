@@ -39,6 +39,8 @@ class SqueezeCase(NamedTuple):
     cavitated : bool
     end_leak : float [1]
         12 viscosity radius/clearance^3 times the leakage of either end; infinite for open ends.
+    heavy : bool
+        Whether the inertia of the oil counts.
     """
 
     slenderness: float
@@ -48,6 +50,7 @@ class SqueezeCase(NamedTuple):
     ends: tuple[float, float]
     cavitated: bool
     end_leak: float = math.inf
+    heavy: bool = False
 
     @property
     def is_sealed(self) -> bool:
@@ -112,7 +115,7 @@ class FiniteSqueeze(SqueezeOptions):
         """Return the film of one damper; raise InputError for a cavitated film."""
         if case.cavitated:
             raise InputError("extent must be FullFilm() for FiniteSqueeze(), got a cavitated film")
-        if case.is_sealed:
+        if case.is_sealed or case.heavy:
             return TabulatedSqueezeFilm(radial_table(case.slenderness, case.end_leak))
         return FiniteSqueezeFilm(case.slenderness, case.layer, case.modes, case.feed)
 
@@ -173,12 +176,9 @@ def short_film_inertia(case: SqueezeCase) -> FilmInertia:
 
 
 def finite_film_inertia(case: SqueezeCase) -> FilmInertia:
-    """Return the inertia of a full film of finite length; raise InputError for one that ruptures."""
+    """Return the inertia of a film of finite length; of one that ruptures that of its zone."""
     if case.cavitated:
-        raise InputError(
-            "density must be 0 for a cavitated film of finite length, whose inertia is not known; "
-            "ShortSqueeze() and MapSqueeze() have that of a short one"
-        )
+        return ZoneInertia(share=parabola_mean(case.slenderness))
     return FullInertia(radial_table(case.slenderness, case.end_leak).inertia, LARGEST_TABULATED)
 
 

@@ -27,13 +27,14 @@ from ...bearings.parallel import ParallelReaction
 from ...bearings.reaction import FilmReaction
 from ...bearings.rub_ring import RubRing
 from ...bearings.sprung import Sprung
-from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError, warn_user
+from ...errors import FilmContactError, InputError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction
 from ...native import Status
+from ...native.damper_kernels import OilDamperKernel
 from ...native.layouts.run_structs import BothStruct
 from ...native.layouts.structs import SprungStruct
 from ...native.library import functions, loops
-from ...reactions.added_mass import require_massless
+from ...reactions.added_mass import inertial, require_massless
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -86,6 +87,40 @@ def film_call(reaction: Reaction) -> FilmCall:
     """Return the compiled force of a reaction without states, one that calls back where it has none."""
     require_massless("reaction", reaction)
     return kernel_call(reaction) or _called_back(reaction)
+
+
+class MassCall(NamedTuple):
+    """Where the compiled mass that a bearing adds is; zeros where it adds none.
+
+    Attributes
+    ----------
+    address : int
+        Of the function, an rf_mass_response of native/films/film.h.
+    data : int
+        Its first argument.
+    """
+
+    address: int = 0
+    data: int = 0
+
+
+def heavy_call(reaction: Reaction) -> tuple[FilmCall, MassCall]:
+    """Return the compiled force of a reaction without states, and the mass that it adds.
+
+    Raises
+    ------
+    InputError
+        If it adds a mass that is not compiled.
+    """
+    if inertial(reaction) is None:
+        return film_call(reaction), MassCall()
+    film, inner = kernel_call(reaction), reaction.reaction if isinstance(reaction, Sprung) else reaction
+    bound = inner.film_in_c if isinstance(inner, SqueezeFilmDamper) else None
+    if film is None or not isinstance(bound, BoundKernel) or not isinstance(bound.kernel, OilDamperKernel):
+        raise InputError(
+            f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
+        )
+    return film, MassCall(bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
 
 
 def kernel_call(reaction: Reaction) -> FilmCall | None:

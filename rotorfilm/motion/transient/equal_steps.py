@@ -14,7 +14,7 @@ from ...model import Array, Reaction
 from ...native import Status
 from ...native.layouts.structs import ShakenStruct
 from ...native.library import loops
-from ..compiled.film_calls import film_call, raise_foreign, warn_beyond
+from ..compiled.film_calls import heavy_call, raise_foreign, warn_beyond
 
 ORDER = 2
 """Of the average acceleration in the step."""
@@ -56,13 +56,14 @@ def march(
     ConvergenceError
         If Newton's method does not end, or the film force is not finite.
     """
-    call = film_call(reaction)
+    call, heavy = heavy_call(reaction)
     pulls = np.array([pull(n * step) for n in range(count + 1)])
     pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
     motion = np.zeros((count + 1, 4))
     motion[0, :2] = rest
     wall = (FAR if isinstance(reaction, WalledReaction) else 1.0) * reaction.clearance
     rotor = ShakenStruct(call.address, call.data, mass, speed, wall, step)
+    rotor.heavy, rotor.loaded = heavy
     status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)
     raise_foreign([call])
     if rotor.left_map:
@@ -85,21 +86,27 @@ def _failure(status: int, number: int, step: float) -> RotorfilmError:
     return ConvergenceError(f"Newton's method must end at step {number}, {at}")
 
 
-def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, step: float) -> MarchMotion:
-    """Return the answer to m q'' + C q' + K q = pull (2, n) by the same steps from rest; K, C (2, 2, n)."""
+def linear_march(mass: Array, stiffness: Array, damping: Array, pull: Array, step: float) -> MarchMotion:
+    """Return the answer to M q'' + C q' + K q = pull (2, n) by the same steps from rest; all (2, 2, n)."""
     count = pull.shape[1]
     path, rates = np.zeros((2, count)), np.zeros((2, count))
-    k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)[:, :, None]
-    whole = mass * k2 * one + k1 * damping + stiffness
+    k2, k1 = 4.0 / step**2, 2.0 / step
+    whole = k2 * mass + k1 * damping + stiffness
     inverse = np.moveaxis(np.linalg.inv(np.moveaxis(whole, -1, 0)), 0, -1).reshape(4, -1).T.tolist()
-    dampers, pulls = damping.reshape(4, -1).T.tolist(), pull.T.tolist()
+    dampers, masses, pulls = (
+        damping.reshape(4, -1).T.tolist(),
+        mass.reshape(4, -1).T.tolist(),
+        pull.T.tolist(),
+    )
     x, y, vx, vy = 0.0, 0.0, 0.0, 0.0
-    ax, ay = (force / mass for force in pulls[0])
+    ax, ay = np.linalg.solve(mass[:, :, 0], pull[:, 0]).tolist()
     for n in range(1, count):
         (a, b, c, d), (dxx, dxy, dyx, dyy), (px, py) = inverse[n], dampers[n], pulls[n]
+        mxx, mxy, myx, myy = masses[n]
         wx, wy = k1 * x + vx, k1 * y + vy
-        kx = px + mass * (k2 * (x + step * vx) + ax) + dxx * wx + dxy * wy
-        ky = py + mass * (k2 * (y + step * vy) + ay) + dyx * wx + dyy * wy
+        ux, uy = k2 * (x + step * vx) + ax, k2 * (y + step * vy) + ay
+        kx = px + mxx * ux + mxy * uy + dxx * wx + dxy * wy
+        ky = py + myx * ux + myy * uy + dyx * wx + dyy * wy
         qx, qy = a * kx + b * ky, c * kx + d * ky
         ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
         vx, vy = k1 * (qx - x) - vx, k1 * (qy - y) - vy

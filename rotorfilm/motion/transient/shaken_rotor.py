@@ -6,8 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...bearings.inertial_model import InertialModel
 from ...model import Array, Reaction
+from ...reactions.added_mass import inertial
 from .equal_steps import MarchMotion, Pull, linear_march, march
+
+NONE = np.zeros((2, 2))
 
 
 class RestTangent(NamedTuple):
@@ -18,11 +22,14 @@ class RestTangent(NamedTuple):
     force : ndarray, shape (2,) [N]
         On the journal at rest.
     stiffness, damping : ndarray, shape (2, 2) [N/m], [N s/m]
+    mass : ndarray, shape (2, 2) [kg]
+        That the film adds.
     """
 
     force: Array
     stiffness: Array
     damping: Array
+    mass: Array = NONE
 
 
 class StatesAlong(NamedTuple):
@@ -30,13 +37,14 @@ class StatesAlong(NamedTuple):
 
     Attributes
     ----------
-    position, velocity : ndarray, shape (2, n) [m, m/s]
+    position, velocity, acceleration : ndarray, shape (2, n) [m, m/s, m/s2]
     step : float [s]
         From one to the next.
     """
 
     position: Array
     velocity: Array
+    acceleration: Array
     step: float
 
 
@@ -46,12 +54,15 @@ class TangentsAlong(NamedTuple):
     Attributes
     ----------
     force : ndarray, shape (2, n) [N]
-    stiffness, damping : ndarray, shape (2, 2, n) [N/m], [N s/m]
+        With that of an added mass.
+    stiffness, damping, mass : ndarray, shape (2, 2, n) [N/m], [N s/m], [kg]
+        The mass is the added one.
     """
 
     force: Array
     stiffness: Array
     damping: Array
+    mass: Array
 
 
 class ShakenRotor(NamedTuple):
@@ -82,20 +93,27 @@ class ShakenRotor(NamedTuple):
     def linear(self, film: RestTangent, step: float, count: int) -> MarchMotion:
         """Return the motion about the rest on a film of constant stiffness and damping, in the same steps."""
         pulls = np.array([self.pull(n * step) for n in range(count + 1)]).T + film.force[:, None]
-        stiffness, damping = (_constant(part, count + 1) for part in (film.stiffness, film.damping))
-        moved = linear_march(self.mass, stiffness, damping, pulls, step)
+        parts = (self._whole(film.mass[:, :, None]), film.stiffness[:, :, None], film.damping[:, :, None])
+        moved = linear_march(*(np.repeat(part, count + 1, axis=2) for part in parts), pulls, step)
         position = self.rest[:, None] + moved.position
         return MarchMotion(time=moved.time, position=position, velocity=moved.velocity)
 
     def tangents(self, film: Reaction | RestTangent, states: StatesAlong) -> TangentsAlong:
         """Return force and derivatives of a film along a motion."""
-        q, v, count = states.position, states.velocity, states.position.shape[1]
+        q, v, a, count = states.position, states.velocity, states.acceleration, states.position.shape[1]
         if isinstance(film, RestTangent):
             force = film.force[:, None] - film.stiffness @ (q - self.rest[:, None]) - film.damping @ v
-            return TangentsAlong(force, _constant(film.stiffness, count), _constant(film.damping, count))
+            parts = (np.repeat(part[:, :, None], count, axis=2) for part in film[1:])
+            return TangentsAlong(force - film.mass @ a, *parts)
         speeds = np.full(count, self.speed)
-        slopes = film.jacobian(q, v, speeds)
-        return TangentsAlong(film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:4])
+        slopes = film.jacobian(q, v, speeds)[:, :4]
+        heavy = inertial(film)
+        if heavy is None or not isinstance(film, InertialModel):
+            return TangentsAlong(
+                film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
+            )
+        slopes = slopes - np.einsum("ijk...,j...->ik...", heavy.mass_slopes(q, v), a)
+        return TangentsAlong(film.force_along(q, v, a), -slopes[:, :2], -slopes[:, 2:], heavy.mass(q, v))
 
     def propagated(
         self, states: StatesAlong, own: Reaction | RestTangent, rich: Reaction
@@ -108,18 +126,20 @@ class ShakenRotor(NamedTuple):
         film, other = self.tangents(own, states), self.tangents(rich, states)
         defect = other.force - film.force
         moved, owned = (
-            linear_march(self.mass, each.stiffness, each.damping, defect, states.step).position
+            linear_march(self._whole(each.mass), each.stiffness, each.damping, defect, states.step).position
             for each in (other, film)
         )
         size = float(np.linalg.norm(moved))
         return moved, float(np.linalg.norm(moved - owned)) / size if size else 0.0
 
+    def _whole(self, added: Array) -> Array:
+        """Return the mass of rotor and film, shape (2, 2, n)."""
+        return self.mass * np.eye(2)[:, :, None] + added
+
 
 def states_along(motion: MarchMotion, stride: int) -> StatesAlong:
     """Return every so many-th state of a motion."""
     step = float(motion.time[stride] - motion.time[0])
-    return StatesAlong(motion.position[:, ::stride].copy(), motion.velocity[:, ::stride].copy(), step)
-
-
-def _constant(matrix: Array, count: int) -> Array:
-    return np.repeat(matrix[:, :, None], count, axis=2)
+    acceleration = np.gradient(motion.velocity, motion.time, axis=1)
+    parts = (part[:, ::stride].copy() for part in (motion.position, motion.velocity, acceleration))
+    return StatesAlong(*parts, step)

@@ -18,6 +18,9 @@ typedef int (*rf_film)(const void *data, const double *e, const double *w, doubl
 /* The same of anything: f[2] and, unless NULL, jacobian[2][components] at a state of some components. */
 typedef int (*rf_response)(const void *of, const double *state, double *f, double *jacobian);
 
+/* An added mass at such a state: xx, xy, yy and, unless NULL, slopes[3][4] by position and velocity. */
+typedef int (*rf_mass_response)(const void *of, const double *state, double *mass, double *slopes);
+
 /* A batch of states of up to five components: number i of component k is rows[k][steps[k] * i]. */
 typedef struct rf_states {
     const double *rows[5];

@@ -25,8 +25,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../films/damper_map.h"
 #include "../films/journal_model.h"
-#include "../films/map_kernel.h"
 
 enum { RADIUS, LENGTH, STIFFNESS = 4, PARAMETERS, INPUTS = 4 };
 
@@ -38,23 +38,7 @@ typedef struct model {
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
-    model *self = kernel;
-    const rf_table *c = rf_find_table(tables, "coefficients", 2, why);
-    const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
-    const rf_table *reach = center ? rf_find_table(tables, "reach", 1, why) : NULL;
-    const rf_table *wall = reach ? rf_find_table(tables, "wall", 1, why) : NULL;
-    if (!wall)
-        return RF_INVALID;
-    const uint32_t x = c->extent[0], t = c->extent[1];
-    if (x < 6 || t < 6 || x > 10000 || t > 10000 || center->extent[0] != 1 || reach->extent[0] != 1
-        || !(reach->numbers[0] > 0.0) || wall->extent[0] != 2)
-        return rf_say(why, RF_INVALID, "the tables of a damper must fit each other, got %u x %u", (unsigned)x,
-                      (unsigned)t);
-    const rf_map map = {(int32_t)x - 5, (int32_t)t - 5, reach->numbers[0], center->numbers[0],
-                        c->numbers, 0.0, 0.0};
-    self->map = map;
-    rf_map_to_wall(&self->map, wall->numbers[0], wall->numbers[1]);
-    return RF_OK;
+    return rf_take_damper_map(&((model *)kernel)->map, tables, why);
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)

@@ -246,6 +246,8 @@ class ShakenStruct(ctypes.Structure):
         ("calls", c_int64),
         ("done", c_int64),
         ("left_map", c_int),
+        ("heavy", c_void_p),
+        ("loaded", c_void_p),
     ]
 
 

@@ -31,15 +31,44 @@ static void turn_back(const double *free, point *to, double *change)
         to->q[i] = 0.5 * (free[i] + to->q[i]);
 }
 
+/* The mass xx, xy, yy of rotor and oil; unless NULL the slopes of that of the oil, else zeros. */
+static int whole_mass(const rf_shaken *rotor, const double *state, double *mass, double *slopes)
+{
+    int status = RF_OK;
+    for (int i = 0; i < 3; ++i)
+        mass[i] = 0.0;
+    for (int i = 0; slopes && i < 12; ++i)
+        slopes[i] = 0.0;
+    if (rotor->heavy)
+        status = rotor->heavy(rotor->loaded, state, mass, slopes);
+    mass[0] += rotor->mass;
+    mass[2] += rotor->mass;
+    return status;
+}
+
+/* Add the force of inertia, -M a, and its slopes but for those by a. */
+static void add_inertia(const double *mass, const double *slopes, const double *a, double *f, double *D)
+{
+    for (int i = 0; i < 2; ++i) {
+        f[i] -= mass[i] * a[0] + mass[i + 1] * a[1];
+        for (int k = 0; k < 4; ++k)
+            D[5 * i + k] -= slopes[4 * i + k] * a[0] + slopes[4 * (i + 1) + k] * a[1];
+    }
+}
+
 /* Newton's step at the end of a time step, less the part of it that would leave less than a tenth of the gap;
    its length before that in *change. Where the last one led onto a pad it is cut, `free` is where it began. */
 static int correct(rf_shaken *rotor, const point *from, const double *pull, double *free, point *to, double *change)
 {
-    const double dt = rotor->step, k1 = 2.0 / dt, k2 = 4.0 / (dt * dt), m = rotor->mass;
-    double f[2], D[10];
+    const double dt = rotor->step, k1 = 2.0 / dt, k2 = 4.0 / (dt * dt);
+    double f[2], D[10], mass[3], slopes[12];
     set_rates(rotor, from, to);
     const double state[5] = {to->q[0], to->q[1], to->v[0], to->v[1], rotor->speed};
-    const int status = rotor->film(rotor->of, state, f, D);
+    int status = rotor->film(rotor->of, state, f, D);
+    if (status <= RF_OUTSIDE) {
+        const int of_mass = whole_mass(rotor, state, mass, slopes);
+        status = of_mass > status ? of_mass : status;
+    }
     rotor->calls += 1;
     if (status == RF_AT_WALL)
         turn_back(free, to, change);
@@ -48,9 +77,10 @@ static int correct(rf_shaken *rotor, const point *from, const double *pull, doub
     free[0] = to->q[0];
     free[1] = to->q[1];
     rotor->left_map |= status == RF_OUTSIDE;
-    const double rx = f[0] + pull[0] - m * to->a[0], ry = f[1] + pull[1] - m * to->a[1];
-    const double a = m * k2 - D[0] - k1 * D[2], b = -D[1] - k1 * D[3];
-    const double c = -D[5] - k1 * D[7], d = m * k2 - D[6] - k1 * D[8], det = a * d - b * c;
+    add_inertia(mass, slopes, to->a, f, D);
+    const double rx = f[0] + pull[0], ry = f[1] + pull[1];
+    const double a = mass[0] * k2 - D[0] - k1 * D[2], b = mass[1] * k2 - D[1] - k1 * D[3];
+    const double c = mass[1] * k2 - D[5] - k1 * D[7], d = mass[2] * k2 - D[6] - k1 * D[8], det = a * d - b * c;
     const double dx = (d * rx - b * ry) / det, dy = (a * ry - c * rx) / det;
     const double gap = rotor->clearance - hypot(to->q[0], to->q[1]), limit = rotor->clearance - 0.1 * gap;
     double share = 1.0;
@@ -95,7 +125,14 @@ static int step(rf_shaken *rotor, const point *from, const double *pull, point *
 
 int rf_follow_shaken(rf_shaken *rotor, int64_t count, const double *pulls, double *motion)
 {
-    point now = {{motion[0], motion[1]}, {motion[2], motion[3]}, {pulls[0] / rotor->mass, pulls[1] / rotor->mass}};
+    double mass[3];
+    const int start = whole_mass(rotor, motion, mass, NULL);
+    if (start > RF_OUTSIDE)
+        return start;
+    const double det = mass[0] * mass[2] - mass[1] * mass[1];
+    point now = {{motion[0], motion[1]},
+                 {motion[2], motion[3]},
+                 {(mass[2] * pulls[0] - mass[1] * pulls[1]) / det, (mass[0] * pulls[1] - mass[1] * pulls[0]) / det}};
     for (int64_t n = 1; n <= count; ++n) {
         point next;
         const int status = step(rotor, &now, pulls + 2 * n, &next);

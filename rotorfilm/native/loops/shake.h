@@ -1,6 +1,6 @@
 /* A rigid rotor on one film in equal steps, under a force over time.
 
-   With v' = (a + a')/2 and q' = q + dt v + dt^2 (a + a')/4, m a' = F(q', v') + pull' is solved for q' by
+   With v' = (a + a')/2 and q' = q + dt v + dt^2 (a + a')/4, (m + M(q', v')) a' = F(q', v') + pull' is solved for q' by
    Newton's method (trapezoidal rule; order 2). */
 #ifndef ROTORFILM_SHAKE_H
 #define ROTORFILM_SHAKE_H
@@ -15,6 +15,8 @@ typedef struct rf_shaken {
     double mass, speed, clearance, step;
     int64_t calls, done;  /* of the film, and steps so far */
     int left_map;         /* whether the film was asked beyond its map */
+    rf_mass_response heavy; /* the mass that the oil adds, of `loaded`; NULL where there is none */
+    const void *loaded;
 } rf_shaken;
 
 /* Write x, y, vx, vy after each of `count` steps, (count + 1) x 4, the first row given; pulls, (count + 1) x 2,

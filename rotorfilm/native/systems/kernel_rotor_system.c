@@ -19,7 +19,7 @@
    Equations:
    q'' = (steady + w spin) (q, q') + push u + carry f + weight
          + unbalance (w^2 cos p + a sin p, w^2 sin p - a cos p)
-   f = film force of each bearing at (motion (q, q'), w)
+   f = film force of each bearing at (motion (q, q'), w), less M a of one that adds the mass M of its oil
 
    Validity: Small displacements of the rotor, a speed given over time (piecewise linear); each film as the
    FMU of that bearing says. q are the coordinates of the rotor, reduced or not. Co-Simulation integrates
@@ -57,7 +57,30 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
-/* Forces of all bearings, and their derivatives if asked for. */
+/* Force, mass and their derivatives of bearing k. */
+static int react_one(const rf_mounted *self, size_t k, double speed, int derivatives, rf_message *why)
+{
+    const double *m = self->moved + 4 * k, u[5] = {m[0], m[1], m[2], m[3], speed};
+    const rf_point at = {0.0, NULL, u};
+    const rf_mounted_bearing *one = self->bearing + k;
+    double y[5] = {0.0}, D[25] = {0.0};
+    rf_jacobian jacobian = {NULL, NULL, NULL, D};
+    int status = one->type->output(one->kernel, &at, y, why);
+    if (derivatives && status <= RF_OUTSIDE)
+        status = one->type->jacobian(one->kernel, &at, &jacobian, why);
+    memcpy(self->force + 2 * k, y, 2 * sizeof *y);
+    memcpy(self->mass + 3 * k, y + 2, 3 * sizeof *y);
+    for (size_t i = 0; derivatives && i < 2; ++i) {
+        for (size_t c = 0; c < 4; ++c)
+            self->by_motion[10 * k + 5 * i + c] = D[one->inputs * i + c];
+        self->by_speed[2 * k + i] = one->inputs > 4 ? D[one->inputs * i + 4] : 0.0;
+    }
+    for (size_t i = 0; derivatives && one->heavy && i < 3; ++i)
+        memcpy(self->mass_by + 12 * k + 4 * i, D + one->inputs * (2 + i), 4 * sizeof *D);
+    return status;
+}
+
+/* Forces and masses of all bearings without that of their masses, and their derivatives if asked for. */
 static int react(const rf_mounted *self, double speed, const double *x, int derivatives, rf_message *why)
 {
     int worst = RF_OK;
@@ -65,41 +88,40 @@ static int react(const rf_mounted *self, double speed, const double *x, int deri
     memset(self->moved, 0, 4 * b * sizeof *self->moved);
     rf_add_product(4 * b, 2 * self->n, 1.0, self->motion, x, self->moved);
     for (size_t k = 0; k < b; ++k) {
-        const double *m = self->moved + 4 * k, u[5] = {m[0], m[1], m[2], m[3], speed};
-        const rf_point at = {0.0, NULL, u};
-        const rf_mounted_bearing *one = self->bearing + k;
-        rf_jacobian jacobian = {NULL, NULL, NULL, self->by_motion + 10 * k};
-        int status = one->type->output(one->kernel, &at, self->force + 2 * k, why);
-        if (derivatives && status <= RF_OUTSIDE)
-            status = one->type->jacobian(one->kernel, &at, &jacobian, why);
+        const int status = react_one(self, k, speed, derivatives, why);
         if (status > RF_OUTSIDE)
             return status;
         worst = status > worst ? status : worst;
-        for (size_t i = 0; derivatives && i < 2; ++i)
-            self->by_speed[2 * k + i] = self->by_motion[10 * k + 5 * i + 4];
     }
     return worst;
 }
 
-static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
+/* x' by the forces of the bearings, which become those with their masses. */
+static void set_rates(const rf_mounted *self, const rf_point *at, double *dx)
 {
-    const rf_mounted *self = kernel;
     const size_t n = self->n;
     const rf_spin spin = rf_spin_at(&self->profile, at->t);
     double shake[2], *rate = dx + n;
-    const int status = react(self, spin.speed, at->x, 0, why);
-    if (status > RF_OUTSIDE)
-        return status;
     rf_shake(&spin, shake);
     memcpy(dx, at->x + n, n * sizeof *dx);
     memcpy(rate, self->weight, n * sizeof *dx);
     rf_add_product(n, 2 * n, 1.0, self->steady, at->x, rate);
     rf_add_product(n, 2 * n, spin.speed, self->spin, at->x, rate);
     rf_add_product(n, self->inputs, 1.0, self->push, at->u, rate);
-    rf_add_product(n, 2 * self->bearings, 1.0, self->carry, self->force, rate);
     rf_add_product(n, 2, 1.0, self->unbalance, shake, rate);
-    for (size_t i = 0; i < n; ++i)
-        if (!isfinite(rate[i]))
+    rf_mounted_load(self, dx);
+    rf_add_product(n, 2 * self->bearings, 1.0, self->carry, self->force, rate);
+}
+
+static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
+{
+    const rf_mounted *self = kernel;
+    const int status = react(self, rf_spin_at(&self->profile, at->t).speed, at->x, 0, why);
+    if (status > RF_OUTSIDE)
+        return status;
+    set_rates(self, at, dx);
+    for (size_t i = 0; i < self->n; ++i)
+        if (!isfinite(dx[self->n + i]))
             return rf_say(why, RF_NOT_FINITE, "acceleration %zu is not finite at t = %.9g s", i, at->t);
     return status;
 }
@@ -109,10 +131,18 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     const rf_mounted *self = kernel;
     const double speed = rf_spin_at(&self->profile, at->t).speed;
     const int status = react(self, speed, at->x, 0, why);
+    double *masses = y + self->sensed + 1 + 2 * self->bearings;
+    if (self->masses && status <= RF_OUTSIDE)
+        set_rates(self, at, self->right);
     memset(y, 0, self->sensed * sizeof *y);
     rf_add_product(self->sensed, 2 * self->n, 1.0, self->sense, at->x, y);
     y[self->sensed] = speed;
     memcpy(y + self->sensed + 1, self->force, 2 * self->bearings * sizeof *y);
+    for (size_t k = 0; k < self->bearings; ++k)
+        if (self->bearing[k].heavy) {
+            memcpy(masses, self->mass + 3 * k, 3 * sizeof *y);
+            masses += 3;
+        }
     return status;
 }
 
@@ -130,6 +160,36 @@ static void chain(const rf_mounted *self, double *forced)
             }
 }
 
+/* The slopes of the forces by states and inputs, with those of their masses, and the rows of the masses. */
+static void load_slopes(const rf_mounted *self, const rf_point *at, rf_jacobian *answer)
+{
+    const size_t n = self->n, twice = 2 * n, m = self->inputs, f = 2 * self->bearings, s = self->sensed + 1;
+    const double speed = rf_spin_at(&self->profile, at->t).speed;
+    double *const dx = self->right, *row = answer->C + (s + f) * twice;
+    for (size_t j = 0; j < twice + m; ++j) {
+        double *const forced = j < twice ? answer->C + s * twice + j : answer->D + s * m + (j - twice);
+        const size_t step = j < twice ? twice : m;
+        memset(dx, 0, twice * sizeof *dx);
+        if (j >= n && j < twice)
+            dx[j - n] = 1.0;
+        for (size_t i = 0; i < n; ++i)
+            dx[n + i] = j < twice ? self->steady[i * twice + j] + speed * self->spin[i * twice + j]
+                                  : self->push[i * m + (j - twice)];
+        for (size_t k = 0; k < f; ++k)
+            self->force[k] = forced[k * step];
+        rf_mounted_load(self, dx);
+        for (size_t k = 0; k < f; ++k)
+            forced[k * step] = self->force[k];
+    }
+    for (size_t k = 0; k < self->bearings; ++k)
+        for (size_t i = 0; self->bearing[k].heavy && i < 3; ++i, row += twice) {
+            memset(row, 0, twice * sizeof *row);
+            for (size_t c = 0; c < 4; ++c)
+                for (size_t j = 0; j < twice; ++j)
+                    row[j] += self->mass_by[12 * k + 4 * i + c] * self->motion[(4 * k + c) * twice + j];
+        }
+}
+
 static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
     const rf_mounted *self = kernel;
@@ -141,11 +201,17 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
         return status;
     memset(answer->A, 0, twice * n * sizeof(double));
     memset(answer->B, 0, n * m * sizeof(double));
-    memset(answer->D, 0, (s + 1 + 2 * b) * m * sizeof(double));
+    memset(answer->D, 0, (s + 1 + 2 * b + 3 * self->masses) * m * sizeof(double));
     memcpy(answer->B + n * m, self->push, n * m * sizeof(double));
     memcpy(answer->C, self->sense, s * twice * sizeof(double));
     memset(answer->C + s * twice, 0, twice * sizeof(double));
+    if (self->masses) {
+        set_rates(self, at, self->right);
+        rf_mounted_slope_masses(self, self->right, 0.0);
+    }
     chain(self, forced);
+    if (self->masses)
+        load_slopes(self, at, answer);
     for (size_t i = 0; i < n; ++i) {
         double *row = answer->A + (n + i) * twice;
         answer->A[i * twice + n + i] = 1.0;
@@ -154,6 +220,9 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
         for (size_t k = 0; k < 2 * b; ++k)
             for (size_t j = 0; j < twice; ++j)
                 row[j] += self->carry[i * 2 * b + k] * forced[k * twice + j];
+        for (size_t k = 0; self->masses && k < 2 * b; ++k)
+            for (size_t j = 0; j < m; ++j)
+                answer->B[(n + i) * m + j] += self->carry[i * 2 * b + k] * answer->D[(s + 1 + k) * m + j];
     }
     return status;
 }
@@ -167,9 +236,13 @@ static void drift(const void *kernel, const rf_point *at, double *slope)
     const double shake[2] = {3.0 * w * a * c - w * w * w * s, 3.0 * w * a * s + w * w * w * c};
     memset(slope, 0, 2 * n * sizeof *slope);
     rf_add_product(n, 2, 1.0, self->unbalance, shake, slope + n);
-    if (a != 0.0) {
+    if (a != 0.0)
         rf_add_product(n, 2 * n, a, self->spin, at->x, slope + n);
-        rf_add_product(n, 2 * self->bearings, a, self->carry, self->by_speed, slope + n);
+    if (a != 0.0 || self->masses) {
+        for (size_t k = 0; k < 2 * self->bearings; ++k)
+            self->force[k] = a * self->by_speed[k];
+        rf_mounted_load(self, slope);
+        rf_add_product(n, 2 * self->bearings, 1.0, self->carry, self->force, slope + n);
     }
 }
 
@@ -180,6 +253,10 @@ static int factorize(void *kernel, const rf_point *at, double shift, rf_message 
     const int status = react(self, speed, at->x, 1, why);
     if (status > RF_OUTSIDE)
         return status;
+    if (self->masses) {
+        set_rates(self, at, self->right);
+        rf_mounted_slope_masses(self, self->right, shift);
+    }
     if (shift != self->shift || speed != self->speed)
         rf_mounted_invert(self, shift, speed);
     return rf_mounted_close_loop(self, why) == RF_OK ? status : RF_NOT_FINITE;

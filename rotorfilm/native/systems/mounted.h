@@ -9,7 +9,8 @@ typedef struct rf_mounted_bearing {
     const rf_kernel_type *type;
     void *kernel;
     rf_table *tables;
-    size_t parameters;
+    size_t parameters, inputs;
+    int heavy; /* whether it tells the mass of its oil */
 } rf_mounted_bearing;
 
 typedef struct rf_mounted {
@@ -21,6 +22,8 @@ typedef struct rf_mounted {
     double *moved, *force, *by_motion, *by_speed;     /* of the bearings at one point: (4b), (2b), (b, 2, 5), (2b) */
     double *inverse, *response, *reaction;            /* (n, n); (2n, 2b) to forces; (2b, 2b) */
     double *rates, *spare, *right;                    /* (n, n), (n, n); (2n) */
+    size_t masses;                                    /* bearings that add mass */
+    double *mass, *mass_by, *acceleration, *joint;    /* (3b), (b, 3, 4), (2b), (2b, 2b) */
     double shift, speed;                              /* of the inverse; shift 0 as long as there is none */
 } rf_mounted;
 
@@ -32,6 +35,16 @@ void rf_mounted_destroy(rf_mounted *self);
 void rf_mounted_invert(rf_mounted *self, double shift, double speed);
 /* Inverse of I - (forces by motion) (motion by forces): the bearings close the loop. */
 int rf_mounted_close_loop(const rf_mounted *self, rf_message *why);
+
+/* A bearing that adds the mass M of its oil to its journal, whose acceleration is a = V x', answers f - M a. With the
+   forces without mass, and x' without any of these forces: make them those with mass. */
+void rf_mounted_load(const rf_mounted *self, const double *dx);
+/* The accelerations of the journals by x'. */
+void rf_mounted_accelerate(const rf_mounted *self, const double *dx);
+/* Add M a, or -M a, to forces. */
+void rf_mounted_add_inertia(const rf_mounted *self, double sign, double *forces);
+/* Take the slopes of M a by the motion at x', and shift M by the velocity, from the slopes of the forces. */
+void rf_mounted_slope_masses(const rf_mounted *self, const double *dx, double shift);
 
 /* b becomes (shift I - A)^-1 b, after both. */
 void rf_mounted_solve(const rf_mounted *self, double *b);

@@ -83,11 +83,15 @@ void rf_mounted_solve(const rf_mounted *self, double *b)
 {
     const size_t n = self->n, f = 2 * self->bearings;
     double *const forces = self->force, *const linear = self->moved + f; /* f of the 2f numbers of `moved` */
+    if (self->masses)
+        rf_mounted_accelerate(self, b);
     solve_free(self, b);
     memset(self->moved, 0, 2 * f * sizeof *self->moved);
     rf_add_product(2 * f, 2 * n, 1.0, self->motion, b, self->moved);
     memset(forces, 0, f * sizeof *forces);
     add_linear_forces(self, self->moved, forces);
+    if (self->masses)
+        rf_mounted_add_inertia(self, 1.0, forces);
     memset(linear, 0, f * sizeof *linear);
     rf_add_product(f, f, 1.0, self->reaction, forces, linear);
     for (size_t k = 0; k < f; ++k)

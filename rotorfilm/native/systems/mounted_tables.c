@@ -10,6 +10,8 @@ static const rf_kernel_type *const KINDS[] = {
     &rf_journal_type,
     &rf_grooved_journal_type,
     &rf_short_journal_type,
+    &rf_damper_type,
+    &rf_oil_damper_type,
 #if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
     &rf_reynolds_journal_type,
     &rf_pressure_dam_type,
@@ -73,7 +75,7 @@ static int allocate(rf_mounted *self, rf_message *why)
 {
     const size_t n = self->n, b = self->bearings;
     double *at = self->numbers =
-        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 4 * n, sizeof *at);
+        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 4 * n + 17 * b + 4 * b * b, sizeof *at);
     if (!at)
         return rf_say(why, RF_MEMORY, "no memory for a system of %zu coordinates", n);
     self->moved = at, at += 4 * b;
@@ -85,7 +87,11 @@ static int allocate(rf_mounted *self, rf_message *why)
     self->spare = at, at += n * n;
     self->response = at, at += 4 * n * b;
     self->reaction = at, at += 8 * b * b;
-    self->right = at;
+    self->right = at, at += 4 * n;
+    self->mass = at, at += 3 * b;
+    self->mass_by = at, at += 12 * b;
+    self->acceleration = at, at += 2 * b;
+    self->joint = at;
     return RF_OK;
 }
 
@@ -107,7 +113,7 @@ static rf_tables tables_of_set(const rf_tables *tables, unsigned k, rf_table *ke
 
 static int take_bearing(rf_mounted_bearing *self, const double *entry, const rf_tables *tables, rf_message *why)
 {
-    rf_sizes sizes;
+    rf_sizes sizes = {0, 0, 0, 0, 0};
     if (!(entry[0] >= 0.0 && entry[0] < KIND_COUNT && entry[1] >= 0.0 && entry[1] < MOST))
         return rf_say(why, RF_INVALID, "bearings must be of a kind below %d and a set of tables below %d",
                       KIND_COUNT, MOST);
@@ -118,6 +124,8 @@ static int take_bearing(rf_mounted_bearing *self, const double *entry, const rf_
     self->type = KINDS[(size_t)entry[0]];
     self->kernel = self->type->create(&set, &sizes, why);
     self->parameters = sizes.parameters;
+    self->inputs = sizes.inputs;
+    self->heavy = self->kernel && sizes.outputs == 5;
     return self->kernel ? RF_OK : RF_INVALID;
 }
 
@@ -133,6 +141,7 @@ static int take_bearings(rf_mounted *self, const rf_tables *tables, rf_sizes *si
         if (take_bearing(self->bearing + k, list + 2 * k, tables, why) != RF_OK)
             return RF_INVALID;
         sizes->parameters += self->bearing[k].parameters;
+        self->masses += self->bearing[k].heavy != 0;
     }
     return RF_OK;
 }
@@ -152,7 +161,7 @@ rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_messa
     }
     sizes->parameters += self->profile.points == 1;
     sizes->inputs = self->inputs;
-    sizes->outputs = self->sensed + 1 + 2 * self->bearings;
+    sizes->outputs = self->sensed + 1 + 2 * self->bearings + 3 * self->masses;
     sizes->states = 2 * self->n;
     return self;
 }

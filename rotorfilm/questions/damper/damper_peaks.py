@@ -13,10 +13,12 @@ import numpy as np
 from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import FilmContactError, InputError
 from ...ladders import Ladder
-from ...model import Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
+from ...model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 from ...motion.transient.equal_steps import MarchMotion, linear_march, peak
-from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, StatesAlong, states_along
+from ...motion.transient.shaken_rotor import NONE, RestTangent, ShakenRotor, StatesAlong, states_along
+from ...reactions.added_mass import inertial
 from ...rotors import RigidRotor
+from ...scenes.damper.built_films import built_films
 from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, mapped_short, plain_films, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
 from ...scenes.damper.damper_remarks import rotor_remarks
@@ -78,17 +80,28 @@ class DamperPeakRung(PeakRung[DamperFilm]):
     @property
     def shaken(self) -> ShakenRotor:
         """The rotor on film and springs, and what shakes it."""
-        return ShakenRotor(self.support, self.rotor.mass, 0.0, np.zeros(2), self._pull)
+        return ShakenRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
+
+    @property
+    def rest(self) -> Array:
+        """Where the rotor is at rest (2,) [m]: in the center, or at its offset."""
+        return np.array(self.rotor.position)
 
     @cached_property
     def at_rest(self) -> RestTangent:
         """Film and springs in the center: there also a cavitated film is linear in the velocity."""
-        c, center = self.support.clearance, np.zeros(2)
-        rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
-        damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
+        rest, still = self.rest, np.zeros(2)
+        rate = self.support.clearance * abs(self.rotor.profile.speeds[-1] or 1.0)
+        heavy = inertial(self.support)
+        added = NONE if heavy is None else heavy.mass(rest, np.array([rate, 0.0]))
+        force = -self.rotor.static_load
+        if rest.any():
+            slopes = self.support.jacobian(rest, still, 0.0)
+            return RestTangent(force, -slopes[:, :2], -slopes[:, 2:4], added)
+        damping = -float(self.support.force(still, np.array([rate, 0.0]), 0.0)[0]) / rate
         fed = self.film.is_fed
-        own = -float(self.film.reaction.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
-        return RestTangent(center, (self.stiffness + own) * np.eye(2), damping * np.eye(2))
+        own = -float(self.film.reaction.jacobian(still, still, 0.0)[0, 0]) if fed else 0.0
+        return RestTangent(force, (self.stiffness + own) * np.eye(2), damping * np.eye(2), added)
 
     def grid(self, steps: int) -> tuple[float, int]:
         """Return the length [s] and an even number of steps, so that one ends where a run-up turns back."""
@@ -97,7 +110,7 @@ class DamperPeakRung(PeakRung[DamperFilm]):
         return self.duration / count, count
 
     def _pull(self, t: float) -> tuple[float, float]:
-        x, y = self.rotor.unbalance_force(t).tolist()
+        x, y = (self.rotor.unbalance_force(t) + self.rotor.static_load).tolist()
         return x, y
 
     def answer(self, before: Found | None) -> Found:
@@ -135,7 +148,8 @@ class DamperPeakRung(PeakRung[DamperFilm]):
         states = self._sampled(motion)
         film = self.shaken.tangents(self.support, states)
         off = self.film.bound() * (film.force + self.stiffness * states.position)
-        moved = linear_march(self.rotor.mass, film.stiffness, film.damping, off, states.step).position
+        mass = self.rotor.mass * np.eye(2)[:, :, None] + film.mass
+        moved = linear_march(mass, film.stiffness, film.damping, off, states.step).position
         bound = float(np.hypot(*moved).max()) / value
         method = "order increment; verified bound of the film, propagated"
         work = {self.tangents: states.position.shape[1]}
@@ -205,11 +219,12 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
             duration=models.duration,
             steps=steps,
         )
-        for film, steps in _choices(scene.damper)
+        for film, steps in _choices(scene.damper, max(abs(speed) for speed in models.rotor.profile.speeds))
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     small, spring = mapped_short(scene.damper), scene.damper.stiffness
-    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant.properties, steady=False)
+    free = replace(models.rotor, static_force=(0.0, 0.0))
+    remarks = rotor_remarks(scene.damper, small, spring, free, scene.lubricant.properties, steady=False)
     return Ladder(
         rungs=rungs,
         unit="m",
@@ -219,9 +234,9 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
+def _choices(table: DamperTable, fastest: float) -> list[tuple[DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
-    films = plain_films(table)
+    films = built_films(table, fastest) if table.is_built else plain_films(table)
     # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
     # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]

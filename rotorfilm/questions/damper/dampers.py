@@ -28,11 +28,11 @@ from ...motion.circular.orbit_near import (
 from ...motion.circular.orbit_points import OrbitRotor, orbit_rotor
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
+from ...scenes.damper.built_films import orbit_films
 from ...scenes.damper.damper_films import (
     NO_RICHER,
     AnyDamperFilm,
     ConservedDamperFilm,
-    damper_films,
     lands,
     mapped_short,
     quiet,
@@ -245,7 +245,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         return passing_holes_ladder(scene, quantity, UNITS[quantity])
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
-        for film in damper_films(scene.damper)
+        for film in orbit_films(scene.damper, rotor)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
@@ -255,6 +255,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=units,
         remarks=rotor_remarks(
+            scene.damper,
             mapped_short(scene.damper),
             stiffness / count,
             replace(asked, mass=asked.mass / count, unbalance=asked.unbalance / count),

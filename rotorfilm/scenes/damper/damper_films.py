@@ -20,6 +20,7 @@ from ...bearings.damper import (
     ShortSqueeze,
     SqueezeLaw,
 )
+from ...bearings.damper.built.judged_damper import JudgedDamper
 from ...bearings.films.cavitation import FullFilm
 from ...bearings.sprung import Sprung
 from ...errors import InputError, RotorfilmError, ValidityWarning
@@ -102,7 +103,7 @@ class DamperFilm:
         return with_changes(self.shape, film=self.law)
 
     @cached_property
-    def rich(self) -> PorousDamper | ExtrapolatedDamper | None:
+    def rich(self) -> PorousDamper | ExtrapolatedDamper | JudgedDamper | None:
         """The damper with the richer film."""
         if self.conserved is not None:
             return ExtrapolatedDamper(damper=self.conserved)
@@ -114,7 +115,7 @@ class DamperFilm:
         return with_changes(self.shape, film=_mapped(self.law, self.shape))
 
     @cached_property
-    def rich_moving(self) -> PorousDamper | None:
+    def rich_moving(self) -> PorousDamper | JudgedDamper | None:
         """The richer damper on its map."""
         if self.rich_law is None:
             return None
@@ -263,8 +264,8 @@ def _mapped(law: SqueezeLaw, shape: PorousDamper) -> SqueezeLaw:
 
 def mapped_short(table: DamperTable) -> PorousDamper:
     """Return one land of the damper with the short film, on its map where it has one; see `lands`."""
-    shape = with_changes(_short(table), viscosity=table.viscosity)
-    return with_changes(shape, film=_mapped(ShortSqueeze(), shape))
+    shape = with_changes(_short(table), viscosity=(1.0 - table.air_fraction) * table.viscosity)
+    return shape if table.needs_length else with_changes(shape, film=_mapped(ShortSqueeze(), shape))
 
 
 def lands(table: DamperTable) -> int:
@@ -286,6 +287,6 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def sprung(damper: PorousDamper | ExtrapolatedDamper, stiffness: float) -> Reaction:
+def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> Reaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
     return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper

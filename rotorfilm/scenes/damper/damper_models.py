@@ -25,7 +25,7 @@ class DamperScene(NamedTuple):
     Attributes
     ----------
     rotor : RigidRotor
-        At the center of the damper, at rest.
+        At the center of the damper, or its offset, at rest.
     support : PorousDamper, Sprung or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.
@@ -55,7 +55,8 @@ def damper_models(scene: Scene) -> DamperScene:
     excitation = scene.excitation
     if scene.damper is None or scene.rigid_rotor is None:
         raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
-    rotor, start, duration = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), 0.0, 0.0
+    rotor, start, duration = scene.rigid_rotor.build(scene.speed, scene.damper.load), 0.0, 0.0
+    rotor = replace(rotor, position=scene.damper.offset)
     if excitation is not None:
         if not isinstance(excitation, UnbalanceTable):
             raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...bearings.damper import PorousDamper, layer_modes
+from ...bearings.damper.built.squeeze_impedance import land_share
 from ...bearings.films.cavitation import FullFilm
 from ..journal.journal_remarks import ATMOSPHERE, NOTABLE
 from ..lubricant_table import Lubricant
@@ -16,19 +17,28 @@ NOTABLE_MASS = 0.05
 """Mass of the moving film / mass of the rotor that is worth a word."""
 
 
+NOTABLE_INERTIA = 0.1
+"""Pressure of the inertia / viscous pressure that is worth a word."""
+
 ON_ORBIT = "cavitation: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the "
 
-REMARKS = (
+INERTIA = (
     Remark(
         "inertia",
-        NOTABLE,
-        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g})",
+        NOTABLE_INERTIA,
+        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g});"
+        " [damper] density takes it in",
     ),
     Remark(
         "added_mass",
         NOTABLE_MASS,
-        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass",
+        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass; [damper] density takes "
+        "it in",
     ),
+)
+"""What a film without inertia leaves out, by the numbers of `damper_numbers`."""
+
+REMARKS = (
     Remark(
         "thinning",
         NOTABLE,
@@ -121,6 +131,7 @@ def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: flo
     """Return the largest pressure [Pa] of a short film on a circular orbit, in the middle of its length.
 
     (3/2) viscosity (L/c)^2 speed max of eps sin(theta) G(h): the parabola of a film without flow around.
+    Seals raise it as they do the damping.
     """
     theta = np.linspace(0.0, math.pi, 721)
     h = 1.0 + eccentricity_ratio * np.cos(theta)
@@ -128,6 +139,9 @@ def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: flo
     G = modes.weight @ (1.0 / (h**3 + modes.leak[:, None]))
     source = eccentricity_ratio * speed * np.sin(theta)
     scale = 1.5 * damper.viscosity * (damper.length / damper.clearance) ** 2
+    if damper.seals is not None:
+        leak = damper.squeeze_case.end_leak
+        scale *= land_share(damper.slenderness, leak).real / land_share(damper.slenderness, math.inf).real
     return scale * float(np.max(source * G))
 
 
@@ -136,4 +150,5 @@ def damper_remarks(
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
-    return said((*REMARKS, *(FULL if isinstance(damper.extent, FullFilm) else RUPTURED)), numbers)
+    ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
+    return said((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)

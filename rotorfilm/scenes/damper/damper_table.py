@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass, field, replace
 from typing import Annotated
@@ -9,6 +10,7 @@ from typing import Annotated
 from ...bearings.damper import (
     AxialFeed,
     DamperSupply,
+    EndSeal,
     FiniteMapSqueeze,
     FiniteSqueeze,
     JFODamper,
@@ -19,13 +21,17 @@ from ...bearings.damper import (
     RadialFeed,
     ShortSqueeze,
     SqueezeLaw,
+    aerated_damper,
 )
+from ...bearings.damper.built.squeeze_impedance import land_share
 from ...bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ...bearings.sprung import Sprung
 from ...errors import InputError, ValidityWarning, require_non_negative
 from ..journal.film_tables import FEED_HOLE
+from ..reading.readers import read_place
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, TableList, Variant, flag
+from .seal_table import SealsTable
 
 CELLS = (48, 8)
 """Of a film that conserves its oil and is stepped through in time."""
@@ -63,6 +69,9 @@ SUPPLY = Keyed(
 )
 """`supply = {supply_pressure, circumferential_groove, ...}`: what feeds a film that conserves its oil."""
 
+LARGEST_AROUND = 0.2
+"""Excess of the damping of a sealed short film, beyond which it is not asked."""
+
 EXTENTS: dict[str, Keyed] = {"half_sommerfeld": Keyed(HalfSommerfeld), "full": Keyed(FullFilm)}
 
 SQUEEZES: dict[str, Keyed[SqueezeLaw]] = {
@@ -95,6 +104,17 @@ class DamperTable:
     feed : RadialFeed, AxialFeed or None
     supply : DamperSupply or None
         Of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is named.
+    density : float [kg/m3]
+        Of the oil, whose inertia then is part of the answer; 0 without inertia.
+    seals : SealsTable or None
+        At both ends; None for open ends.
+    offset : (float, float) [m]
+        Static place of the rotor off the center of the film, where the springs hold it.
+    feed_flow : float or None [m3/s]
+        Of oil fed to the film, which says whether air is drawn in.
+    air_fraction : float [1]
+        Measured volume of air per volume of oil and air at ambient pressure: damping and mass are the least
+        that it leaves.
     film : SqueezeLaw or None
         The film law; if the file does not say, the short film, or what the question of the scene needs.
     """
@@ -110,10 +130,18 @@ class DamperTable:
     )
     feed: Annotated[RadialFeed | AxialFeed | None, Variant("kind", FEEDS)] = None
     supply: Annotated[DamperSupply | None, Table(SUPPLY)] = None
+    density: Annotated[float, Quantity("kg/m3")] = 0.0
+    seals: Annotated[SealsTable | None, Table(SealsTable)] = None
+    offset: Annotated[tuple[float, float], read_place] = (0.0, 0.0)
+    feed_flow: Annotated[float | None, Quantity("m3/s")] = None
+    air_fraction: Annotated[float, Quantity("1")] = 0.0
     film: Annotated[SqueezeLaw | None, Variant("name", SQUEEZES)] = None
 
     def __post_init__(self) -> None:
         require_non_negative("stiffness", self.stiffness)
+        self._require_offset()
+        if self.feed_flow is not None:
+            require_non_negative("feed_flow", self.feed_flow)
         if self.supply is not None:
             self.conserved(self.supply)
         with warnings.catch_warnings():
@@ -126,20 +154,65 @@ class DamperTable:
 
         Its film laws know no supply. Two lands beside a groove are one of them, in oil twice as viscous.
         """
-        film = self.film or ShortSqueeze()
+        film = self.film or (FiniteSqueeze() if self.needs_length else ShortSqueeze())
         groove = None if self.supply is None else self.supply.circumferential_groove
-        if groove is None:
-            return made_from(PorousDamper, self, film=film)
-        land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
-        return made_from(PorousDamper, self, film=film, length=land, viscosity=twice)
+        if groove is not None:
+            land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
+            return made_from(PorousDamper, self, film=film, seals=None, length=land, viscosity=twice)
+        damper = made_from(PorousDamper, self, film=film, seals=self.seal)
+        return aerated_damper(damper, self.air_fraction) if self.air_fraction else damper
+
+    @property
+    def seal(self) -> EndSeal | None:
+        """The seals, None for open ends."""
+        if self.seals is None:
+            return None
+        return self.seals.seal(viscosity=self.viscosity, radius=self.radius)
+
+    @property
+    def needs_length(self) -> bool:
+        """Whether seals are so tight that the oil of a full film runs around, not out: no short film."""
+        return self.seal is not None and isinstance(self.extent, FullFilm) and self.around > LARGEST_AROUND
+
+    @property
+    def around(self) -> float:
+        """How much too large the damping of a short film with these seals is [1]."""
+        if self.seal is None:
+            return 0.0
+        leak = 12.0 * self.viscosity * self.radius * self.seal.leakage / self.clearance**3
+        s = 0.5 * self.length / self.radius
+        if leak == 0.0:
+            return math.inf
+        return (s**2 / 3.0 + s / leak) / land_share(s, leak).real - 1.0
+
+    @property
+    def is_built(self) -> bool:
+        """Whether seals or the inertia of the oil are in it."""
+        return self.seals is not None or self.density > 0.0
+
+    def _require_offset(self) -> None:
+        place = math.hypot(*self.offset)
+        if place and not self.stiffness:
+            raise InputError(
+                f"stiffness must be positive for a rotor at an offset, got offset {self.offset!r}: without "
+                "springs a weight lets it down to the wall"
+            )
+        if place >= self.clearance:
+            raise InputError(f"offset must be below the clearance {self.clearance!r}, got {self.offset!r}")
+
+    @property
+    def load(self) -> tuple[float, float]:
+        """The static force that holds the rotor at its offset [N]."""
+        return self.stiffness * self.offset[0], self.stiffness * self.offset[1]
 
     def conserved(self, supply: DamperSupply) -> JFODamper:
         """Return the damper that conserves its oil, with its springs; raise InputError where it cannot."""
-        for name, wanted in (("cage", None), ("feed", None), ("extent", HalfSommerfeld())):
+        alone = {"cage": None, "feed": None, "extent": HalfSommerfeld(), "seals": None, "density": 0.0}
+        for name, wanted in {**alone, "offset": (0.0, 0.0), "air_fraction": 0.0}.items():
             if getattr(self, name) != wanted:
                 raise InputError(
                     f"{name} must be left out beside supply, as the film that conserves its oil has a solid "
-                    f"cage and ruptures, got {getattr(self, name)!r}"
+                    f"cage, open ends and no inertia, and ruptures, got {getattr(self, name)!r}"
                 )
         return made_from(JFODamper, self, supply=supply)
 

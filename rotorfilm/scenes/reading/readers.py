@@ -47,6 +47,15 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     return 0.0, -magnitude
 
 
+@takes([Quantity("m"), Quantity("m")])
+def read_place(where: str, value: Any) -> tuple[float, float]:
+    """Read a place [x, y] [m]."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise SceneError(f"{where} must be two lengths [x, y], got {brief(value)}")
+    x, y = (Quantity("m")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+    return x, y
+
+
 @dataclass(frozen=True)
 class Count:
     """Reader of a whole number.

@@ -177,7 +177,6 @@ def test_the_range_of_the_inertia_is_told():
     [
         ({"density": -1.0}, "density must be"),
         ({"density": np.nan}, "density must be"),
-        ({"density": OIL, "film": rf.FiniteMapSqueeze()}, "density must be 0 for a cavitated film of finite"),
         (
             {"density": OIL, "cage": rf.PorousCage(thickness=2e-3, permeability=1e-14)},
             "density must be left out",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ....errors import InputError, warn_user
 from .squeeze_impedance import land_share
 
@@ -43,6 +45,17 @@ def require_inertia_range(reynolds: float, *, cavitated: bool) -> None:
         warn_user(
             f"squeeze Reynolds number must not exceed {well:g} for the inertia of a {kind} film, got "
             f"{reynolds:.4g}: at {far:g} the force on an orbit is off by {error}"
+        )
+
+
+def warn_of_length(film: object, slenderness: float, limit: float) -> None:
+    """Warn where a short film is longer than it is meant for, length / diameter, with its error."""
+    if slenderness > limit:
+        excess = slenderness**2 / 3.0 / land_share(slenderness, math.inf).real - 1.0
+        warn_user(
+            f"length / diameter must not exceed {limit} for {film!r}, got {slenderness:.6g}: the damping of "
+            f"a solid cage is too large by {100.0 * excess:.2g} % in small motion; FiniteMapSqueeze() covers "
+            "it",
         )
 
 

@@ -47,7 +47,7 @@ class RadialTable:
 
     def _at(self, E: Array) -> tuple[Array, Array]:
         s = np.sqrt(1.0 - E)
-        least = _least()
+        least = least_root()
         if np.any(s < least * (1.0 - 1e-9)):
             warn_user(
                 f"eccentricity ratio must not exceed {LARGEST_TABULATED} for a film of finite length with "
@@ -69,14 +69,15 @@ def radial_table(slenderness: float, end_leak: float) -> RadialTable:
 
     See `squeeze_motions`.
     """
-    chebyshev, least = np.polynomial.chebyshev, _least()
+    chebyshev, least = np.polynomial.chebyshev, least_root()
     x = chebyshev.chebpts1(NODES)
     s = 0.5 * ((1.0 - least) * x + 1.0 + least)
     rows = [_functions(float(eps), slenderness, end_leak) for eps in np.sqrt((1.0 - s) * (1.0 + s))]
     return RadialTable(chebyshev.chebfit(x, np.array(rows) * s[:, None] ** POWERS, NODES - 1))
 
 
-def _least() -> float:
+def least_root() -> float:
+    """Return the smallest sqrt(1 - eps^2) of a table."""
     return math.sqrt(1.0 - LARGEST_TABULATED**2)
 
 
