@@ -15,23 +15,27 @@ static double extent_of(const rf_oil_shape *shape, size_t i)
 
 int rf_open_oil(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate)
 {
-    const size_t n = shape->lines, all = n * shape->nodes;
-    double *at = calloc(5 * n + all, sizeof *at);
+    const size_t n = shape->lines, m = shape->nodes, all = n * m;
+    double *at = calloc(4 * n + 3 * all, sizeof *at);
     equations->memory = at;
     if (!at)
         return RF_MEMORY;
-    equations->wedge = at;
-    equations->around = at + n;
-    equations->along = at + 2 * n;
-    equations->store = at + 3 * n;
-    equations->extent = at + 4 * n;
-    equations->old = at + 5 * n;
+    equations->along = at;
+    equations->store = at + n;
+    equations->extent = at + 2 * n;
+    equations->center = at + 3 * n;
+    equations->wedge = at + 4 * n;
+    equations->around = equations->wedge + all;
+    equations->old = equations->around + all;
     for (size_t i = 0; i < n; ++i) {
         const double h = gap->line[i], extent = extent_of(shape, i);
         equations->extent[i] = extent;
-        equations->wedge[i] = rate * gap->face[i];
-        equations->around[i] = gap->cube[i] / shape->spacing[i];
         equations->along[i] = h * h * h * extent / (shape->slenderness * shape->slenderness);
+        equations->center[i] = shape->center;
+        for (size_t q = i * m; q < (i + 1) * m; ++q) {
+            equations->wedge[q] = rate * gap->face[i];
+            equations->around[q] = gap->cube[i] / shape->spacing[i];
+        }
     }
     const rf_oil_cells cells = {
         n,
@@ -42,7 +46,7 @@ int rf_open_oil(rf_oil_equations *equations, const rf_oil_shape *shape, const rf
         equations->store,
         shape->width,
         shape->conductance,
-        shape->center,
+        equations->center,
         shape->center_pressure,
         shape->end_pressure,
         NULL,
@@ -132,7 +136,7 @@ int rf_oil_sums(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_c
         sums[RF_OIL_VOLUME] += theta[q] * gap->line[q / m] * extent_of(shape, q / m) * shape->width[q % m];
     }
     for (size_t i = 0; i < n; ++i)
-        sums[RF_OIL_INFLOW] += cells->along[i] * cells->center * (cells->center_pressure - pressure[i * m]);
+        sums[RF_OIL_INFLOW] += cells->along[i] * cells->center[i] * (cells->center_pressure - pressure[i * m]);
     free(outflow);
     return RF_OK;
 }

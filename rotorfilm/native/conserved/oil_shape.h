@@ -29,8 +29,8 @@ typedef struct rf_oil_gap {
 /* Equations, with the arrays that they are in. */
 typedef struct rf_oil_equations {
     rf_oil_cells cells;
-    double *wedge, *around, *along, *store, *extent; /* N */
-    double *old;                                     /* N x M */
+    double *along, *store, *extent, *center; /* N */
+    double *wedge, *around, *old;            /* N x M */
     void *memory;
 } rf_oil_equations;
 

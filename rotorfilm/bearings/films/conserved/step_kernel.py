@@ -69,7 +69,7 @@ def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, ShapeNumbers]:
         flow=_float(supply.flow),
         pressure=_float(supply.pressure),
     )
-    ends = cells.center, supply.center_pressure, supply.end_pressure
+    ends = float(cells.center[0]), supply.center_pressure, supply.end_pressure
     places = [row.ctypes.data for row in kept]
     return OilShapeStruct(*cells.opening.shape, len(supply.fed), *places, *ends, film.slenderness), kept
 
