@@ -1,4 +1,4 @@
-"""Plates whose cavity shuts: the load in steps of first and second order, and in steps that are halved there.
+"""Plates whose cavity shuts: the load in steps of second order, halved there, and of first order there.
 
     python benchmarks/conserved_shutting.py
 
@@ -20,7 +20,7 @@ from rotorfilm.bearings.films.conserved.conserved_film import (
     Supply,
     step_storage,
 )
-from rotorfilm.bearings.films.conserved.oil_steps import OilMemory, after_step, oil_step
+from rotorfilm.bearings.films.conserved.oil_steps import OilMemory, after_step
 
 BEGIN, SHUT, END = 0.25, 0.73239, 0.748
 FINE = 25600
@@ -48,30 +48,30 @@ def plates(cells: int) -> tuple[ConservedFilm, OilMemory]:
     return ConservedFilm(grid, np.inf, supply), OilMemory(full, full, 0.0, 0.0 * full, one, one)
 
 
-def second_order(film: ConservedFilm, memory: OilMemory, at: Gap, dt: float) -> ConservedState:
-    """Return the film after a step of second order whatever happens in it."""
+def stepped(film: ConservedFilm, memory: OilMemory, at: Gap, dt: float) -> ConservedState:
+    """Return the film after a step, of first order where the memory has no length."""
     ratio = dt / memory.length if memory.length else 1.0
     before = memory.before if memory.length else None
     return film.solve(at, 0.0, storage=step_storage(dt, memory.content, before, ratio), guess=memory.full)
 
 
 def run(cells: int, steps: int, halvings: int | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times, lengths and loads; steps of second order halved at the jump, None for `oil_step`."""
+    """Return times, lengths and loads; steps halved at the jump, None for two of first order there."""
     film, memory = plates(cells)
     t, level, rows = BEGIN, 0, []
     while t < END - 1e-12:
         dt = 0.5 / steps / 2**level
         h = np.full(cells + 1, gap(t + dt))
         at = Gap(h, h, h**3)
-        state = (
-            oil_step(film, memory, at, 0.0, dt) if halvings is None else second_order(film, memory, at, dt)
-        )
+        state = stepped(film, memory, at, dt)
         shuts = memory.full.min() == 0 and state.solution.full.min() == 1
         if halvings is not None and shuts and level < halvings:
             level += 1
             continue
-        after = after_step(film, memory, state, dt)
-        memory, t = after if halvings is None else after._replace(length=dt), t + dt
+        first_order = shuts and halvings is None
+        if first_order:
+            state = stepped(film, memory._replace(length=0.0), at, dt)
+        memory, t = after_step(memory, state, 0.0 if first_order else dt), t + dt
         rows.append([t, dt, np.sum(state.solution.pressure[1:-1]) / cells + 0.0125 / cells])
         place = (t - BEGIN) / (2.0 * dt)
         level -= level > 0 and state.solution.full.min() == 1 and abs(place - round(place)) < 1e-9
@@ -91,7 +91,7 @@ if __name__ == "__main__":
     for cells in (64, 256):
         fine = run(cells, FINE, None)
         base = np.interp(SHUT - 1e-4, fine[0], fine[2])
-        print(f"{cells} cells: steps, [halvings: largest load, error of the impulse]; as oil_step")
+        print(f"{cells} cells: steps, [halvings: largest load, error of the impulse]")
         for steps in (200, 400, 800):
             first = np.floor((SHUT - BEGIN) * 2.0 * steps)
             window = BEGIN + 0.5 / steps * (first - 2.0), BEGIN + 0.5 / steps * (first + 3.0)
@@ -100,5 +100,5 @@ if __name__ == "__main__":
                 t, dt, load = run(cells, steps, halvings)
                 over = np.max((load / full_load(t))[t > SHUT])
                 off = (impulse(t, dt, load, *window, jump - base) - exact) / (jump - base) * 2.0 * steps
-                found.append(f"{'oil_step' if halvings is None else halvings}: {over:.3f}, {off:+.3f}")
+                found.append(f"{'first order' if halvings is None else halvings}: {over:.3f}, {off:+.3f}")
             print(f"{steps}  " + "   ".join(found))

@@ -71,7 +71,6 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_oil_sums": [c_void_p] * 6,
     "rf_sharpen_oil": [c_void_p, c_void_p, c_double, c_void_p, c_void_p],
     "rf_oil_step": [c_void_p, c_void_p, c_double, c_void_p, c_double, c_void_p],
-    "rf_cavity_shuts": [c_void_p] * 3,
     "rf_oil_rest": [c_void_p, c_void_p, c_double, c_void_p],
     "rf_oil_begin": [c_void_p] * 4,
     "rf_oil_travel": [c_void_p, c_double, c_void_p, c_double, *[c_void_p] * 3],

@@ -73,65 +73,6 @@ static int solve_step(rf_oil_equations *equations, const rf_oil_shape *shape, co
     return status;
 }
 
-static int is_empty(const rf_oil_shape *shape, const uint8_t *full, size_t q)
-{
-    const int32_t k = shape->opening[q];
-    return !full[q] && (k == RF_FILM_CELL || shape->fed[k]);
-}
-
-/* Cells of what was a cavity, of which the last `count` ones on the stack have neighbors to be looked at. */
-typedef struct rf_oil_reach {
-    const rf_oil_shape *shape;
-    const uint8_t *before;
-    uint8_t *known;
-    size_t *stack, count;
-} rf_oil_reach;
-
-/* Add a cell, unless it is known, or was full. */
-static void reach(rf_oil_reach *self, size_t q)
-{
-    if (self->known[q] || !is_empty(self->shape, self->before, q))
-        return;
-    self->known[q] = 1;
-    self->stack[self->count++] = q;
-}
-
-/* Add all cells that are beside known ones; whether any is left that is not. */
-static int leaves_any(rf_oil_reach *self)
-{
-    const rf_oil_shape *shape = self->shape;
-    const size_t m = shape->nodes;
-    while (self->count > 0) {
-        const size_t q = self->stack[--self->count], i = q / m, j = q % m;
-        reach(self, neighbor(shape, i, 1) * m + j);
-        reach(self, neighbor(shape, i, 0) * m + j);
-        if (j > 0)
-            reach(self, q - 1);
-        if (j + 1 < m)
-            reach(self, q + 1);
-    }
-    for (size_t q = 0; q < shape->lines * m; ++q)
-        if (is_empty(shape, self->before, q) && !self->known[q])
-            return 1;
-    return 0;
-}
-
-int rf_cavity_shuts(const rf_oil_shape *shape, const uint8_t *before, const uint8_t *after)
-{
-    const size_t all = shape->lines * shape->nodes;
-    rf_oil_reach still = {shape, before, calloc(all, 1), malloc(all * sizeof(size_t)), 0};
-    int shuts = 0;
-    if (still.known && still.stack) {
-        for (size_t q = 0; q < all; ++q)
-            if (is_empty(shape, after, q))
-                reach(&still, q);
-        shuts = leaves_any(&still);
-    }
-    free(still.known);
-    free(still.stack);
-    return shuts;
-}
-
 static int is_in_debt(const rf_oil_shape *shape, const double *theta)
 {
     for (size_t q = 0; q < shape->lines * shape->nodes; ++q)
@@ -160,7 +101,7 @@ int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, c
         set_differences(ratio, &a, &b, &c);
         const double second[3] = {a / dt, b / dt, c / dt};
         status = solve_step(&equations, shape, gap, past, second, carried, found);
-        done = status != RF_OK || !(is_in_debt(shape, found->theta) || rf_cavity_shuts(shape, past->full, found->full));
+        done = status != RF_OK || !is_in_debt(shape, found->theta);
     }
     if (!done) {
         const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};

@@ -5,12 +5,10 @@
 #include "oil_search.h"
 #include "oil_shape.h"
 
-/* Oil theta H of every cell, now and before the last step, N x M; the length of that, 0 where there was none or a cavity
-   shut in it; cells that are full now. */
+/* Oil theta H of every cell, now and before the last step, N x M; the length of that, 0 where there was none. */
 typedef struct rf_oil_past {
     const double *content, *before;
     double length;
-    const uint8_t *full;
 } rf_oil_past;
 
 /* A film. Where one is sought, theta and `full` come as those of a film nearby. */
@@ -29,14 +27,10 @@ RF_EXPORT_LOOP void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *
 
 /* The film after a step of length dt in the gap at its end, where walls carry the oil with a speed of `rate`: by
    differences of second order of the last two contents; of first order where there was no step before, or one less
-   than half as long, where the former would take more from a cell than it has, and where a cavity shuts. Theta of the film nearby tells
+   than half as long, or where the former would take more from a cell than it has. Theta of the film nearby tells
    by how much transport differs from that of upstream values. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const rf_oil_past *past,
                                double dt, rf_oil_found *found);
-
-/* Whether a cavity, of cells side by side, has no cell left after a step. The pressure jumps there: differences of second
-   order over such a step would have half of what filled its last cells as one more source, and a peak of pressure. */
-RF_EXPORT_LOOP int rf_cavity_shuts(const rf_oil_shape *shape, const uint8_t *before, const uint8_t *after);
 
 /* The steady film that steps in a gap that stays come to. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_found *found);

@@ -14,7 +14,6 @@ typedef struct traveler {
     size_t all;
     double *block, *gap;
     rf_oil_found found;
-    uint8_t *full; /* at the begin of an inner step */
     void *memory;
 } traveler;
 
@@ -32,12 +31,11 @@ static int open_traveler(traveler *self, const rf_oil_film_si *film, rf_message 
 {
     const size_t all = film->shape.lines * film->shape.nodes, numbers = rf_oil_numbers(&film->shape);
     double *at = calloc(numbers + 3 * film->shape.lines + 3 * all, sizeof *at);
-    uint8_t *full = calloc(2 * all, 1);
+    uint8_t *full = calloc(all, 1);
     self->film = film;
     self->all = all;
     self->memory = at;
     self->found.full = full;
-    self->full = full + all;
     if (!at || !full)
         return rf_say(why, RF_MEMORY, "no memory for a film");
     self->block = at;
@@ -106,7 +104,7 @@ static int set_answer(traveler *self, const rf_oil_gap *gap, double rate)
 static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
 {
     const size_t nodes = self->film->shape.nodes;
-    self->block[RF_OIL_LENGTH] = rf_cavity_shuts(&self->film->shape, self->full, self->found.full) ? 0.0 : dt;
+    self->block[RF_OIL_LENGTH] = dt;
     memcpy(self->block + RF_OIL_MOTION, motion, RF_MOTION * sizeof *motion);
     memcpy(row(self, 1), row(self, 0), self->all * sizeof(double));
     memcpy(row(self, 2), self->found.pressure, self->all * sizeof(double));
@@ -155,10 +153,10 @@ static void set_between(const double *begin, const double *end, double dt, doubl
 static int inner_step(traveler *self, const double *motion, double dt, int64_t *solutions)
 {
     const rf_oil_gap gap = gap_of(self, motion);
-    const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH], self->full};
+    const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH]};
     memcpy(self->found.theta, row(self, 3), self->all * sizeof(double));
     for (size_t q = 0; q < self->all; ++q)
-        self->found.full[q] = self->full[q] = row(self, 4)[q] != 0.0;
+        self->found.full[q] = row(self, 4)[q] != 0.0;
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         const int status =
             rf_oil_step(&self->film->shape, &gap, self->film->carrying * motion[4], &past, dt, &self->found);

@@ -51,10 +51,7 @@ class OilGapStruct(ctypes.Structure):
 class OilPastStruct(ctypes.Structure):
     """rf_oil_past of oil_steps.h."""
 
-    _fields_: ClassVar[Sequence[Any]] = [
-        *(("content", c_void_p), ("before", c_void_p)),
-        *(("length", c_double), ("full", c_void_p)),
-    ]
+    _fields_: ClassVar[Sequence[Any]] = [("content", c_void_p), ("before", c_void_p), ("length", c_double)]
 
 
 class OilFoundStruct(ctypes.Structure):

@@ -170,7 +170,7 @@ def _turns(scaled: ScaledFilm, position: Array, speed: float) -> Iterator[_Rows]
         states: list[ConservedState] = []
         for gap in gaps:
             states.append(oil_step(film, oil, gap, 0.0, dt))
-            oil = after_step(film, oil, states[-1], dt)
+            oil = after_step(oil, states[-1], dt)
         yield _rows(scaled, states)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ....errors import InputError
 from ....model import Array
 from .conserved_film import ConservedFilm, ConservedState, Gap
-from .step_kernel import cavity_shuts, rest_oil, step_oil
+from .step_kernel import rest_oil, step_oil
 
 MOST_GROWTH = 2.0
 """Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
@@ -30,7 +30,7 @@ class OilMemory(NamedTuple):
     before : ndarray, shape (N, M) [1]
         The same one step earlier.
     length : float [s]
-        Of the last step; 0 where there was none, or a cavity shut in it.
+        Of the last step; 0 where there was none.
     pressure, theta : ndarray, shape (N, M) [1/s], [1]
     full : ndarray of uint8, shape (N, M)
     """
@@ -59,10 +59,9 @@ def remembered(state: ConservedState) -> OilMemory:
     return OilMemory(state.content, state.content, 0.0, *state.solution[:3])
 
 
-def after_step(film: ConservedFilm, memory: OilMemory, state: ConservedState, dt: float) -> OilMemory:
+def after_step(memory: OilMemory, state: ConservedState, dt: float) -> OilMemory:
     """Return the memory after a step of length dt [s] that ended at a state."""
-    length = 0.0 if cavity_shuts(film, memory.full, state.solution.full) else dt
-    return OilMemory(state.content, memory.content, length, *state.solution[:3])
+    return OilMemory(state.content, memory.content, dt, *state.solution[:3])
 
 
 def oil_step(
@@ -71,8 +70,8 @@ def oil_step(
     """Return the film at the end of a step.
 
     Differences of second order in time (BDF2) of the last two contents, steps of any lengths; Euler's where
-    there was none, after one that was less than half as long, where the former would take more from a cell
-    than it has, and where a cavity shuts, in that step and the next one: the pressure jumps there.
+    there was none, after one that was less than half as long, and where the former would take more from a
+    cell than it has.
 
     Parameters
     ----------
@@ -94,7 +93,7 @@ def oil_step(
         If the search for the cavity does not end.
     """
     like = memory if near is None else near
-    past = memory.content, memory.before, memory.length, memory.full
+    past = memory.content, memory.before, memory.length
     return step_oil(film, gap, rate, dt, past, (like.theta, like.full))
 
 

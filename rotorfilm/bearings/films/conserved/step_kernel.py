@@ -89,10 +89,10 @@ def step_oil(
     gap: Gap,
     rate: float,
     dt: float,
-    past: tuple[Array, Array, float, np.ndarray],
+    past: tuple[Array, Array, float],
     near: tuple[Array, np.ndarray],
 ) -> ConservedState:
-    """Return the film after a step from the contents now and before the last one, its length, and full cells.
+    """Return the film after a step from the contents now and before the last one, and the length of that.
 
     `near` is theta and the full cells of a film nearby.
 
@@ -102,20 +102,13 @@ def step_oil(
         If the search for the cavity does not end.
     """
     content, before = (_float(row) for row in past[:2])
-    full = np.ascontiguousarray(past[3], dtype=np.uint8)
-    history = OilPastStruct(content.ctypes.data, before.ctypes.data, past[2], full.ctypes.data)
+    history = OilPastStruct(content.ctypes.data, before.ctypes.data, past[2])
     rows = [_float(row) for row in gap]
     found, made = _found(film, near)
     status = loops()["rf_oil_step"](
         byref(shape_of(film)[0]), byref(_gap(rows)), rate, byref(history), dt, byref(made)
     )
     return _state(film, gap, rate, status, found, made)
-
-
-def cavity_shuts(film: ConservedFilm, before: np.ndarray, after: np.ndarray) -> bool:
-    """Return whether a cavity has no cell left after a step, from the full cells before and after it."""
-    rows = [np.ascontiguousarray(full, dtype=np.uint8) for full in (before, after)]
-    return bool(loops()["rf_cavity_shuts"](byref(shape_of(film)[0]), *(row.ctypes.data for row in rows)))
 
 
 def rest_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:

@@ -150,7 +150,7 @@ class SteppedFilm:
     def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         found = self._found(state, u, dt, near)
-        end = FilmMemory(after_step(self.film, state.oil, found, dt), u, self._output(found))
+        end = FilmMemory(after_step(state.oil, found, dt), u, self._output(found))
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
         return StepTrial(end, end.output, slope, found.solution.solutions + 1)
