@@ -27,9 +27,22 @@ _FREE = 1e-12
 """Squared frequency / the largest, below which a motion is that of the shaft as a whole."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Spring:
+    """A spring and a damper from a node to the ground."""
+
+    node: int
+    stiffness: float
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_non_negative("stiffness", self.stiffness)
+        require_non_negative("damping", self.damping)
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class ThrustBearing:
+class ThrustBearing(_Spring):
     """A spring and a damper along the shaft, from a node to the ground.
 
     Parameters
@@ -39,18 +52,10 @@ class ThrustBearing:
     damping : float [N s/m]
     """
 
-    node: int
-    stiffness: float
-    damping: float = 0.0
-
-    def __post_init__(self) -> None:
-        require_non_negative("stiffness", self.stiffness)
-        require_non_negative("damping", self.damping)
-
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TwistSpring:
+class TwistSpring(_Spring):
     """A spring and a damper about the shaft, from a node to the ground.
 
     Parameters
@@ -59,14 +64,6 @@ class TwistSpring:
     stiffness : float [N m/rad]
     damping : float [N m s/rad]
     """
-
-    node: int
-    stiffness: float
-    damping: float = 0.0
-
-    def __post_init__(self) -> None:
-        require_non_negative("stiffness", self.stiffness)
-        require_non_negative("damping", self.damping)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -196,9 +193,7 @@ def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
         raise InputError(f"{name} must be on a node 0 to {len(rotor.elements)}, got node {node!r}")
 
 
-def grounded(
-    chain: StraightChain, rotor: ShaftRotor, springs: Sequence[ThrustBearing | TwistSpring]
-) -> tuple[Array, Array]:
+def grounded(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tuple[Array, Array]:
     """Return stiffness and damping with the springs to the ground, dense."""
     stiffness = dense_matrix(chain.stiffness)
     damping = np.zeros_like(stiffness)
@@ -209,9 +204,7 @@ def grounded(
     return stiffness, damping
 
 
-def _modes(
-    chain: StraightChain, rotor: ShaftRotor, springs: Sequence[ThrustBearing | TwistSpring], count: int
-) -> StraightModes:
+def _modes(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> StraightModes:
     require_count("count", count)
     stiffness, damping = grounded(chain, rotor, springs)
     mass = dense_matrix(chain.mass)
