@@ -112,7 +112,7 @@ def rest(structure: Structure, bearings: Mapping[str, Reaction], speed: float) -
     require_bearings(bearings)
     system = _System(structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
-    alone = [system.alone(k, load) for k, load in enumerate(system.split(loads))]
+    alone = system.each_alone(system.split(loads))
     p = np.concatenate([np.zeros(0), *(position for position, _ in alone)])
     temperatures = [temperature for _, temperature in alone]
     for _ in range(WARMINGS):
@@ -191,14 +191,22 @@ class _System:
             return np.append(place, (0.0, 0.0)), None
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
             return np.zeros(2), self._balanced(bearing, np.zeros(2))
-        try:
-            at = equilibrium(bearing, load, self.speed)
-        except EquilibriumError:
-            if len(self.given) == 1:
-                raise
-            # As a seal, which carries little: others may have the load, the search begins in the middle.
-            return np.zeros(2), self._balanced(bearing, np.zeros(2))
+        at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
+
+    def each_alone(self, loads: list[Array]) -> list[tuple[Array, float | None]]:
+        """Return all as `alone` does, what is overloaded in the middle; EquilibriumError if all are."""
+        found, failed = [], []
+        for k, load in enumerate(loads):
+            try:
+                found.append(self.alone(k, load))
+            except EquilibriumError as failure:
+                # As a seal, which carries little: others may have its load.
+                failed.append(failure)
+                found.append((np.zeros(2), self._balanced(self.given[k], np.zeros(2))))
+        if failed and len(failed) == len(loads):
+            raise failed[0]
+        return found
 
     def warm(self, temperatures: list[float | None]) -> None:
         """Take the films at these temperatures; None for those that have theirs."""
