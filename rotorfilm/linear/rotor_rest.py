@@ -114,7 +114,7 @@ def rest(
     if found is not None:
         return found
     q, loads = system.on_rigid_bearings()
-    alone = [system.alone(k, load) for k, load in enumerate(system.split(loads))]
+    alone = system.each_alone(system.split(loads))
     p = np.concatenate([np.zeros(0), *(position for position, _ in alone)])
     temperatures = [temperature for _, temperature in alone]
     for _ in range(WARMINGS):

@@ -216,7 +216,7 @@ def test_what_a_shaft_cannot_be_asked():
         ),
         (
             [SHAFT, SPEEDS, SPRINGS.replace('stiffness = "1 MN/m"\n', "")],
-            "journal, or else stiffness, is required",
+            "journal, or else stiffness or seal, is required",
         ),
         (
             [SHAFT, 'beam = "clasical"\n', SPEEDS, SPRINGS],
@@ -293,3 +293,33 @@ def test_keys_of_a_compressor_and_of_dampings_arrive():
 def test_a_bad_compressor(change, message):
     with pytest.raises(SceneError, match=message):
         scene(HEAD, SHAFT, SPEEDS, SPRINGS, COMPRESSOR.replace(*change))
+
+
+SEAL = """[[shaft.bearings]]
+name = "wear_ring"
+node = 3
+[shaft.bearings.seal]
+radius = "60 mm"
+length = "25 mm"
+clearance = "0.6 mm"
+pressure_drop = "6 bar"
+viscosity = "1 mPa s"
+density = 1000
+inlet_swirl = 0.4
+"""
+ASKED = '[question]\nquantity = "critical_speed"\ntolerance = "1 %"\n'
+
+
+@pytest.mark.filterwarnings("ignore:left out")
+def test_a_seal_holds_a_shaft_and_its_mass_is_said_to_be_left_out():
+    stiff = SPRINGS.replace("1 MN/m", "20 MN/m").replace("800 kN/m", "20 MN/m")
+    given = scene(HEAD, SHAFT.replace("50 mm", "90 mm"), DISKS, SPEEDS, stiff, SEAL, ASKED)
+    speeds, bearings = given.shaft.speeds, given.shaft.build_bearings()
+    own = bearings["wear_ring"]
+    assert not own.added_mass
+    assert own.inlet_swirl == 0.4
+    answer = given.solve()
+    expected = critical_speeds(given.shaft.build(), bearings, speeds.build())
+    assert_allclose(answer.value, expected[0].speed, rtol=1e-3)
+    mass = own.matrices(speeds.last).M
+    assert any(f"{mass:.3g} kg of the fluid are left out" in line for line in answer.remarks)

@@ -92,6 +92,20 @@ class RestEquations:
         at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
+    def each_alone(self, loads: list[Array]) -> list[tuple[Array, float | None]]:
+        """Return all as `alone` does, what is overloaded in the middle; EquilibriumError if all are."""
+        found, failed = [], []
+        for k, load in enumerate(loads):
+            try:
+                found.append(self.alone(k, load))
+            except EquilibriumError as failure:
+                # As a seal, which carries little: others may have its load.
+                failed.append(failure)
+                found.append((np.zeros(2), self._balanced(self.given[k], np.zeros(2))))
+        if failed and len(failed) == len(loads):
+            raise failed[0]
+        return found
+
     def warm(self, temperatures: list[float | None]) -> None:
         """Take the films at these temperatures; None for those that have theirs."""
         pairs = zip(self.given, temperatures, strict=True)

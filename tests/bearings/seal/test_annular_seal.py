@@ -179,6 +179,26 @@ def test_coefficients_and_damped_modes_carry_the_mass():
     assert [signal.name for signal in light.outputs] == ["force_x", "force_y"]
 
 
+def test_a_shaft_rests_in_a_seal_that_could_not_carry_it():
+    steel = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
+    shaft = rf.ShaftRotor(
+        elements=rf.ShaftElement(length=1.0, outer_diameter=0.06, material=steel).split(4),
+        speed=SPEED,
+        stations=tuple(rf.Station(node=n, name=name) for n, name in enumerate(("a", "", "seal", "_", "b"))),
+        disks=(rf.Disk(node=2, mass=100.0),),
+    )
+    spring, own = rf.LinearBearing(stiffness=5e7, damping=1e4), seal(0.1, added_mass=False)
+    bearings = {"a": spring, "b": spring, "seal": own}
+    rest = rf.rotor_equilibrium(shaft, bearings, SPEED)
+    K, k, C, c, _ = own.matrices(SPEED)
+    assert K * own.clearance < 0.7 * 100.0 * 9.8  # what rigid bearings would give it
+    assert_allclose(rest.loads["seal"], [[K, k], [-k, K]] @ rest.coefficients["seal"].position, rtol=1e-6)
+    matrices = rf.LinearBearing(stiffness=((K, k), (-k, K)), damping=((C, c), (-c, C)))
+    modes = rf.rotor_modes(shaft, bearings, SPEED, 1e3)
+    same = rf.rotor_modes(shaft, {**bearings, "seal": matrices}, SPEED, 1e3)
+    assert_allclose(modes.eigenvalues, same.eigenvalues, rtol=1e-8)
+
+
 def test_what_is_outside_of_its_range():
     with pytest.warns(rf.ValidityWarning, match=r"length / diameter must not exceed 0.25"):
         seal(0.5)
