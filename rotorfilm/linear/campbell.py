@@ -205,7 +205,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     rotor : FlexibleRotor
         Every station gets the same bearing; damping of rotor and supports is left out.
     stiffness : array_like, shape (n,) [N/m]
-        Positive; beyond some 1e15 N/m roundoff takes digits of a rotor of many elements.
+        Positive.
     count : int
         Number of critical speeds of forward whirl, from the lowest.
 
@@ -240,12 +240,17 @@ def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
     n = len(s.coordinates)
     forward = np.vstack([np.eye(n), -1j * np.eye(n)]) * math.sqrt(0.5)
     inertia = (forward.conj().T @ (s.mass - 1j * s.gyroscopic) @ forward).real
+    own = forward.conj().T @ (0.5 * (s.stiffness + s.stiffness.T)) @ forward
+    _, sizes, shapes = np.linalg.svd(s.journals[::2, :n])
+    pressed = np.append(sizes**2, np.zeros(n - len(sizes)))
+    own, inertia = (shapes @ part @ shapes.T for part in (own, inertia))
     result = np.full((count, len(stiffness)), math.nan)
     for column, spring in enumerate(stiffness):
-        whole = s.stiffness + spring * s.journals.T @ s.journals
-        held = forward.conj().T @ (0.5 * (whole + whole.T)) @ forward
+        # In units of what holds each, shapes that press on stiff bearings drown no other.
+        scale = 1.0 / np.sqrt(np.where(pressed * spring > 0.0, pressed * spring + np.abs(np.diag(own)), 1.0))
+        held = own * np.outer(scale, scale) + np.diag(pressed * spring * scale**2)
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
-        inverse = eigh(inertia, held, eigvals_only=True)[::-1]
+        inverse = eigh(inertia * np.outer(scale, scale), held, eigvals_only=True)[::-1]
         speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])
         result[: len(speeds), column] = speeds
     return result

@@ -21,7 +21,7 @@ from .large.tilting import (
     coefficients_at,
     require_bearings,
 )
-from .large.work import tally
+from .large.work import counted, tally
 
 KELVIN = 1e-7
 """Change of temperatures [K] below which they are settled."""
@@ -48,6 +48,8 @@ class RotorEquilibrium(Readable):
         Largest imbalance of forces / weight; [N] without weight.
     temperatures : dict of str to float [K]
         Of the films whose temperature follows from the balance of their heat, by station.
+    work : dict of str to int
+        Steps of Newton's method (newton_steps).
     """
 
     speed: float
@@ -56,6 +58,7 @@ class RotorEquilibrium(Readable):
     displacement: Array
     residual: float
     temperatures: dict[str, float] = field(default_factory=dict)
+    work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
 @arguments
@@ -94,8 +97,11 @@ def rotor_equilibrium(
     require_flexible(rotor)
     speed = require_number("speed", speed)
     model = next(models(rotor, usual_frequency(rotor, 0.0)))
-    at = rest(model.structure, bearings, speed)
-    return replace(at, displacement=model.lifted(at.displacement))
+    with counted("newton_steps") as work:
+        at = rest(model.structure, bearings, speed)
+    return replace(
+        at, displacement=model.lifted(at.displacement), work={"newton_steps": work["newton_steps"]}
+    )
 
 
 def rest(

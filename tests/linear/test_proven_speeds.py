@@ -12,7 +12,9 @@ from rotorfilm import ConvergenceError
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.linear import (
+    critical_speed_map,
     critical_speeds,
+    rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
     stability_changes,
@@ -188,3 +190,22 @@ def test_analyses_count_their_work():
     assert found.work["eigenproblems"] <= 2 * (len(speeds) - 1)
     assert 0 < found.work["factorizations"] <= 8 * (len(found) + 1)
     assert stability_changes(rotor, FILMS, speeds[:2]).work["equilibria"] >= 2
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("count", [6, 30])
+def test_critical_speeds_on_rigid_bearings_are_the_limit_of_stiff_ones(count):
+    """Journals that cannot move, solved apart; no digit is lost on the way."""
+    rotor = long_rotor(count)
+    s, n = rotor.structure, len(rotor.assembly.coordinates)
+    free = np.delete(np.eye(n), [0, 2 * count], axis=1)
+    polar = s.gyroscopic[:n, n:]
+    stiffness, inertia = (free.T @ part @ free for part in (s.stiffness[:n, :n], s.mass[:n, :n] - polar))
+    squares = 1.0 / np.sort(np.linalg.eigvals(np.linalg.solve(stiffness, inertia)).real)[::-1][:2]
+    found = critical_speed_map(rotor, [1e13, 1e18, 1e25], 2)
+    assert_allclose(found[:, 1:], np.sqrt(squares)[:, None] * [1.0, 1.0], rtol=1e-8)
+    assert_allclose(found[:, 0], np.sqrt(squares), rtol=1e-6)
+
+
+def test_equilibria_count_their_steps():
+    assert 1 <= rotor_equilibrium(long_rotor(6), FILMS, 150.0).work["newton_steps"] <= 12

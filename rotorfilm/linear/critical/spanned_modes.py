@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import eig
 
-from ...model import Array
 from ...rotors.structure import Structure
 from ..large.condensed import Condensed
 from ..large.defects import WholeRotor, whirl_errors
@@ -17,7 +16,7 @@ from ..large.second_order import SecondOrder, remembering, rest_near, small_moti
 from ..large.tilting import film_rows
 from ..large.work import tally
 from ..rotor_rest import RotorEquilibrium
-from .whirl_bounds import Branches, Changing, branches_on_line
+from .whirl_bounds import Branches, Changing, Places, branches_on_line
 
 FREE = 1e-7
 """Eigenvalue / speed below which nothing holds a motion; then it is held, at `SOFT` of the speed."""
@@ -139,7 +138,7 @@ class SpannedModes:
         value = complex(values[place] + change * self.changing.rates[place, place])
         return CrossingCandidate(self.middle + change, value, right[:, place], left[place].conj())
 
-    def _error(self, places: Array) -> float:
+    def _error(self, places: Places) -> float:
         """Return the largest relative error of eigenvalues by the shapes that were left out."""
         if self.model.space is None or not len(places):
             return 0.0

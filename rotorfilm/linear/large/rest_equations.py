@@ -16,6 +16,7 @@ from ...rotors.structure import Structure, across_planes
 from ...warming import Warming
 from ..equilibrium import equilibrium
 from .tilting import film_rows, force_at, resists_tilt, slopes_at
+from .work import tally
 
 TOLERANCE = 1e-10
 """Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
@@ -156,6 +157,7 @@ class RestEquations:
         """Return (q, p) by Newton's method with steps that stay within the clearances."""
         n = len(q)
         for _ in range(_NEWTON_STEPS):
+            tally("newton_steps")
             forces, misfit = self.residual(q, p, s)
             force_limit, misfit_limit = self.tolerances(q, p, s)
             if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):

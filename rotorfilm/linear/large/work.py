@@ -21,7 +21,7 @@ _counters: ContextVar[tuple[Counter[str], ...]] = ContextVar("counters", default
 
 @contextmanager
 def counted(*names: str) -> Iterator[Counter[str]]:
-    """Count what is done inside, from 0 on for these names."""
+    """Count what of these names is done inside."""
     work = Counter(dict.fromkeys(names, 0))
     before = _counters.set((*_counters.get(), work))
     try:
@@ -31,9 +31,10 @@ def counted(*names: str) -> Iterator[Counter[str]]:
 
 
 def tally(name: str, count: int = 1) -> None:
-    """Add to all that counts now."""
+    """Add to all that count this now."""
     for work in _counters.get():
-        work[name] += count
+        if name in work:
+            work[name] += count
 
 
 class CountedTuple(tuple[Item, ...]):
