@@ -229,7 +229,7 @@ def test_states_that_it_refuses(fed):
         fed.solve([0.0, 0.0, 0.0], omega)
     with pytest.raises(InputError, match="speed must be a single finite number"):
         fed.force(HERE, [0.0, 0.0], [omega, omega])
-    with pytest.raises(InputError, match="speed: quantity must be a number with a unit .* got 'fast'"):
+    with pytest.raises(InputError, match="speed: quantity must be a number with a unit"):
         fed.coefficients(HERE, "fast")
     for s in (np.nan, 1j * np.inf):
         with pytest.raises(InputError, match="s must be a finite number, got"):
