@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .bearing import JournalBearing as JournalBearing
     from .bearing_losses import bearing_losses, has_losses
     from .build_groove_map import build_groove_map as build_groove_map
+    from .conserved.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
     from .conserved.jfo_film import JFOFilm as JFOFilm
     from .conserved.jfo_state import JFOState as JFOState
     from .conserved.rupture_error import (
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from .heat.field.energy_film import MeanTemperature as MeanTemperature
     from .heat.field.heat_rounds import FilmProfile
     from .heat.field.heated_film import HeatedFilm as HeatedFilm
-    from .heat.field.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
     from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
     from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
     from .heat.field.walls import (

@@ -36,7 +36,7 @@ FEWEST_TURNS, MOST_TURNS, REPEATED = 12, 96, 1e-3
 """Turns after which an orbit is looked at first and last, and its change from turn to turn when steady."""
 
 
-class Followed(NamedTuple):
+class FollowedRotor(NamedTuple):
     """A motion that was followed: the equal steps of a turn, and what it shows."""
 
     steps: int
@@ -81,7 +81,7 @@ class ConservedRunRung(BaseRung):
         """The quantity."""
         return self.value(self)
 
-    def follow(self, duration: float) -> Followed:
+    def follow(self, duration: float) -> FollowedRotor:
         """Return a motion from rest; raises FilmContactError at the wall."""
         fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
         count = math.ceil(duration * fastest * self.steps / (2.0 * math.pi) - 1e-9)
@@ -90,7 +90,7 @@ class ConservedRunRung(BaseRung):
             run = simulate(self.rotor, self.damper, duration=duration, times=times, max_step=duration / count)
         except ContactError as error:
             raise FilmContactError(f"the rotor touches the wall: {error}") from error
-        return Followed(self.steps, run)
+        return FollowedRotor(self.steps, run)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises FilmContactError at the wall."""
@@ -144,7 +144,7 @@ def _repeated(rung: ConservedRunRung, quantity: str) -> float:
     )
 
 
-def _of_turn(found: Followed, rotor: RigidRotor, quantity: str, back: int) -> float:
+def _of_turn(found: FollowedRotor, rotor: RigidRotor, quantity: str, back: int) -> float:
     """Return a quantity of one turn, 1 the last."""
     end = len(found.run.time) - (back - 1) * found.steps
     turn = slice(end - found.steps, end)

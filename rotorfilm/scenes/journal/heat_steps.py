@@ -95,7 +95,7 @@ class HeatSteps:
 
     def _steps(self, cells: tuple[int, int]) -> tuple[WarmRest, ...]:
         own, bearing = self.own, self.bearing
-        film = self._film(cells)
+        film: Any = self._film(cells)  # its own films have a force at rest, which is what is asked
         state = film.warmed_from(own.rest.position, own.rest.speed, self._start(cells))
         found: list[WarmRest] = []
         at = own.rest

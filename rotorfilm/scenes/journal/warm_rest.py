@@ -132,7 +132,8 @@ def ends_within(bearing: JournalBearing | JFOFilm) -> bool:
 
 def field_rest(film: HeatedFilm | HeatedJFOFilm, load: ArrayLike, speed: float) -> WarmRest:
     """Return the rest on a film with a temperature field (T2, T3)."""
-    found = heated_equilibrium(film, load, speed)
+    whole: Any = film  # a force at rest, of a film that conserves its oil, is what these take
+    found = heated_equilibrium(whole, load, speed)
     return rest_of_state(film.bearing, found.rest, found.state.film, found.state)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from ....model import Array
 from .conserved_cells import FILM, ConservedCells
 from .fluidity import Fluidity, at_ends, at_faces
+from .oil_flows import OilFlows
 from .oil_kernel import OilCells, OilSolution, oil_outflow, solve_oil
 
 ROUNDOFF = 1e-12
@@ -105,25 +106,6 @@ class ConservedState(NamedTuple):
     def content(self) -> Array:
         """Oil theta H of every cell, shape (N, M): what the next step starts from."""
         return self.solution.theta * self.gap.line[:, None]
-
-
-class OilFlows(NamedTuple):
-    """Flows of a film over clearance, radius and length.
-
-    Attributes
-    ----------
-    out, drawn_in : float [1/s]
-        Through both ends, of lines where it leaves and of those where it enters.
-    inflow : ndarray, shape (openings,) [1/s]
-        From each opening, last that from a groove all round.
-    defect : float [1/s]
-        Oil that the cells of the film make or lose, all taken as positive.
-    """
-
-    out: float
-    drawn_in: float
-    inflow: Array
-    defect: float
 
 
 def circular_gap(cells: ConservedCells, eccentricity: Array) -> Gap:

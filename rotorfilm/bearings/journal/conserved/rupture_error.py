@@ -79,7 +79,8 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     place, rest = require_vector("position", position), np.zeros(2)
     films = zip(*(both_films(bearing, cells) for cells in RUPTURE_CELLS), strict=True)
     reynolds, conserved = (
-        extrapolated_value(*(_numbers(film, place, rest, speed) for film in pair)) for pair in films
+        extrapolated_value(_numbers(coarse, place, rest, speed), _numbers(fine, place, rest, speed))
+        for coarse, fine in films
     )
     size = float(np.hypot(*conserved[:2]))
     if size == 0.0:

@@ -7,20 +7,20 @@ from typing import ClassVar
 
 import numpy as np
 
-from .....errors import require_kind
-from .....model import Array
-from ....films.conserved.conserved_cells import conserved_cells
-from ....films.conserved.conserved_film import circular_gap
-from ...bearing import JournalBearing
-from ...conserved.jfo_film import JFOFilm
-from ...conserved.jfo_losses import opening_flows, opening_pressure
-from ...conserved.jfo_state import jfo_state
+from ....errors import require_kind
+from ....model import Array
+from ...films.conserved.conserved_cells import conserved_cells
+from ...films.conserved.conserved_film import circular_gap
+from ..bearing import JournalBearing
+from ..heat.field.energy_film import MeanTemperature
+from ..heat.field.heat_rounds import FilmProfile, HeatRounds
+from ..heat.field.heated_state import FoundFilm, HeatedState, HeatRound, oil_and_cooling, state_fields
+from ..heat.field.walls import AdiabaticWalls, Walls
 from .conserved_flow import conserved_flow
-from .energy_film import MeanTemperature
 from .frozen_jfo import FrozenJFOFilm
-from .heat_rounds import FilmProfile, HeatRounds
-from .heated_state import FoundFilm, HeatedState, HeatRound, oil_and_cooling, state_fields
-from .walls import AdiabaticWalls, Walls
+from .jfo_film import JFOFilm
+from .jfo_losses import opening_flows, opening_pressure
+from .jfo_state import jfo_state
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

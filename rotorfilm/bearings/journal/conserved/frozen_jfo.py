@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ....films.conserved.conserved_film import ConservedFilm
-from ....films.conserved.fluidity import Fluidity
-from ...conserved.jfo_film import JFOFilm
+from ...films.conserved.conserved_film import ConservedFilm
+from ...films.conserved.fluidity import Fluidity
+from .jfo_film import JFOFilm
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....films.conserved.conserved_cells import FILM
-from ....films.conserved.conserved_film import ConservedFilm, ConservedState
-from .film_flow import FilmFlow, film_weight, in_cells, through
+from ...films.conserved.conserved_cells import FILM
+from ...films.conserved.conserved_film import ConservedFilm, ConservedState
+from ..heat.field.film_flow import FilmFlow, film_weight, in_cells, through
 
 
 def conserved_flow(film: ConservedFilm, state: ConservedState) -> FilmFlow:
