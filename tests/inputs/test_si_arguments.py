@@ -24,7 +24,7 @@ RESULTS = {
     "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
     "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
     "Reduction", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError", "SqueezeImpedance",
-    "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "StabilityChange", "TiltedPads", "Trajectory", "VariableCompliance", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
