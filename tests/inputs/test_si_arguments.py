@@ -24,7 +24,8 @@ RESULTS = {
     "DamperTurn", "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit",
     "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
     "Reduction", "RingContacts", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError",
-    "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory",
+    "VariableCompliance", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import ConvergenceError, InputError, require_finite, require_kind
+from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
 from ....native import Status
 from ....native.ball_kernel import BallsAt
@@ -17,6 +18,7 @@ from ...reaction import Called, input_vector
 from ..ball_element import BallElement
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class TurningBalls(Called):
     """A ball bearing, or a pair, with the angles of cage and shaft as states: a Reaction and a Dynamic.
