@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -110,10 +111,11 @@ class Sprung(InertialModel):
 
     def force_along(self, position: Array, velocity: Array, acceleration: Array) -> Array:
         """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `InertialModel`."""
-        if isinstance(self.reaction, InertialModel):
-            film = self.reaction.force_along(position, velocity, acceleration)
-        else:
+        along: Any = getattr(self.reaction, "force_along", None)
+        if along is None:
             film = self.reaction.force(position, velocity, 0.0)
+        else:
+            film = np.asarray(along(position, velocity, acceleration))
         return film - self.stiffness * position
 
     def native(self) -> NativeSpec | None:

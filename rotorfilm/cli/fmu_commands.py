@@ -48,8 +48,12 @@ def build(
     ),
     ssp: Annotated[bool, Option("--ssp", help="Write system.ssp too: film and rotor, connected.")] = False,
 ) -> Said:
-    """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it."""
+    """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it.
+
+    So is a rotor on a damper whose oil has mass.
+    """
     from ..scenes import Scene
+    from ..scenes.damper.export_damper import export_damped_rotor
     from ..scenes.export_scene import export_scene, export_scene_system
     from ..scenes.shaft.export_rotor import export_system
 
@@ -57,7 +61,8 @@ def build(
     whole = loaded.shaft is not None and not loaded.has_film
     if loaded.has_film and loaded.damper is None:
         loaded.film_table.make_map(report)
-    made = (export_system if whole else export_scene)(
+    heavy = loaded.damper is not None and loaded.damper.density > 0.0
+    made = (export_damped_rotor if heavy else export_system if whole else export_scene)(
         loaded,
         out,
         version=fmi.value,

@@ -64,11 +64,11 @@ class Counted(InertialModel):
 
     def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the added mass [kg], shape (2, 2, ...)."""
-        return self._reaction.mass(position, velocity)  # type: ignore[attr-defined,no-any-return]
+        return self._reaction.mass(position, velocity)  # type: ignore[attr-defined]
 
     def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
-        return self._reaction.mass_slopes(position, velocity)  # type: ignore[attr-defined,no-any-return]
+        return self._reaction.mass_slopes(position, velocity)  # type: ignore[attr-defined]
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the inertia of the reaction ends, at a frequency [rad/s]."""

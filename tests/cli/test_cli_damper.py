@@ -4,7 +4,17 @@ import json
 
 import pytest
 
-from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, synchronous_orbits
+from rotorfilm import (
+    EndSeal,
+    FiniteSqueeze,
+    FullFilm,
+    PorousCage,
+    PorousDamper,
+    RigidRotor,
+    Sprung,
+    SqueezeFilmDamper,
+    synchronous_orbits,
+)
 from rotorfilm.cli import damper_command as cli_damper, main as cli
 from rotorfilm.scenes.damper.damper_table import SQUEEZES
 
@@ -113,3 +123,22 @@ def test_help_shows_an_example_that_runs(run):
     code, out, _ = run(["damper", "--help"])
     assert code == 0
     assert "Example: rotorfilm damper" in out
+
+
+def test_seals_and_inertia(run):
+    flags = ("--full", "--film", "finite", "--density", "850 kg/m3", "--leakage", "1e-9 m2/(Pa s)", "--json")
+    code, out, _ = run(damper(("--thickness", "--permeability"), *flags, viscosity="4 mPa s"))
+    film = SqueezeFilmDamper(
+        radius=0.05,
+        length=0.025,
+        clearance=1e-4,
+        viscosity=4e-3,
+        density=850.0,
+        extent=FullFilm(),
+        film=FiniteSqueeze(),
+        seals=EndSeal(leakage=1e-9),
+    )
+    rotor = RigidRotor(mass=10.0, speed=400.0, unbalance=4e-4, gravity=(0.0, 0.0))
+    (orbit,) = synchronous_orbits(rotor, Sprung(reaction=film, stiffness=2.56e5)).at(4e-4)
+    assert code == 0
+    assert json.loads(out)["orbits"][0]["transmissibility"] == pytest.approx(orbit.transmissibility, rel=1e-9)

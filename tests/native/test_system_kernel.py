@@ -161,7 +161,7 @@ def test_steps_follow_an_independent_integration(unzipped, kind, steps):
 @pytest.mark.parametrize("damper", [SEALED, HEAVY], ids=["sealed", "ruptured"])
 def test_a_rotor_lighter_than_its_oil_follows_an_independent_integration(unzipped, damper):
     rotor = RigidRotor(mass=2.0, speed=400.0, unbalance=2e-4, position=(1e-5, 0.0), velocity=(0.0, 1e-3))
-    system, end = mount(rotor, {"": damper}), 0.01
+    system, end = mount(rotor, {"": damper}), 0.002
     client = unzipped(system).open(FMU2Slave).start(tolerance=1e-8)
     for k in range(20):
         client.step(k * end / 20, end / 20)

@@ -12,10 +12,13 @@ if TYPE_CHECKING:
         gap_seal as gap_seal,
         leak_test_seal as leak_test_seal,
     )
+    from .built.film_range import FULL_LIMITS, RUPTURED_LIMITS
+    from .built.judged_damper import JudgedDamper
     from .built.squeeze_impedance import (
         FilmSegment as FilmSegment,
         SegmentedDamper as SegmentedDamper,
         SqueezeImpedance as SqueezeImpedance,
+        land_share,
     )
     from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
     from .conserved.damper_supply import DamperSupply as DamperSupply

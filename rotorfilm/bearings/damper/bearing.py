@@ -25,10 +25,10 @@ from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.kernel_film import BoundKernel
 from ..films.law import options
 from ..reaction import NOMINAL_SPEED
+from .built.built_kernel import oil_bound, oil_spec
 from .built.end_seals import EndSeal
 from .built.film_range import warn_of_length, warn_of_short_seals
 from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm
-from .built.oil_kernel import oil_bound, oil_spec
 from .built.squeeze_inertia import SqueezeInertia
 from .cage import AxialFeed, PorousCage, RadialFeed
 from .damper_kernel import DIMENSIONS, damper_spec

@@ -13,12 +13,12 @@ from functools import cached_property
 from ...bearings.damper import (
     FiniteMapSqueeze,
     FiniteSqueeze,
+    JudgedDamper,
     MapSqueeze,
     PorousDamper,
     ShortSqueeze,
     SqueezeLaw,
 )
-from ...bearings.damper.built.judged_damper import JudgedDamper
 from ...bearings.films.cavitation import FullFilm
 from ...errors import InputError
 from ...rotors import RigidRotor

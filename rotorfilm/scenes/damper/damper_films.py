@@ -15,12 +15,12 @@ from ...bearings.damper import (
     FiniteMapSqueeze,
     FiniteSqueeze,
     JFODamper,
+    JudgedDamper,
     MapSqueeze,
     PorousDamper,
     ShortSqueeze,
     SqueezeLaw,
 )
-from ...bearings.damper.built.judged_damper import JudgedDamper
 from ...bearings.films.cavitation import FullFilm
 from ...bearings.sprung import Sprung
 from ...errors import InputError, RotorfilmError, ValidityWarning

@@ -79,6 +79,19 @@ def damper_models(scene: Scene) -> DamperScene:
 
 
 def damper_fmus(scene: Scene) -> SceneModels:
-    """Return the damper of a scene, springs included, and its rotor, at rest in the center."""
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center.
+
+    Raises
+    ------
+    InputError
+        As `damper_models`, and if the oil of the damper has mass.
+    """
+    if scene.damper is not None and scene.damper.density:
+        raise InputError(
+            "damper.density must be 0 for a damper apart from its rotor: an exchange of accelerations "
+            "diverges where the oil is heavier than the rotor; rotorfilm fmu build writes both as one "
+            "system.fmu, got "
+            f"{scene.damper.density!r}"
+        )
     models = damper_models(scene)
     return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from ...bearings.damper import PorousDamper, layer_modes
-from ...bearings.damper.built.squeeze_impedance import land_share
+from ...bearings.damper import PorousDamper, land_share, layer_modes
 from ...bearings.films.cavitation import FullFilm
 from ..journal.journal_remarks import ATMOSPHERE, NOTABLE
 from ..lubricant_table import Lubricant

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ...bearings.damper import PorousDamper, feed_squeeze_number
-from ...bearings.damper.built.film_range import FULL_LIMITS, RUPTURED_LIMITS
-from ...bearings.damper.built.squeeze_impedance import land_share
+from ...bearings.damper import FULL_LIMITS, RUPTURED_LIMITS, PorousDamper, feed_squeeze_number, land_share
 from ...bearings.films.cavitation import FullFilm
 from ...motion.circular.branches import synchronous_orbits
 from ...results import CircularOrbit

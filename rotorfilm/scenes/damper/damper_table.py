@@ -22,8 +22,8 @@ from ...bearings.damper import (
     ShortSqueeze,
     SqueezeLaw,
     aerated_damper,
+    land_share,
 )
-from ...bearings.damper.built.squeeze_impedance import land_share
 from ...bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ...bearings.sprung import Sprung
 from ...errors import InputError, ValidityWarning, require_non_negative

@@ -25,13 +25,18 @@ KERNEL = "oil_damper"
 class _OilDamper(Protocol):
     """What a damper says of itself."""
 
-    radius: float
-    length: float
-    clearance: float
-    viscosity: float
-    density: float
-    seals: EndSeal | None
-
+    @property
+    def radius(self) -> float: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def clearance(self) -> float: ...
+    @property
+    def viscosity(self) -> float: ...
+    @property
+    def density(self) -> float: ...
+    @property
+    def seals(self) -> EndSeal | None: ...
     @property
     def slenderness(self) -> float: ...
     @property
