@@ -113,7 +113,7 @@ def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent
         for name, error in _errors(bearing, load, speed).items():
             errors[name].append(error)
         report((number + 1) / (2 * states), "states")
-    last = {
+    last: dict[str, Reaction] = {
         CLOSED: _closed(bearings[0]),
         STATIC: replace(bearings[0], law=StaticBalls()),
         RUNNING: bearings[0],

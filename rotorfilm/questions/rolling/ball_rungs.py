@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import ErrorEstimate, Found, WorkUnit, beside_bound
+from ...answers import ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...bearings.rolling import BallBearing, RunningBalls, StaticBalls, palmgren_stiffness, stribeck_load
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
@@ -160,7 +160,7 @@ class FilmsRung(BallRung):
         error = self.question.own_bound(wet) + films
         return ErrorEstimate(error, f"{ANGLES}, films by load", bound=True)
 
-    def expected(self, done: dict[WorkUnit, int]) -> dict[WorkUnit, int]:
+    def expected(self, done: Work) -> Work:
         """Return the rests that it takes."""
         return {self.unit: 3}
 

@@ -50,8 +50,8 @@ INERTIAS = {"static": StaticBalls, "running": RunningBalls}
 def read_material(where: str, value: Any) -> RollingMaterial:
     """Read the name of a material, or its properties."""
     if isinstance(value, str):
-        return Named(MATERIALS)(where, value)  # type: ignore[no-any-return]
-    return Table(OWN_MATERIAL)(where, value)  # type: ignore[no-any-return]
+        return Named(MATERIALS)(where, value)
+    return Table(OWN_MATERIAL)(where, value)
 
 
 @takes(ARRANGEMENTS)
