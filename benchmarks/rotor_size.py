@@ -1,6 +1,6 @@
 """What the analyses of a flexible rotor cost over its number of elements, with ROSS beside if there.
 
-    python benchmarks/rotor_size.py
+    python benchmarks/rotor_size.py [CHART.png]
 
 The rotor of Friswell et al. (2010), section 5.9, on springs of 1 MN/m and 50 N s/m, CPU seconds on one core,
 the rotor made anew for each:
@@ -18,8 +18,10 @@ from __future__ import annotations
 
 import contextlib
 import io
+import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -45,9 +47,11 @@ COLUMNS = ("modes", "campbell", "critical", "unbalance", "threshold")
 def main() -> None:
     """Print the table."""
     solve(12)  # imports
+    own: dict[int, list[float]] = {}
     print("CPU [s]       " + "".join(f"{name:>11}" for name in COLUMNS) + f"{'error':>10}{'off':>10}")
     for count in SIZES:
         times, error = solve(count)
+        own[count] = times
         off = f"{all_coordinates(count):10.1e}" if count <= MOST_OF_ALL else f"{'':>10}"
         print(
             f"{count:5} elements" + "".join(f"{t:11.3f}" for t in times) + f"{error:10.1e}{off}", flush=True
@@ -57,6 +61,21 @@ def main() -> None:
             print("          ROSS" + "".join(f"{t:11.3f}" for t in beside), flush=True)
             ratios = [b / t for b, t in zip(beside, times, strict=False)]
             print("       / ours " + "".join(f"{r:11.1f}" for r in ratios), flush=True)
+    if len(sys.argv) > 1:
+        draw(own, sys.argv[1])
+
+
+def draw(own: dict[int, list[float]], path: str) -> None:
+    """Draw the times of the columns [s] over the number of elements."""
+    from rotorfilm.charts import new_figure, save
+
+    axes = new_figure(size=(6.4, 4.0)).subplots()
+    names = ("modes", "Campbell, 50 speeds", "critical speeds", "unbalance, 200 speeds", "threshold on films")
+    for name, times in zip(names, np.transpose(list(own.values())), strict=True):
+        axes.loglog(list(own), times, marker="o", label=name)
+    axes.set(xlabel="elements", ylabel="CPU time [s]", title="Cost of analyses over the size of a rotor")
+    axes.legend()
+    save(axes, Path(path))
 
 
 def shaft(count: int) -> ShaftRotor:

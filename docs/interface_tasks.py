@@ -12,9 +12,17 @@ TASKS = {
     "Ball bearings": ("bearings.rolling",),
     "Lubricated rolling contacts": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
+    "Seals, rings that are rubbed, cracks": (
+        "bearings.rub_ring",
+        "bearings.seal",
+        "motion.periodic.cracked_response",
+        "motion.transient.ring_contacts",
+        "rotors.cracked",
+    ),
     "Springs, tables, bearings of your own": (
         "bearings.linear",
         "bearings.own_reaction",
+        "bearings.parallel",
         "bearings.sprung",
         "bearings.tabulated",
     ),

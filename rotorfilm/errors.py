@@ -181,6 +181,15 @@ def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def keep_pair(rotor: object, name: str) -> None:
+    """Keep a field of two numbers as a tuple of floats; raise InputError where it is none."""
+    value = getattr(rotor, name)
+    pair = require_finite(name, value)
+    if pair.shape != (2,):
+        raise InputError(f"{name} must be a pair of numbers, got {value!r}")
+    object.__setattr__(rotor, name, tuple(pair.tolist()))
+
+
 def require_inside(position: NDArray[np.float64], clearance: float, when: str = "") -> None:
     """Raise FilmContactError unless the journal, at position (2, ...) [m], is inside the clearance [m].
 

@@ -26,6 +26,9 @@ TEXT = 200
 SHAFT_ELEMENTS = 500
 """Of a shaft. Its 4000 states make dense matrices of 128 MB, with a minute for the eigenvalues."""
 
+SEEDS = 2**31 - 1
+"""Largest seed of random numbers."""
+
 SPEEDS = 10_000
 """At which a shaft is looked at. Each is an eigenvalue problem, of a millisecond at the least."""
 

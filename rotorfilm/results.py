@@ -187,12 +187,15 @@ class Trajectory(Drawable):
         Counters of the work done: film evaluations, Jacobians, steps.
     units : dict of str to str
         SI unit of each signal, where it is known.
+    step_error : float or None [1]
+        Of a run on films that remember: the local errors of its steps, added up over the clearance.
     """
 
     time: Array
     signals: dict[str, Array]
     work: dict[str, int]
     units: dict[str, str] = field(default_factory=dict)
+    step_error: float | None = None
 
     def _own_units(self) -> dict[str, str]:
         return self.units
@@ -286,11 +289,7 @@ def to_plain(value: Any) -> Any:
 def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
     """Write columns of equal length as CSV, floats with nine digits, None as nothing; return the path.
 
-    Parameters
-    ----------
-    path : Path
-    columns : mapping of str to iterable
-        Heading, with the unit where there is one, and entries.
+    The keys of the columns are their headings, with the unit where there is one.
     """
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")

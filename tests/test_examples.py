@@ -15,6 +15,7 @@ from matplotlib.image import imread
 
 from rotorfilm.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
+from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -51,12 +52,20 @@ LAST_NUMBER = {
     "weak_motor.py": pytest.approx(1.0, abs=4e-3),
     # |H|^2 S; one record of eight seconds has some ten periods of the resonance's memory
     "shaken_rotor.py": pytest.approx(1.0, abs=0.15),
+    # steady full annular rub: |Z r + k_c (1 + i mu) (r - gap)| = u w^2
+    "rub.py": pytest.approx(1.0, abs=1e-6),
+    # twice the speed is the critical speed of the sound shaft, which the crack lowers by .2 %; steps of .67 %
+    "cracked_shaft.py": pytest.approx(1.0, abs=0.014),
+    "critical_run_up.py": pytest.approx(0.609, abs=0.01),
+    "earthquake.py": pytest.approx(1.089, abs=0.01),
     # the films carry the weight, in the mean over turns
     "rotor_system.py": pytest.approx(1.0, abs=2e-4),
     # the Sommerfeld number knows clearance and viscosity as viscosity / clearance^2 only
     "tolerances.py": pytest.approx(0.0, abs=1e-3),
     # the same by grids: the dam on 128 x 32 cells, the grooves on 192 x 16
     "which_bearing.py": pytest.approx(11.407, rel=5e-3),
+    # the cross-coupling as a bearing of its own, in the modes of the rotor
+    "api617.py": pytest.approx(1.0, abs=1e-6),
     # the synchronous coefficients are those of a small orbit
     "tilting_pads.py": pytest.approx(1.0, abs=3e-4),
     # whirl ratio of a lightly loaded full film: one half
@@ -71,6 +80,8 @@ LAST_NUMBER = {
     "ball_on_contact.py": pytest.approx(0.0163, abs=0.004),
     # a free rotor on springs of the balls' static stiffness
     "ball_bearing.py": pytest.approx(1.0, abs=0.005),
+    # the same with twice the elements: 4322.258 and 4793.781 rad/s
+    "spindle.py": pytest.approx(4322.258 / 4793.781, abs=2e-4),
     # implicit Euler makes exp(s t) decay at ln|1 - s dt|/dt: 6.0 for s of the published case, dt = .2, W = 1
     "rolling_ball.py": pytest.approx(6.0, rel=0.03),
     # short bearing, eps .2 at the threshold: the small cycle folds 1 % above it
@@ -140,6 +151,10 @@ def test_scene_file_loads_and_solves(path):
             asked = scene.solve()
         assert asked.met
         assert asked.error_estimate <= asked.tolerance
+    elif scene.shaft is not None and scene.shaft.compressor is not None:
+        found = solve_level_one(scene)
+        assert not found.level_two_required
+        assert found.anticipated_decrement < min(curve.log_decrement.max() for curve in found.curves)
     elif scene.shaft is not None:
         found = solve_rotor(scene)
         assert found.residual < 1e-9

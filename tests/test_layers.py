@@ -54,21 +54,22 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "rolling"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "seal"], ["rolling"]],
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
-    "rotors": [["shaft"], ["driven"]],
-    "linear": [["memory"], ["large", "search"]],
+    "bearings/rolling": [["cage"]],
+    "rotors": [["shaft"], ["driven", "cracked"]],
+    "linear": [["memory"], ["large", "search"], ["critical"], ["certified", "straight"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
-    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", "pads", *FURTHER]],
-    "questions": [["journal"], ["damper", "contact", "bush", "shaft", "pads"]],
-    "comparisons": [["journal", "contact", "coupling"], ["limits", "pads"]],
+    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", "pads", "rolling", *FURTHER]],
+    "questions": [["journal"], ["damper", "contact", "bush", "shaft", "pads", "rolling"]],
+    "comparisons": [["journal", "contact", "coupling"], ["limits", "pads", "rolling"]],
     "charts": [["comparisons"]],
     "cli": [["charts"]],
     "native": [["layouts"], ["pads"]],
@@ -77,10 +78,12 @@ PARTS = {
 }
 """The same among the folders of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "seal"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),
+    # The film between a ball and its race is that of a point contact on an ellipse.
+    ("rolling", "contact"),
 }
 
 SAME_NAME = {"bearing"}

@@ -6,7 +6,19 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, contacts, couplings, dampers, heated, journals, openings, padded, shafts, supplied
+from . import (
+    bushes,
+    contacts,
+    couplings,
+    dampers,
+    heated,
+    journals,
+    openings,
+    padded,
+    rolling,
+    shafts,
+    supplied,
+)
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -38,6 +50,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "lobes": (2, padded.lobes),
     "dam": (1, padded.dam),
     "tilting": (2, padded.tilting),
+    "ball bearing": (0, rolling.ball_bearing),
     "heated": (0, heated.heated),
     "supplied": (0, supplied.supplied),
 }

@@ -11,6 +11,9 @@ import numpy as np
 
 from rotorfilm.scenes import Scene
 
+ANGLES = ("attitude_angle", "contact_angle")
+"""Quantities whose tolerance is in radians."""
+
 
 class Truth(NamedTuple):
     """The reference value, and the relative error it may have itself."""
@@ -37,7 +40,7 @@ class Drawn:
         quantity = self.data["question"]["quantity"]
         if quantity == "unbalance_phase":
             return abs(math.remainder(float(gap), 2.0 * math.pi))
-        scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(np.asarray(truth) - self.zero)))
+        scale = 1.0 if quantity in ANGLES else float(np.max(np.abs(np.asarray(truth) - self.zero)))
         if scale == 0.0:  # a bush that does not wear
             return 0.0 if not np.any(gap) else math.inf
         return float(np.max(np.abs(gap))) / scale

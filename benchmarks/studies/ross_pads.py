@@ -1,6 +1,7 @@
 """Bearings made of pads by ROSS 3.1, isoviscous: places, coefficients and time of a point, as JSON.
 
     PYTHON_WITH_ROSS benchmarks/studies/ross_pads.py > benchmarks/results/ross_pads.json
+    PYTHON_WITH_ROSS benchmarks/studies/ross_pads.py lund_thomsen
 
 It needs nothing of rotorfilm; `benchmarks/pads.py` prints its figures beside ours. Forces are in viscosity
 length radius^3 speed / c_p^2, places in c_p, K and C over that force and c_p, loads along -y.
@@ -27,6 +28,27 @@ CASES = {
     "5 tilting, offset .6": ("tilting", (90, 162, 234, 306, 18), 60, 0.5, 0.0, 0.6, 0.6),
 }
 """Kind, directions of pivots or least films [deg], extent [deg], L/D, preload, offset, load."""
+
+LUND_THOMSEN = {
+    f"L/D {slenderness}, preload {preload}, S {S}": (
+        "fixed",
+        (90, 270),
+        160,
+        slenderness,
+        preload,
+        0.5,
+        1.0 / (math.pi * S),
+    )
+    for preload, slenderness, S in (
+        (0.5, 1.0, 0.211),
+        (0.5, 1.0, 0.120),
+        (0.0, 0.5, 0.917),
+        (0.0, 0.5, 0.379),
+        (0.0, 1.0, 0.635),
+        (0.0, 1.0, 0.159),
+    )
+}
+"""Rows of Lund & Thomsen (1978): elliptical bearings, and cylindrical ones with two grooves."""
 
 
 def arguments(case: tuple) -> tuple[dict, float]:
@@ -96,7 +118,8 @@ def main() -> None:
     import ross
 
     warnings.simplefilter("ignore")
-    found = {name: solved(case) for name, case in CASES.items()}
+    cases = LUND_THOMSEN if sys.argv[1:] == ["lund_thomsen"] else CASES
+    found = {name: solved(case) for name, case in cases.items()}
     told = {"version": ross.__version__, "elements": ELEMENTS, "cases": found}
     sys.stdout.write(json.dumps(told, indent=1) + "\n")
 

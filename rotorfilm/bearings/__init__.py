@@ -34,7 +34,10 @@ if TYPE_CHECKING:
     from .oil import Cooling as Cooling, Oil as Oil
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *
+    from .parallel import ParallelReaction as ParallelReaction
     from .rolling import *
+    from .rub_ring import RubContact as RubContact, RubRing as RubRing
+    from .seal import *
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

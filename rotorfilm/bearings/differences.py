@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,11 @@ ORDER = 6
 
 ROUNDOFF = 16.0 * np.finfo(float).eps
 """Error of values that are computed in some operations, relative to the largest."""
+
+
+def extrapolated_value(coarse: Any, fine: Any, order: int = 2) -> Any:
+    """Return what steps or cells without end would give, of an order; the first value is on half of them."""
+    return fine + (fine - coarse) / (2.0**order - 1.0)
 
 
 def differences(function: Callable[[Array], Array], state: Array, steps: Array) -> tuple[Array, Array]:

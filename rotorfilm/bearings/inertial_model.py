@@ -40,9 +40,9 @@ class _Heavy(Protocol):
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array: ...
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array: ...
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
 
 class InertialModel(StaticReaction):
@@ -54,7 +54,7 @@ class InertialModel(StaticReaction):
         forces = force_outputs(self.nominal_force)
         if not self.has_inertia:
             return forces
-        nominal = float(self.mass(np.zeros(2), np.array([1.0, 0.0]))[0, 0])
+        nominal = float(self.mass(np.zeros(2), np.array([1.0, 0.0]), 0.0)[0, 0])
         text = "added mass of the film, whose force on the journal is minus this times the acceleration"
         return (
             *forces,
@@ -79,13 +79,13 @@ class InertialModel(StaticReaction):
         force = self.force(values[:2], values[2:4], values[4])
         if not self.has_inertia:
             return force
-        return np.concatenate([force, self.mass(values[:2], values[2:4])[_ROWS, _COLUMNS]])
+        return np.concatenate([force, self.mass(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]])
 
     def linearization(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D."""
         values = input_vector(u)
         D = self.jacobian(values[:2], values[2:4], values[4])
         if self.has_inertia:
-            mass = self.mass_slopes(values[:2], values[2:4])[_ROWS, _COLUMNS]
-            D = np.vstack([D, np.hstack([mass, np.zeros((len(mass), 1))])])
+            mass = self.mass_slopes(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]
+            D = np.vstack([D, mass])
         return static_linearization(D)

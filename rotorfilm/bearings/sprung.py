@@ -83,19 +83,19 @@ class Sprung(InertialModel):
         """Whether the reaction adds the mass of its oil to the rotor."""
         return inertial(self.reaction) is not None
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass of the reaction [kg], shape (2, 2, ...), zeros without inertia."""
         heavy = inertial(self.reaction)
         if heavy is None:
             return np.zeros((2, *np.shape(position)))
-        return heavy.mass(position, velocity)
+        return heavy.mass(position, velocity, speed)
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
         heavy = inertial(self.reaction)
         if heavy is None:
-            return np.zeros((2, 2, 4, *np.shape(position)[1:]))
-        return heavy.mass_slopes(position, velocity)
+            return np.zeros((2, 2, 5, *np.shape(position)[1:]))
+        return heavy.mass_slopes(position, velocity, speed)
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the inertia of the reaction ends, for whirl at [rad/s].

@@ -10,6 +10,12 @@ if TYPE_CHECKING:
         plot_critical_speed as plot_critical_speed,
     )
     from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
+    from .certified_charts import (
+        plot_polar_response as plot_polar_response,
+        plot_separation_margins as plot_separation_margins,
+        plot_shaft_statics as plot_shaft_statics,
+        plot_stability_level_one as plot_stability_level_one,
+    )
     from .comparisons.bearing_type_charts import (
         plot_bearing_coefficients as plot_bearing_coefficients,
         plot_bearing_thresholds as plot_bearing_thresholds,
@@ -63,6 +69,11 @@ if TYPE_CHECKING:
         plot_question as plot_question,
         plot_result as plot_result,
         plot_trajectory as plot_trajectory,
+    )
+    from .rolling_charts import (
+        plot_ball_accuracy as plot_ball_accuracy,
+        plot_ball_curves as plot_ball_curves,
+        plot_compliance as plot_compliance,
     )
     from .rotor_charts import (
         plot_campbell as plot_campbell,

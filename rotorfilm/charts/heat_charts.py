@@ -115,11 +115,13 @@ def plot_heated_film(state: HeatedState, *, title: str = "") -> list[Axes]:
 def _field(axes: Axes, state: HeatedState, values: Array, label: str, colors: str) -> Axes:
     """Draw a field on its nodes, both halves of the bearing, and in white the edges of the full film."""
     angle, order = _around(state)
-    z = 1e3 * np.concatenate([-state.axial[:0:-1], state.axial])
+    # A node in the middle of the bearing is no part of the mirror image.
+    mirrored = slice(None, 0 if state.axial[0] == 0.0 else None, -1)
+    z = 1e3 * np.concatenate([-state.axial[mirrored], state.axial])
     sides = np.concatenate([z[:1], 0.5 * (z[1:] + z[:-1]), z[-1:]])
 
     def whole(half: Array) -> Array:
-        return np.concatenate([half[order, :0:-1], half[order]], axis=1).T
+        return np.concatenate([half[order, mirrored], half[order]], axis=1).T
 
     mesh = axes.pcolormesh(np.degrees(_bounds(angle)), sides, whole(values), cmap=colors)
     _color_bar(axes, mesh, label)

@@ -30,6 +30,8 @@ EXPLAINED = {
     "chart_journal": "Error of the force of every journal film over its cost; lower left is better.",
     "chart_limits": "Where each simplification stays within 10 %: green with all variants, yellow with some.",
     "chart_pads": "Error of the films of pads over their cost; lower left is better.",
+    "chart_rolling": "Ball bearings: loads, contact angles, stiffness over speed and preload, swing.",
+    "chart_rolling_ladder": "Error of the models of ball bearings over their cost; lower left is better.",
     "chart_stability": "Speed at the onset of whirl by every journal film, over where the journal rests.",
     "chart_whirl": "Whether each film tells a whirling from a resting journal, beside the reference.",
 }

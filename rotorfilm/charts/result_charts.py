@@ -19,8 +19,10 @@ from ..readable.quantities import label_of
 from ..readable.result import Drawable
 from ..results import Trajectory
 from .canvas import new_axes, new_figure
+from .certified_charts import plot_separation_margins, plot_shaft_statics, plot_stability_level_one
 from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
 from .damper_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
+from .rolling_charts import plot_compliance
 from .rotor_charts import plot_campbell
 from .whirl_charts import plot_orbit_curves, plot_periodic_orbit
 
@@ -164,6 +166,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "RotorAnswer": lambda result, axes: plot_campbell(
         result.campbell, critical=result.critical_speeds, axes=axes
     ),
+    "SeparationMargins": plot_separation_margins,
+    "ShaftStatics": plot_shaft_statics,
+    "StabilityLevelOne": plot_stability_level_one,
     "PeriodicOrbit": plot_periodic_orbit,
     "OrbitCurve": lambda result, axes: plot_orbit_curves({"orbits": result}, axes=axes),
     "SynchronousOrbits": _synchronous,
@@ -177,5 +182,6 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "DamperTurn": plot_damper_turn,
     "ContactRun": plot_contact_run,
     "QuestionAnswer": plot_question,
+    "VariableCompliance": plot_compliance,
 }
 """What draws a result, by the name of its class."""

@@ -130,7 +130,7 @@ def plot_unbalance_response(
     above, below = axes
     speeds = np.asarray(response.frequency) / RPM
     for name in displacements(response.output_labels) if outputs is None else outputs:
-        phasor = np.asarray(response.complex)[response.output_labels.index(name), 0]
+        phasor = np.asarray(response.frdata)[response.output_labels.index(name), 0]
         above.semilogy(speeds, np.abs(phasor) * 1e6, label=name)
         below.plot(speeds, np.degrees(np.unwrap(np.angle(phasor))), label=name)
     above.set(ylabel="amplitude [um]", title="Unbalance response")

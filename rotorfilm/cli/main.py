@@ -38,6 +38,8 @@ COMMANDS = {
     '--load "10 N" --sine 0.3 --frequency "12000 rad/s"; '
     "without dimensions: rotorfilm contact --v 0.1 --q0 5 --w 1 --step 0.7",
     "rotor_command.rotor": "rotor examples/flexible_rotor.toml --out pictures",
+    "rotor_command.stability_level_one": "stability-level-one examples/compressor.toml --out pictures",
+    "rotor_command.rotor_run": "rotor-run examples/earthquake.toml --out motion.csv",
     "sweep_command.sweep": 'sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
     '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc',
 }
@@ -54,6 +56,7 @@ CHARTS = {
     "charts.chart_commands.stability": "chart stability --ld 0.5 --json",
     "charts.pad_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
     "charts.pad_commands.pads": "chart pads --ld 0.5 --json",
+    "charts.rolling_command.rolling": "chart rolling --speed '30000 rpm'",
     "charts.chart_commands.contact": "chart contact --cells 48 --json",
     "charts.chart_commands.contact_cases": "chart contact-cases --cells 40",
     "charts.chart_commands.contact_limits": "chart contact-limits --json",

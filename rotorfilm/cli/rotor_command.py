@@ -1,4 +1,4 @@
-"""The command `rotorfilm rotor`: a flexible rotor in its bearings, from a scene file."""
+"""The commands `rotorfilm rotor` and `rotorfilm rotor-run`: a rotor in its bearings, from a scene file."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ import numpy as np
 from ..progress import Report
 from ..results import to_plain, write_csv
 from . import printing as console
-from .command import Argument, Option, Said
+from .command import Argument, Option, Said, SignalFile
 from .solve_command import remark_rows
 
 if TYPE_CHECKING:
+    from ..linear import StabilityLevelOne
+    from ..scenes.shaft.rotor_runs import RotorRun
     from ..scenes.shaft.solve_shaft import RotorAnswer
 
 RPM = 30.0 / math.pi
@@ -37,6 +39,39 @@ def rotor(
     if out is not None:
         write_rotor(answer, out)
     return Said(plain_rotor(answer), partial(console.print_rows, answer.title, rotor_rows(answer)))
+
+
+def stability_level_one(
+    scene: Annotated[Path, Argument(help="Scene file with a table shaft.compressor.", metavar="SCENE.toml")],
+    out: Annotated[
+        Path | None, Option(help="Folder for the chart (PNG), the curves (CSV) and the result (JSON).")
+    ] = None,
+) -> Said:
+    """Screen the stability of a compressor by API 617, level I: log decrement over applied cross-coupling."""
+    from ..scenes import Scene
+    from ..scenes.shaft.solve_compressor import solve_level_one
+
+    given = Scene.load(scene)
+    found = solve_level_one(given)
+    if out is not None:
+        write_level_one(found, out)
+    return Said(to_plain(found), partial(console.print_rows, given.title, found.to_rows()))
+
+
+def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
+    """Write chart, curves and JSON of an analysis into a folder, which is made if need be."""
+    from ..charts import plot_stability_level_one, save
+    from ..files import written_together
+
+    columns: dict[str, Any] = {}
+    for curve in found.curves:
+        columns[f"{curve.name} cross-coupling [N/m]"] = curve.cross_coupling.tolist()
+        columns[f"{curve.name} log decrement [1]"] = curve.log_decrement.tolist()
+        columns[f"{curve.name} frequency [rad/s]"] = curve.frequency.tolist()
+    with written_together(folder) as part:
+        save(plot_stability_level_one(found)[0], part / "stability_level_one.png")
+        write_csv(part / "stability_level_one.csv", columns)
+        console.write_json(part / "stability_level_one.json", to_plain(found))
 
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
@@ -116,3 +151,50 @@ def _sense(direction: float) -> str:
 
 def _without_nan(table: np.ndarray) -> list[list[float | None]]:
     return [[None if math.isnan(entry) else entry for entry in row] for row in table.tolist()]
+
+
+def rotor_run(
+    scene: Annotated[
+        Path, Argument(help="Scene file with a shaft, or a rigid rotor on a film.", metavar="SCENE.toml")
+    ],
+    report: Report,
+    out: SignalFile = None,
+) -> Said:
+    """Follow a rotor on its films over time: a run-up, a motor in place of its speed, ground that shakes.
+
+    Where a journal reaches the wall the motion until then is shown and written, and the command exits with 1.
+    """
+    from ..scenes import Scene
+    from ..scenes.shaft.rotor_runs import run_rotor
+
+    loaded = Scene.load(scene)
+    run = run_rotor(loaded, report)
+    if out is not None:
+        write_csv(out, {"time": run.trajectory.time, **run.trajectory.signals})
+    failure = None
+    if run.contact_time is not None:
+        failure = f"a journal reached the wall at {run.contact_time:.6g} s; what is shown ends there"
+    return Said(plain_rotor_run(run), partial(console.print_rows, loaded.title, rotor_run_rows(run)), failure)
+
+
+def plain_rotor_run(run: RotorRun) -> dict[str, Any]:
+    """Return a run as plain numbers."""
+    return {
+        "peaks": dict(run.peaks),
+        "end_speed": run.end_speed,
+        "contact_time": run.contact_time,
+        "end": float(run.trajectory.time[-1]),
+        "work": dict(run.trajectory.work),
+    }
+
+
+def rotor_run_rows(run: RotorRun) -> list[tuple[str, str]]:
+    """Return the rows that describe a run."""
+    calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in run.trajectory.work.items())
+    return [
+        ("to", f"{run.trajectory.time[-1]:.6g} s"),
+        ("speed at the end", f"{run.end_speed * RPM:.6g} rpm"),
+        *((f"largest displacement of {name}", f"{size * 1e6:.4g} um") for name, size in run.peaks.items()),
+        ("contact", "none" if run.contact_time is None else f"at {run.contact_time:.6g} s"),
+        ("work", calls),
+    ]

@@ -92,5 +92,15 @@ if TYPE_CHECKING:
         WhirlOutcome as WhirlOutcome,
         bearing_thresholds as bearing_thresholds,
     )
+    from .rolling.ball_accuracy import (
+        BallAccuracy as BallAccuracy,
+        BallModelRung as BallModelRung,
+        ball_accuracy as ball_accuracy,
+    )
+    from .rolling.ball_curves import (
+        BallCurves as BallCurves,
+        ball_curves as ball_curves,
+        usual_bearing as usual_bearing,
+    )
 else:
     show(__name__)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ from ..model import Array, Model, Stepped
 from ..native.spec import HasKernel
 from ..warming import in_time
 from .archive import to_zip
-from .description.dependencies import delayed_dependencies, dependencies
+from .description.dependencies import Dependencies, delayed_dependencies, dependencies
 from .description.model_description import Description, to_xml
 from .description.terminals import terminal_files
 from .description.variables import fmi_variables
@@ -36,9 +36,9 @@ from .export_rules import (
 from .narrow import as_exported
 from .native.native_backend import (
     CATEGORIES,
-    INTERFACES,
     Export,
     copyright_line,
+    interfaces_of,
     native_files,
     native_model_variables,
     native_tool,
@@ -81,7 +81,8 @@ def export_fmu(
     A model with a kernel in the C library becomes a native FMU: Model Exchange and Co-Simulation in one,
     with exact directional derivatives, its own sources, tunable parameters and a reference trajectory, and
     without need of Python. Any other becomes an FMI 2.0 Co-Simulation FMU that carries its Python source;
-    a Stepped model one whose outputs belong to the end of the last step.
+    a Stepped model one whose outputs belong to the end of the last step; with a kernel it is native too, for
+    Co-Simulation alone and without derivatives.
 
     Equal models give byte-identical files. Each signal is a structured variable `component.signal`, each
     state a local `component.state_signal`, settable before the simulation starts. A bearing and a rotor have
@@ -117,7 +118,7 @@ def export_fmu(
         Whether variables are named `signal` and `state_signal`, without the component.
     fixed_size : bool
         Whether radius and length of a plain journal bearing stay as they are: the FMU then carries the map of
-        their ratio in place of that over all, which makes it less than half as large.
+        their ratio in place of that over all, which makes it a fifth smaller.
 
     Returns
     -------
@@ -147,7 +148,7 @@ def export_fmu(
     subject = as_exported(subject) if native and isinstance(subject, Model) else subject
     inputs = np.array(list(start_values(subject, start or {}).values()))
     require_output(subject, inputs)
-    if native and spec is not None and isinstance(subject, Model):
+    if native and spec is not None:
         export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix)
         contents = _native_contents(export, step_size, author)
     else:
@@ -158,17 +159,17 @@ def export_fmu(
 
 def _native_contents(export: Export, step_size: float, author: str) -> dict[str, bytes]:
     """Return all files of a native FMU by path."""
-    variables = native_model_variables(export)
+    variables, model = native_model_variables(export), export.model
     times = np.linspace(0.0, export.stop_time, 7).tolist()
     description = Description(
         identifier=export.component,
         title=export.title,
         tool=native_tool(),
         copyright=copyright_line(),
-        interfaces=INTERFACES[export.version],
+        interfaces=interfaces_of(model, export.version),
         categories=CATEGORIES,
         variables=variables,
-        dependencies=dependencies(export.model, export.inputs, times),
+        dependencies=_dependencies(model, export.inputs, times),
         stop_time=float(export.stop_time),
         step_size=float(step_size),
         sources=source_names(),
@@ -204,7 +205,7 @@ def _python_contents(
         interfaces=PYTHON_INTERFACES,
         categories=PYTHON_CATEGORIES,
         variables=variables,
-        dependencies=dependencies(model, inputs) if isinstance(model, Model) else delayed_dependencies(model),
+        dependencies=_dependencies(model, inputs, (0.0,)),
         stop_time=float(stop_time),
         step_size=float(step_size),
         author=author,
@@ -212,6 +213,12 @@ def _python_contents(
     )
     guid = _guid({**contents, "xml": to_xml(description, Dialect2(), "")})
     return {**contents, "modelDescription.xml": to_xml(description, Dialect2(), guid)}
+
+
+def _dependencies(model: Model | Stepped, inputs: Array, times: Sequence[float]) -> Dependencies:
+    if isinstance(model, Stepped):
+        return delayed_dependencies(model)
+    return dependencies(model, inputs, times)
 
 
 def _guid(contents: Mapping[str, bytes]) -> str:

@@ -6,12 +6,13 @@ import csv
 import io
 import warnings
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
 
 from ..errors import FmuError
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Model, Stepped
 from .advance import advance
 from .linear_system import LinearSystem
 
@@ -24,7 +25,7 @@ SWINGS = 0.25 * 0.5 ** np.arange(12)
 keeps the model where it has outputs."""
 
 
-def reference_table(model: Model, start: Array, duration: float) -> Array:
+def reference_table(model: Model | Stepped, start: Array, duration: float) -> Array:
     """Return the table: columns time, inputs, outputs; the inputs of a row are held until the next row.
 
     Every input swings about its start value at a frequency of its own. The table ends early where the model
@@ -32,7 +33,7 @@ def reference_table(model: Model, start: Array, duration: float) -> Array:
 
     Parameters
     ----------
-    model : Model
+    model : Model or Stepped
     start : ndarray, shape (n_inputs,)
         Start values of the inputs.
     duration : float [s]
@@ -65,16 +66,18 @@ def reference_table(model: Model, start: Array, duration: float) -> Array:
     return np.array(best)
 
 
-def _rows(model: Model, time: Array, inputs: Array) -> list[Array]:
+def _rows(model: Model | Stepped, time: Array, inputs: Array) -> list[Array]:
     rows: list[Array] = []
-    state = np.asarray(model.initial_state, dtype=float) if isinstance(model, Dynamic) else np.zeros(0)
+    state: Any = None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for k, (t, u) in enumerate(zip(time, inputs, strict=True)):
             try:
-                if k:
-                    state = _moved(model, time[k - 1], state, inputs[k - 1], t - time[k - 1])
-                row = np.concatenate([[t], u, model.output(t, state, u)])
+                last = k - 1
+                state = (
+                    _moved(model, time[last], state, inputs[last], t - time[last]) if k else _begun(model, u)
+                )
+                row = np.concatenate([[t], u, _answered(model, t, state, u)])
             except Exception:
                 # Whatever ends a model ends its table.
                 break
@@ -84,7 +87,19 @@ def _rows(model: Model, time: Array, inputs: Array) -> list[Array]:
     return rows
 
 
-def _moved(model: Model, t: float, x: Array, u: Array, step: float) -> Array:
+def _begun(model: Model | Stepped, u: Array) -> Any:
+    if isinstance(model, Stepped):
+        return model.start(u)
+    return np.asarray(model.initial_state, dtype=float) if isinstance(model, Dynamic) else np.zeros(0)
+
+
+def _answered(model: Model | Stepped, t: float, state: Any, u: Array) -> Array:
+    return model.answer(state) if isinstance(model, Stepped) else model.output(t, state, u)
+
+
+def _moved(model: Model | Stepped, t: float, x: Any, u: Array, step: float) -> Any:
+    if isinstance(model, Stepped):
+        return model.step(x, t, u, step)[0]
     if isinstance(model, LinearSystem):
         return _moved_exactly(model, x, u, step)
     return advance(model, t, x, u, step, TOLERANCE) if isinstance(model, Dynamic) else x

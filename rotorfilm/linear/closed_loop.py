@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_kind
+from ..errors import EquilibriumError, InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, JournalForce, Model, Reaction, require_reaction
 from ..reactions.added_mass import inertial, require_turning
@@ -96,11 +96,15 @@ def _rotor(rotor: Dynamic, reaction: Reaction, at: Equilibrium, shaft: Operating
     motion = indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     state = checked_vector("x", shaft.x, len(rotor.states))
     matrices = rotor.linearization(0.0, state, checked_vector("u", shaft.u, len(rotor.inputs)))
-    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2)), force, motion)
+    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2), at.speed), force, motion)
     outputs = (*names(rotor.outputs), *INERTIA)
     return control_system(
         *whole, inputs=names(rotor.inputs), outputs=outputs, states=names(rotor.states), name="rotor"
     )
+
+
+CENTERED = "small_motion_transmissibility is that of a rotor which springs center in a damper"
+"""What an error says where there is no equilibrium."""
 
 
 @arguments
@@ -136,7 +140,12 @@ def transmissibility(
         If there is no equilibrium at one of the speeds.
     """
     frequencies = checked_speeds(speeds)
-    responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    try:
+        responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    except (EquilibriumError, InputError) as error:
+        if isinstance(error, EquilibriumError) or not np.any(load):
+            raise type(error)(f"{error}; {CENTERED}") from error
+        raise
     import control
 
     return control.FrequencyResponseData(

@@ -69,7 +69,7 @@ def coefficients(
         damping=damping,
         position=position,
         speed=speed,
-        mass=heavy.mass(position, np.zeros(2)),
+        mass=heavy.mass(position, np.zeros(2), speed),
     )
 
 

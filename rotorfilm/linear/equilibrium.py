@@ -20,6 +20,7 @@ from ..errors import (
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
+from ..reactions.noise import force_noise
 from ..results import Equilibrium
 from ..warming import Settling, Warming
 from .search.static_search import (
@@ -28,7 +29,7 @@ from .search.static_search import (
     StaticPoint,
     StaticTarget,
     continued_place,
-    place_tolerance,
+    is_found,
     search_place,
 )
 
@@ -83,14 +84,14 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     room = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
-    target = StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, room, lead)
+    target = StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film))
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
         best = search_place(target)
-        if at_rest and best.norm > place_tolerance(best.s):
+        if at_rest and not is_found(target, best):
             best = continued_place(target, best)
-    if best.norm > place_tolerance(best.s):
+    if not is_found(target, best):
         raise EquilibriumError(_why_not(load, speed, best))
     found = _result(film, load, target, best)
     return found if at_rest is None else at_rest.settled(found)

@@ -11,7 +11,7 @@ from ..bearings.inertial_model import InertialCoefficients
 from ..errors import InputError, require_number, require_positive
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
-from ..reactions.added_mass import inertial
+from ..reactions.added_mass import inertial, orbit_mass
 from ..readable.result import Readable
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
@@ -77,7 +77,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     heavy = inertial(reaction)
     if heavy is not None:
         heavy.require_range(speed)
-        swung = heavy.mass([radius, 0.0], [0.0, speed * radius])[:, 0] * speed**2 * radius
+        swung = heavy.mass([radius, 0.0], [0.0, speed * radius], speed)[:, 0] * speed**2 * radius
         radial, tangential = radial + swung[0], tangential + swung[1]
     return OrbitCoefficients(
         stiffness=float(-radial / radius),
@@ -152,11 +152,8 @@ def orbit_system(
     require_reaction("reaction", reaction, JournalForce, heavy=True)
     radius = orbit.eccentricity_ratio * reaction.clearance
     position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
-    film, added = reaction.jacobian(position, velocity, orbit.speed), None
-    heavy = inertial(reaction)
-    if heavy is not None:
-        slopes = heavy.mass_slopes(position, velocity)
-        added = heavy.mass(position, velocity), -(orbit.speed**2) * radius * slopes[:, 0]
+    film = reaction.jacobian(position, velocity, orbit.speed)
+    added = orbit_mass(reaction, position, velocity, orbit.speed)
     matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
     inputs = tuple(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
 from .large.remembered import motion_by_memory
 from .large.second_order import remembering, rest_near, small_motion
+from .large.work import COUNTS, counted, tally
 from .rotor_rest import RotorEquilibrium, rest
 
 _OSCILLATES = 1e-6
@@ -69,6 +70,9 @@ class RotorModes(Whirls, Readable):
         were.
     highest_frequency : float [rad/s]
         Up to which |s| the whirls are told; inf where all are.
+    work : dict of str to int
+        Rests of the rotor that were searched (equilibria); eigenproblems in the shapes kept; factorizations
+        of matrices of all coordinates.
     """
 
     speed: float
@@ -77,6 +81,7 @@ class RotorModes(Whirls, Readable):
     direction: Array
     error: float = 0.0
     highest_frequency: float = math.inf
+    work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
 def log_decrement(eigenvalues: ArrayLike) -> Array:
@@ -114,7 +119,9 @@ def rotor_modes(
     EquilibriumError
         If there is no equilibrium.
     """
-    return whirls_of(motions_at(rotor, bearings, speed, highest_frequency), highest_frequency)
+    with counted(*COUNTS) as work:
+        motions = motions_at(rotor, bearings, speed, highest_frequency)
+    return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
 
 class Motions(RotorModes):
@@ -129,7 +136,16 @@ def motions_at(
     speed = require_number("speed", speed)
     require_range(highest_frequency)
     known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
-    found = (_motions(model, bearings, speed, known_to) for model in models(rotor, known_to))
+    found = (
+        _motions(model, rest(model.structure, bearings, speed), known_to) for model in models(rotor, known_to)
+    )
+    return next(motions for motions in found if motions.error <= TOLERANCE)
+
+
+def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> Motions:
+    """Return the same about a rest that is known, with its K and C of the bearings."""
+    known_to = usual_frequency(rotor, at.speed)
+    found = (_motions(model, at, known_to) for model in models(rotor, known_to))
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
@@ -153,10 +169,9 @@ def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorMod
     )
 
 
-def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, known_to: float) -> Motions:
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> Motions:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    at = rest(model.structure, bearings, speed)
-    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(speed))]
+    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(at.speed))]
     shapes = np.hstack([part.shapes for part in parts])
     return Motions(
         speed=at.speed,
@@ -201,6 +216,7 @@ def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
 def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) -> _Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     system = small_motion(model.structure, at, band.frequency)
+    tally("eigenproblems")
     values, left, vectors = eig(system.state_matrix(), left=True)
     shapes = vectors[: len(system.mass)]
     whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,9 +17,10 @@ from ..rotors.stations import station_name
 from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
-from .large.driven import driven
+from .large.driven import DrivenResponse
 from .large.second_order import second_order, small_motion
 from .large.tilting import film_rows
+from .large.work import SOLVED, counted, with_work
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 
@@ -124,20 +126,23 @@ def base_response(
     Returns
     -------
     control.FrequencyResponseData
-        Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2.
+        Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2. With the
+        counters `work` of `unbalance_response`.
     """
     grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
     push = -s.mass @ translations(rotor)
     sense, labels = _outputs(rotor, at)
     responses = []
+    work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency in grid:
         moved = np.linalg.solve(small_motion(s, at, frequency).dynamic_stiffness(frequency), push)
         responses.append(sense @ np.concatenate([moved, 1j * frequency * moved]))
     import control
 
-    return control.FrequencyResponseData(
+    found = control.FrequencyResponseData(
         np.stack(responses, axis=-1), grid, inputs=list(BASE), outputs=labels, name="base_response"
     )
+    return with_work(found, work)
 
 
 @arguments
@@ -159,7 +164,8 @@ def unbalance_response(
     -------
     control.FrequencyResponseData
         Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as of `rotor_system`: phasors
-        at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl.
+        at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl. Its attribute `work` counts
+        equilibria searched, solutions in the shapes kept, and factorizations of all coordinates.
 
     Raises
     ------
@@ -169,22 +175,39 @@ def unbalance_response(
         If there is no equilibrium at one of the speeds.
     """
     require_flexible(rotor)
-    grid, s = checked_speeds(speeds), rotor.assembly
-    if not s.unbalance.any():
+    if not rotor.assembly.unbalance.any():
         raise InputError("rotor must have an unbalance, got none")
+    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
+    turning = np.array([[1.0], [-1.0j]])
+    loads = rotor.assembly.unbalance
+    return synchronous_response(rotor, bearings, speeds, loads, lambda speed: speed**2 * turning, "unbalance")
+
+
+def synchronous_response(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speeds: ArrayLike,
+    loads: Array,
+    amplitudes: Callable[[float], np.ndarray],
+    name: str,
+) -> control.FrequencyResponseData:
+    """Return the response to loads that turn with the shaft.
+
+    `loads` [N] has shape (N, m), the phasors of their amplitudes at each speed (m, 1).
+    """
+    grid = checked_speeds(speeds)
+    turned = DrivenResponse(rotor=rotor, bearings=bearings, loads=loads, highest_frequency=float(grid[-1]))
     responses = []
-    for speed in grid:
-        # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
-        force = speed**2 * s.unbalance @ np.array([[1.0], [-1.0j]])
-        at, motion = driven(rotor, bearings, float(speed), force, float(grid[-1]))
-        sense, labels = _outputs(rotor, at)
-        responses.append(sense @ motion)
+    with counted(*SOLVED) as work:
+        for speed in grid:
+            at, motion = turned.at(float(speed), amplitudes(float(speed)))
+            sense, labels = _outputs(rotor, at)
+            responses.append(sense @ motion)
     data = np.stack(responses, axis=-1)
     import control
 
-    return control.FrequencyResponseData(
-        data, grid, inputs=["unbalance"], outputs=labels, name="unbalance_response"
-    )
+    found = control.FrequencyResponseData(data, grid, inputs=[name], outputs=labels, name=f"{name}_response")
+    return with_work(found, work)
 
 
 @arguments
@@ -206,6 +229,7 @@ def rotor_transmissibility(
     control.FrequencyResponseData
         Inputs: `left_force_x` and so on, forces on the journals only. Outputs: `left_housing_force_x` and so
         on for each bearing, and for each support `left_ground_force_x`, its force on the ground [1].
+        With the counters `work` of `unbalance_response`.
 
     Raises
     ------
@@ -218,23 +242,26 @@ def rotor_transmissibility(
     grid, s = checked_speeds(speeds), rotor.assembly
     # A bearing pushes its housing back; an unbalance does not.
     push = s.journals if s.housings is None else s.journals + s.housings
+    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=push.T, highest_frequency=float(grid[-1]))
     responses, wanted = [], []
-    for speed in grid:
-        at, motion = driven(rotor, bearings, float(speed), push.T, float(grid[-1]))
-        sense, labels = _outputs(rotor, at)
-        wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
-        responses.append(sense[wanted] @ motion)
+    with counted(*SOLVED) as work:
+        for speed in grid:
+            at, motion = shaken.at(float(speed), np.eye(len(push)))
+            sense, labels = _outputs(rotor, at)
+            wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
+            responses.append(sense[wanted] @ motion)
     if not wanted:
         raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
     import control
 
-    return control.FrequencyResponseData(
+    found = control.FrequencyResponseData(
         np.stack(responses, axis=-1),
         grid,
         inputs=names(rotor.inputs),
         outputs=[labels[k] for k in wanted],
         name="transmissibility",
     )
+    return with_work(found, work)
 
 
 def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:

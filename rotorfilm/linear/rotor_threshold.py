@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -13,9 +13,12 @@ from scipy.optimize import brentq
 
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
+from ..progress import Report, silent
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
 from .large.remembered import require_all_growing
+from .large.value_error import value_error
+from .large.work import COUNTS, CountedTuple, counted
 from .rotor_modes import Motions, motions_at, oscillates, speeds_in_turn
 
 NEUTRAL = 1e-9
@@ -40,6 +43,10 @@ class RotorThreshold(Readable):
         As in `RotorModes`.
     reason : str
         Empty, or why there is no threshold.
+    speed_error : float or None [rad/s]
+        How far the speed may be off by the shapes that were left out, estimated; 0 where none were.
+    work : dict of str to int
+        As `RotorModes.work`.
     """
 
     speed: float | None = None
@@ -47,6 +54,8 @@ class RotorThreshold(Readable):
     whirl_ratio: float | None = None
     direction: float | None = None
     reason: str = ""
+    speed_error: float | None = None
+    work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,17 +72,20 @@ class StabilityChange(Readable):
     growing : int [1]
         How many eigenvalues grow beyond this speed, in the order searched: two of a whirl, one of a
         divergence. 0 where the rotor is stable again.
+    speed_error : float [rad/s]
+        As in `RotorThreshold`.
     """
 
     speed: float
     whirl_frequency: float
     direction: float
     growing: int
+    speed_error: float = 0.0
 
 
 @arguments
 def rotor_threshold(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
 ) -> RotorThreshold:
     """Return the first of a range of speeds at which a rotor on its films loses stability.
 
@@ -84,6 +96,9 @@ def rotor_threshold(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; stability lost and regained within one step
         goes unseen.
+    report : callable, optional
+        Told how far the search is, as the share of the speeds that are done and the next one: on films that
+        remember each takes seconds.
 
     Notes
     -----
@@ -91,8 +106,7 @@ def rotor_threshold(
 
     A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
     are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
-    estimated. The speed is off by that over the slope of Re s over the speed, which the result does not tell:
-    where growth hardly changes with the speed it may be far off.
+    estimated. The speed is off by the error of s over the slope of Re s over the speed, `speed_error`.
 
     On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
     grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
@@ -104,23 +118,27 @@ def rotor_threshold(
     """
     search = _Stability(rotor, bearings)
     grid = speeds_in_turn(speeds)
-    if search.growing(float(grid[0])):
-        return RotorThreshold(reason="unstable at the first speed given")
-    found = next(search.changes(grid), None)
+    with counted(*COUNTS) as work:
+        unstable = search.growing(float(grid[0])) > 0
+        found = None if unstable else next(search.changes(grid, report), None)
+    report(1.0, "")
     if found is None:
-        return RotorThreshold(reason="stable at every speed given")
+        reason = "unstable at the first speed given" if unstable else "stable at every speed given"
+        return RotorThreshold(reason=reason, work=dict(work))
     return RotorThreshold(
         speed=found.speed,
         whirl_frequency=found.whirl_frequency,
         whirl_ratio=found.whirl_frequency / abs(found.speed),
         direction=found.direction,
+        speed_error=found.speed_error,
+        work=dict(work),
     )
 
 
 @arguments
 def stability_changes(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
-) -> tuple[StabilityChange, ...]:
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
+) -> CountedTuple[StabilityChange]:
     """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
 
     Parameters
@@ -130,6 +148,13 @@ def stability_changes(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
         within one step goes unseen.
+    report : callable, optional
+        As in `rotor_threshold`.
+
+    Returns
+    -------
+    CountedTuple
+        A tuple of `StabilityChange` with the counters `work`.
 
     Notes
     -----
@@ -137,7 +162,10 @@ def stability_changes(
     to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
     speeds have the error of `rotor_threshold`.
     """
-    return tuple(_Stability(rotor, bearings).changes(speeds_in_turn(speeds)))
+    with counted(*COUNTS) as work:
+        found = list(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
+    report(1.0, "")
+    return CountedTuple(found, work)
 
 
 class _Growth(NamedTuple):
@@ -182,9 +210,15 @@ class _Stability(NamedTuple):
         require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
         return found
 
-    def changes(self, speeds: Array) -> Iterator[StabilityChange]:
+    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
         """Yield the changes of a grid of speeds in its order."""
-        for low, high in pairwise(self._counted(float(speed)) for speed in speeds):
+
+        def looked_at() -> Iterator[_Growth]:
+            for done, speed in enumerate(speeds.tolist()):
+                report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
+                yield self._counted(speed)
+
+        for low, high in pairwise(looked_at()):
             yield from self._between(low, high)
 
     def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:
@@ -210,13 +244,17 @@ class _Stability(NamedTuple):
         speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
         further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
         place, rise = further.places[k], further.rate(k) - NEUTRAL
+        slope = abs(rise / (further.motions.speed - speed))
         if rise > 0.0:
             speed -= NEUTRAL / rise * (further.motions.speed - speed)
         motions = further.motions
-        whirls = oscillates(motions.eigenvalues)[place]
+        whirls, value = oscillates(motions.eigenvalues)[place], complex(motions.eigenvalues[place])
+        change = value_error(self.rotor, self.bearings, motions.speed, value)
+        size = abs(value) + (0.0 if whirls else abs(motions.speed))
         return StabilityChange(
             speed=speed,
             whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
             direction=float(motions.direction[place]),
             growing=0,
+            speed_error=change / (size * slope) if change else 0.0,
         )

@@ -31,8 +31,17 @@ if TYPE_CHECKING:
         OrbitEvent as OrbitEvent,
         continue_orbits as continue_orbits,
     )
+    from .periodic.cracked_response import (
+        CrackedResponse as CrackedResponse,
+        cracked_response as cracked_response,
+    )
     from .periodic.hopf import HopfPoint as HopfPoint, hopf_point as hopf_point
     from .periodic.periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
+    from .transient.ring_contacts import RingContacts as RingContacts, ring_contacts as ring_contacts
     from .transient.simulate import simulate as simulate
+    from .variable_compliance import (
+        VariableCompliance as VariableCompliance,
+        variable_compliance as variable_compliance,
+    )
 else:
     show(__name__)

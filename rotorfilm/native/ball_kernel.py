@@ -11,7 +11,7 @@ from ..model import Array
 from .layouts.ball_structs import BallJournalStruct, BallsStruct, BallStruct
 from .library import loops
 
-DEGREES = 5
+DEGREES, SLOPES = 5, 8
 
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
@@ -23,8 +23,8 @@ class BallsAt(NamedTuple):
     ----------
     wrench : ndarray, shape (5,)
         Force and moment on the shaft.
-    slopes : ndarray, shape (5, 6)
-        Their derivatives by the motion and the speed.
+    slopes : ndarray, shape (5, 8)
+        Their derivatives by the motion, the speed, and the angles of cage and shaft.
     each : ndarray, shape (balls,)
         The numbers of rf_ball, as a structured array.
     status : int
@@ -67,6 +67,8 @@ class BallKernel:
     thrust : float or None [N]
         What z follows from; None where it is given.
     damping : float [N s/m]
+    waves : ndarray, shape (waves, columns)
+        The numbers of rf_ball_wave.
     """
 
     def __init__(
@@ -77,13 +79,16 @@ class BallKernel:
         place: tuple[float, float, float],
         thrust: float | None,
         damping: float,
+        waves: Array,
     ) -> None:
-        self._arguments = (rows, inertia, growth, place, thrust, damping)
+        self._arguments = (rows, inertia, growth, place, thrust, damping, waves)
         self.rows = np.ascontiguousarray(rows, dtype=float)
         self.count = int(self.rows[:, 5].sum())
-        self._balls = BallsStruct(self.rows.ctypes.data, len(self.rows), growth, inertia)
-        free = thrust is not None
-        self._journal = BallJournalStruct(self._balls, _three(place), thrust or 0.0, damping, free)
+        self._waves = np.ascontiguousarray(waves, dtype=float)
+        self._fixed = self.rows.ctypes.data, len(self.rows), growth, inertia
+        self._balls = self._turned(0.0, 0.0)
+        self._held = _three(place), thrust or 0.0, damping, thrust is not None
+        self._journal = BallJournalStruct(self._balls, *self._held)
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
 
@@ -102,30 +107,38 @@ class BallKernel:
         status = self._at(self._reference, _Five(*state), pair, ten, None)
         return pair[0], pair[1], ten[:], status
 
-    def axial_place(self, *state: float) -> tuple[float, int]:
-        """Return z [m] at x, y, vx, vy, speed, and a status."""
+    def axial_place(self, *state: float, cage: float = 0.0, shaft: float = 0.0) -> tuple[float, int]:
+        """Return z [m] at x, y, vx, vy, speed, with cage and shaft turned further [rad], and a status."""
         pair, z = _Two(), c_double()
-        status = self._at(self._reference, _Five(*state), pair, None, byref(z))
+        journal = BallJournalStruct(self._turned(cage, shaft), *self._held)
+        status = self._at(byref(journal), _Five(*state), pair, None, byref(z))
         return z.value, status
 
-    def at(self, motion: Array, speed: float) -> BallsAt:
-        """Return wrench, slopes and balls at a motion (5,)."""
+    def _turned(self, cage: float, shaft: float) -> BallsStruct:
+        return BallsStruct(*self._fixed, cage, shaft, self._waves.ctypes.data, len(self._waves))
+
+    def at(self, motion: Array, speed: float, cage: float = 0.0, shaft: float = 0.0) -> BallsAt:
+        """Return wrench, slopes and balls at a motion (5,), with cage and shaft turned further [rad]."""
         motion = np.ascontiguousarray(motion, dtype=float)
         wrench, slopes, each = (
             np.empty(DEGREES),
-            np.empty((DEGREES, DEGREES + 1)),
+            np.empty((DEGREES, SLOPES)),
             (BallStruct * self.count)(),
         )
         places = [one.ctypes.data for one in (wrench, slopes)]
-        status = loops()["rf_balls_at"](byref(self._balls), motion.ctypes.data, speed, *places, each)
+        balls = self._turned(cage, shaft) if cage or shaft else self._balls
+        status = loops()["rf_balls_at"](byref(balls), motion.ctypes.data, speed, *places, each)
         return BallsAt(wrench, slopes, np.ctypeslib.as_array(each), status)
 
-    def rest(self, load: Array, speed: float, start: Array) -> BallsRest:
-        """Return the equilibrium under a load (5,) on the shaft."""
+    def rest(
+        self, load: Array, speed: float, start: Array, cage: float = 0.0, shaft: float = 0.0
+    ) -> BallsRest:
+        """Return the equilibrium under a load (5,) on the shaft, with cage and shaft turned further [rad]."""
         load, motion = np.ascontiguousarray(load, dtype=float), np.array(start, dtype=float)
-        slopes, steps = np.empty((DEGREES, DEGREES + 1)), c_int32()
+        slopes, steps = np.empty((DEGREES, SLOPES)), c_int32()
         places = [one.ctypes.data for one in (motion, slopes)]
-        status = loops()["rf_balls_rest"](byref(self._balls), load.ctypes.data, speed, *places, byref(steps))
+        balls = self._turned(cage, shaft)
+        status = loops()["rf_balls_rest"](byref(balls), load.ctypes.data, speed, *places, byref(steps))
         return BallsRest(motion, steps.value, status)
 
 

@@ -68,6 +68,12 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_oil_outflow": [c_void_p] * 4,
     "rf_oil_film": [c_void_p, c_int, c_int, *[c_void_p] * 4],
     "rf_oil_response": [*[c_void_p] * 4, c_size_t, c_void_p, c_void_p],
+    "rf_oil_sums": [c_void_p] * 6,
+    "rf_sharpen_oil": [c_void_p, c_void_p, c_double, c_void_p, c_void_p],
+    "rf_oil_step": [c_void_p, c_void_p, c_double, c_void_p, c_double, c_void_p],
+    "rf_oil_rest": [c_void_p, c_void_p, c_double, c_void_p],
+    "rf_oil_begin": [c_void_p] * 4,
+    "rf_oil_travel": [c_void_p, c_double, c_void_p, c_double, *[c_void_p] * 3],
     "rf_recess_at": [c_void_p] * 4,
     "rf_recess_batch": [c_void_p, c_size_t, *[c_void_p] * 4],
     "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
@@ -82,6 +88,8 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_lobes_at": [c_void_p] * 4,
     "rf_springs_at": [c_void_p] * 4,
     "rf_sprung_at": [c_void_p] * 4,
+    "rf_rub_at": [c_void_p] * 4,
+    "rf_both_at": [c_void_p] * 4,
     "rf_oil_damper_at": [c_void_p] * 4,
     "rf_oil_damper_mass": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],
@@ -123,7 +131,7 @@ def loops() -> dict[str, Any]:
     """
     found = _typed(ctypes.CDLL, LOOPS, _LOOPS)
     found["rf_recess_least"].restype = c_double
-    found["rf_oil_outflow"].restype = None
+    found["rf_oil_outflow"].restype = found["rf_sharpen_oil"].restype = None
     return found
 
 

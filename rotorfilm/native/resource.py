@@ -16,14 +16,21 @@ from .spec import NativeSpec
 
 FILE_NAME = "rotorfilm.bin"
 MAGIC = b"RFILMRES"
-VERSION = 1
+VERSION = 2
+"""Since 2 a table may be stored in multiples of a quantum."""
 
 _HEADER = struct.Struct("<8sIIQ")  # magic, version, checksum of what follows the header, size of the file
 _MODEL = struct.Struct("<128s32sIIII")  # token, kernel, variables, tables, two reserved
 # role, index, flags, reserved, start, minimum, maximum, nominal, name
 _VARIABLE = struct.Struct("<IIII4d48s")
-_TABLE = struct.Struct("<32sIIIIIIQ")  # name, axes, four extents, reserved, offset in the file
+_TABLE = struct.Struct("<32sIIIIIIQ")  # name, axes, four extents, whether in quanta, offset in the file
 _TUNABLE = 1
+
+QUANTA = (1e-7, 1e-8)
+"""Units of tables that were rounded before they came here, as the map of the journal bearing is."""
+
+LARGE = 256
+"""Numbers of a table from which on its size matters."""
 
 
 class Role(IntEnum):
@@ -74,15 +81,15 @@ def pack(spec: NativeSpec, token: str, variables: Sequence[Variable]) -> bytes:
     tables = sorted(spec.tables.items())
     entries = b"".join(_variables(variables))
     offset = _HEADER.size + _MODEL.size + len(entries) + len(tables) * _TABLE.size
-    numbers = [np.asarray(table, dtype="<f8") for _, table in tables]
+    stored = [_stored(table) for _, table in tables]
     directory = b""
-    for (name, _), array in zip(tables, numbers, strict=True):
-        directory += _directory(name, array, offset)
-        offset += array.nbytes
+    for (name, table), (in_quanta, content) in zip(tables, stored, strict=True):
+        directory += _directory(name, np.shape(table), in_quanta, offset)
+        offset += len(content)
     head = _MODEL.pack(
         _text("token", token, 128), _text("kernel", spec.kernel, 32), len(variables), len(tables), 0, 0
     )
-    body = b"".join([head, entries, directory, *(array.tobytes() for array in numbers)])
+    body = b"".join([head, entries, directory, *(content for _, content in stored)])
     return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), _HEADER.size + len(body)) + body
 
 
@@ -109,9 +116,25 @@ def _variables(variables: Sequence[Variable]) -> Iterator[bytes]:
         seen[role] += 1
 
 
-def _directory(name: str, array: Array, offset: int) -> bytes:
-    extents = [*array.shape, 0, 0, 0, 0][:4]
-    return _TABLE.pack(_text("table", name, 32), array.ndim, *extents, 0, offset)
+def _directory(name: str, shape: tuple[int, ...], in_quanta: bool, offset: int) -> bytes:
+    extents = [*shape, 0, 0, 0, 0][:4]
+    return _TABLE.pack(_text("table", name, 32), len(shape), *extents, in_quanta, offset)
+
+
+def _stored(table: Array) -> tuple[bool, bytes]:
+    """Return whether a table is stored in quanta, and its bytes.
+
+    Those are 8 a number; or, where all are multiples of a quantum, exactly, the quantum and the third
+    differences of the multiples, modulo 2^32, first the lowest bytes of all: what zip makes small.
+    """
+    numbers = np.asarray(table, dtype="<f8")
+    for quantum in QUANTA if numbers.size >= LARGE else ():
+        multiples = np.rint(np.clip(numbers.ravel() / quantum, -(2**31), 2**31 - 1)).astype("<i4")
+        if (multiples * quantum).tobytes() == numbers.tobytes():
+            steps = np.diff(multiples, n=3, prepend=np.zeros(3, dtype="<i4"))
+            planes = np.ascontiguousarray(steps).view(np.uint8).reshape(-1, 4).T
+            return True, struct.pack("<d", quantum) + planes.tobytes()
+    return False, numbers.tobytes()
 
 
 def _text(what: str, text: str, size: int) -> bytes:

@@ -13,7 +13,7 @@ from ..errors import InputError
 
 @runtime_checkable
 class InertialReaction(Protocol):
-    """What a Reaction may add: F = force(position, velocity, speed) - mass(position, velocity) acceleration.
+    """What a Reaction may add: F = force(...) - mass(...) acceleration, both of position, velocity, speed.
 
     Its outputs then go on with MASS_OUTPUTS. A rotor takes the mass into its own: an exchange of
     accelerations diverges as soon as the oil is heavier than the rotor.
@@ -23,7 +23,7 @@ class InertialReaction(Protocol):
     def has_inertia(self) -> bool:
         """Whether there is a mass at all."""
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> NDArray[np.float64]:
         """Return the added mass [kg], shape (2, 2, ...), symmetric.
 
         Parameters
@@ -32,10 +32,14 @@ class InertialReaction(Protocol):
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s]
             Of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z.
         """
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
+    def mass_slopes(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the model of the inertia ends, for whirl at a frequency [rad/s].
@@ -51,6 +55,26 @@ def inertial(reaction: Any) -> InertialReaction | None:
     """Return a reaction with an added mass as such; None for one without."""
     heavy = isinstance(reaction, InertialReaction) and reaction.has_inertia
     return reaction if heavy else None
+
+
+def orbit_mass(
+    reaction: Any, position: NDArray[np.float64], velocity: NDArray[np.float64], speed: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """Return mass (2, 2, ...) [kg] and its slopes times -speed^2 position (2, 4, ...); None without inertia.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position, velocity : ndarray, shape (2, ...) [m], [m/s]
+        On circular orbits.
+    speed : float [rad/s]
+    """
+    heavy = inertial(reaction)
+    if heavy is None:
+        return None
+    by_motion = heavy.mass_slopes(position, velocity, speed)[:, :, :4]
+    slopes = np.einsum("ijk...,j...->ik...", by_motion, -(speed**2) * position)
+    return heavy.mass(position, velocity, speed), slopes
 
 
 def require_turning(reaction: Any, rotor: Any) -> None:
@@ -85,5 +109,5 @@ def require_massless(name: str, reaction: Any) -> None:
         raise InputError(
             f"{name} must not add its oil's mass to the rotor here, got {reaction!r}: simulate, "
             "synchronous_orbits, orbit_system, closed_loop, transmissibility and mount take that mass; "
-            "density 0 leaves it out"
+            "density 0 of a damper, added_mass=False of a seal leave it out"
         )

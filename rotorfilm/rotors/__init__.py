@@ -5,6 +5,15 @@ from typing import TYPE_CHECKING
 from ..sources import show
 
 if TYPE_CHECKING:
+    from .cracked.breathing import (
+        Breathing,
+        GaschHinge as GaschHinge,
+        MayesDaviesBreathing as MayesDaviesBreathing,
+        OpenCrack as OpenCrack,
+    )
+    from .cracked.crack_compliance import crack_compliance as crack_compliance
+    from .cracked.cracked_rotor import CrackedRotor as CrackedRotor
+    from .cracked.cracks import JeffcottCrack as JeffcottCrack, ShaftCrack as ShaftCrack
     from .driven.base_motion import (
         BaseMotion as BaseMotion,
         ShakenBaseRotor as ShakenBaseRotor,
@@ -31,6 +40,7 @@ if TYPE_CHECKING:
         LayeredElement as LayeredElement,
         ShaftElement as ShaftElement,
     )
+    from .shaft.modal_damping import ModallyDampedRotor as ModallyDampedRotor
     from .shaft.parts import (
         Disk as Disk,
         Probe as Probe,

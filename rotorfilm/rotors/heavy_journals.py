@@ -27,12 +27,12 @@ class HeavyJournals:
     bearings : sequence of Reaction
         One for each journal, those without mass too.
     motion : sequence of list of int
-        Places of x, y, vx, vy of each among the rotor's outputs.
+        Places of x, y, vx, vy, speed of each among the rotor's outputs.
     """
 
     def __init__(self, bearings: Sequence[Reaction], motion: Sequence[Sequence[int]]) -> None:
         self.heavy: list[InertialReaction | None] = [inertial(bearing) for bearing in bearings]
-        self.motion = [list(rows[:4]) for rows in motion]
+        self.motion = [list(rows) for rows in motion]
 
     def __bool__(self) -> bool:
         return any(bearing is not None for bearing in self.heavy)
@@ -77,9 +77,8 @@ class HeavyJournals:
         for k, (bearing, rows) in enumerate(zip(self.heavy, self.motion, strict=True)):
             if bearing is not None:
                 at = sensed[rows]
-                by_motion = np.einsum(
-                    "ijk,j->ik", bearing.mass_slopes(at[:2], at[2:]), rotor.C[rows[2:]] @ rates
-                )
+                by_place = bearing.mass_slopes(at[:2], at[2:4], at[4])
+                by_motion = np.einsum("ijk,j->ik", by_place, rotor.C[rows[2:4]] @ rates)
                 moved[2 * k : 2 * k + 2, :size] -= by_motion @ rotor.C[rows]
         joint = np.eye(len(mass)) + mass @ along @ push
         by_state = np.asarray(np.linalg.solve(joint, moved), dtype=float)
@@ -92,12 +91,12 @@ class HeavyJournals:
         for k, (bearing, rows) in enumerate(zip(self.heavy, self.motion, strict=True)):
             if bearing is not None:
                 own = slice(2 * k, 2 * k + 2)
-                mass[own, own] = bearing.mass(sensed[rows[:2]], sensed[rows[2:]])
+                mass[own, own] = bearing.mass(sensed[rows[:2]], sensed[rows[2:4]], sensed[rows[4]])
         return mass
 
     def _velocity(self, rotor: Linearization) -> Array:
         """Return the rows of the velocities of the journals, shape (2 n, n_states)."""
-        return np.concatenate([rotor.C[rows[2:]] for rows in self.motion])
+        return np.concatenate([rotor.C[rows[2:4]] for rows in self.motion])
 
 
 def with_mass(rotor: Linearization, mass: ArrayLike, force: list[int], motion: list[int]) -> Linearization:

@@ -51,6 +51,8 @@ class JeffcottRotor(FlexibleRotor):
     gravity : tuple of two floats [m/s2]
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
+    disk_station : str
+        Name of a station at the disk, as for a ring that it rubs in; empty for none.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class JeffcottRotor(FlexibleRotor):
     unbalance_angle: float = 0.0
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     initial: tuple[float, ...] = ()
+    disk_station: str = ""
 
     def __post_init__(self) -> None:
         for name in ("mass", "journal_mass", "stiffness"):
@@ -79,6 +82,8 @@ class JeffcottRotor(FlexibleRotor):
 
     def assembled(self) -> Structure:
         """Return the matrices of the rotor; node 0 is the disk, node 1 the journal."""
+        names = ("", self.disk_station) if self.disk_station else ("",)
+        places = np.array([[0.0, 1.0], [1.0, 0.0]])[: len(names)]
         spring = np.array([[1.0, -1.0], [-1.0, 1.0]])
         mass = np.diag([self.mass, self.journal_mass])
         inner = self.internal_damping * spring
@@ -90,12 +95,13 @@ class JeffcottRotor(FlexibleRotor):
             gyroscopic=np.zeros((4, 4)),
             stiffness=both_planes(self.stiffness * spring),
             circulation=across_planes(inner),
-            stations=("",),
-            journals=both_planes(np.array([[0.0, 1.0]])),
+            stations=names,
+            journals=np.concatenate([both_planes(row[None]) for row in places]),
             weight=np.kron(self.gravity, np.diag(mass)),
             unbalance=unbalance,
             coordinates=tuple(
                 Coordinate(f"{part}_{{}}", "m", NOMINAL_LENGTH) for part in ("disk", "journal")
             ),
-            readouts=displacements("disk", (0, 2), 4),
+            # A station of that name has these outputs itself.
+            readouts=() if "disk" in names else displacements("disk", (0, 2), 4),
         )

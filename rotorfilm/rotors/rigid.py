@@ -9,14 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import require_non_negative, require_number, require_positive
+from ..errors import keep_pair, require_non_negative, require_number, require_positive
 from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import MOTION_NAMES, Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
-from .structure import NOMINAL_LENGTH, Operators, Structure, keep_pair, unbalance_columns
+from .structure import NOMINAL_LENGTH, Operators, Structure, unbalance_columns
 
 NATIVE_PARAMETERS = {
     "mass": ("kg", "mass carried by this journal"),

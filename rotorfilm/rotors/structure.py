@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
-from ..errors import InputError, require_finite, require_kind, require_number
+from ..errors import InputError, keep_pair, require_finite, require_kind, require_number
 from ..model import Array, Linearization
 from ..signals import Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
@@ -255,15 +255,6 @@ def check_motion(rotor: FlexibleRotor) -> None:
     if len(rotor.initial) and state.shape != (size,):
         raise InputError(f"initial must be empty or {size} numbers, got shape {state.shape}")
     object.__setattr__(rotor, "initial", tuple(state.tolist()))
-
-
-def keep_pair(rotor: object, name: str) -> None:
-    """Keep a field of two numbers as a tuple of floats; raise InputError where it is none."""
-    value = getattr(rotor, name)
-    pair = require_finite(name, value)
-    if pair.shape != (2,):
-        raise InputError(f"{name} must be a pair of numbers, got {value!r}")
-    object.__setattr__(rotor, name, tuple(pair.tolist()))
 
 
 def both_planes(matrix: Array) -> Array:

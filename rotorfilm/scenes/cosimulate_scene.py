@@ -24,6 +24,7 @@ from ..cosim import (
     critical_macro_step,
 )
 from ..errors import ContactError, InputError
+from ..model import Stepped
 from ..native.spec import HasKernel
 from ..progress import Report, part_of, silent
 from ..readable.result import Readable
@@ -158,7 +159,8 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
 
     with tempfile.TemporaryDirectory() as folder:
         rotor, film = resting_rotor(scene), scene.bearing
-        native = isinstance(film, HasKernel) and film.native() is not None
+        # A film that remembers couples by the slopes of its force, which its FMU does not tell.
+        native = not isinstance(film, Stepped) and isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
         return cosimulate(
             rotor if fmus is None else fmus.rotor,

@@ -1,4 +1,4 @@
-"""`[excitation]`: what shakes the scene besides its steady load."""
+"""`[excitation]`: what shakes the scene besides its steady load, and what drives it."""
 
 from __future__ import annotations
 
@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ..errors import InputError, require_count, require_non_negative, require_number, require_positive
-from ..limits import SHAFT_ELEMENTS
+from ..limits import SEEDS, SHAFT_ELEMENTS
+from ..rotors.driven.base_motion import BaseMotion
+from ..rotors.driven.linear_motor import LinearMotor
 from ..rotors.profile import SpeedProfile
 from .reading.readers import Count, read_load
+from .reading.records import Record, read_record
+from .reading.shared_fields import made_from
 from .reading.tables import Quantity, flag
 
 
@@ -129,12 +133,100 @@ class SineLoadTable:
         require_positive("frequency", self.frequency)
 
 
-ExcitationTable = UnbalanceTable | BladeLossTable | RunUpTable | StepLoadTable | SineLoadTable
+@dataclass(frozen=True, kw_only=True)
+class MotorTable(UnbalanceTable):
+    """`[excitation] kind = "motor"`: an unbalance, and a motor that turns the rotor.
+
+    The rotor has `operation.speed` at t = 0.
+
+    Parameters
+    ----------
+    inertia : float [kg m2]
+        Polar moment of inertia of all that turns.
+    stall_torque : float [N m]
+        Torque at rest; it falls in a line to nothing at the idle speed.
+    idle_speed : float [rad/s]
+    resistance : float [N m s]
+        Torque per rad/s that resists.
+    """
+
+    inertia: Annotated[float, Quantity("kg.m2")]
+    stall_torque: Annotated[float, Quantity("N.m")]
+    idle_speed: Annotated[float, Quantity("rad/s")]
+    resistance: Annotated[float, Quantity("N.m.s/rad")] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_positive("inertia", self.inertia)
+        self.motor()
+
+    def motor(self) -> LinearMotor:
+        """Return the motor."""
+        return made_from(LinearMotor, self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GroundTable:
+    """`[excitation] kind = "ground"`: ground that shakes, and all housings with it.
+
+    Parameters
+    ----------
+    acceleration : tuple or None
+        Columns time [s], x and maybe y [m/s2]; linear between the times.
+    displacement : tuple or None
+        Columns time [s], x and maybe y [m]; the cubic spline through it, at rest at both ends.
+    spectrum : tuple or None
+        Columns frequency [rad/s] and one-sided spectral density per rad/s of the acceleration [m2/s3], the
+        same along x and along y.
+    scale : float [1]
+        By which the motion is multiplied.
+    seed : int
+        Of the random phases of a spectrum.
+    """
+
+    acceleration: Annotated[Record | None, read_record] = None
+    displacement: Annotated[Record | None, read_record] = None
+    spectrum: Annotated[Record | None, read_record] = None
+    scale: Annotated[float, Quantity("1")] = 1.0
+    seed: Annotated[int, Count(SEEDS, 0)] = 0
+
+    def __post_init__(self) -> None:
+        require_number("scale", self.scale)
+        given = [name for name in ("acceleration", "displacement", "spectrum") if getattr(self, name)]
+        if len(given) != 1:
+            raise InputError(f"one of acceleration, displacement and spectrum must be given, got {given}")
+        if self.spectrum is not None and len(self.spectrum) != 2:
+            raise InputError(f"spectrum must have 2 columns, got {len(self.spectrum)}")
+
+    @property
+    def end(self) -> float | None:
+        """Last time of a record [s]; None of a spectrum."""
+        record = self.acceleration or self.displacement
+        return None if record is None else record[0][-1]
+
+    def motion(self, duration: float) -> BaseMotion:
+        """Return the motion of the ground; that of a spectrum for so long [s]."""
+        if self.spectrum is not None:
+            omega, power = self.spectrum
+            density = [self.scale**2 * value for value in power]
+            return BaseMotion.from_spectrum(omega, density, duration=duration, seed=self.seed)
+        record = self.acceleration or self.displacement
+        assert record is not None
+        times, *rows = record
+        x, y = ([self.scale * value for value in row] for row in (*rows, ())[:2])
+        if self.displacement is not None:
+            return BaseMotion.from_displacement(times, x, y)
+        return BaseMotion(times=times, acceleration_x=tuple(x), acceleration_y=tuple(y))
+
+
+ExcitationTable = UnbalanceTable | BladeLossTable | RunUpTable | StepLoadTable | SineLoadTable | GroundTable
 EXCITATIONS = {
     "unbalance": UnbalanceTable,
     "blade_loss": BladeLossTable,
     "run_up": RunUpTable,
     "step": StepLoadTable,
     "sine": SineLoadTable,
+    "motor": MotorTable,
+    "ground": GroundTable,
 }
 """What may shake a scene, by name."""

@@ -20,6 +20,7 @@ FAMILIES = {
     "lobed_journal": "questions.pads.lobed_family",
     "pressure_dam": "questions.pads.dam_family",
     "tilting_pad": "questions.pads.tilting_family",
+    "ball_bearing": "questions.rolling.rolling_family",
 }
 """By the name of its table in a scene, the module of a family that has its record, `FAMILY`.
 

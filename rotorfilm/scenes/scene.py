@@ -64,8 +64,8 @@ class Scene:
         The oil and what cools it, and properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
-    excitation : UnbalanceTable, BladeLossTable, RunUpTable, StepLoadTable, SineLoadTable or None
-        What shakes it besides the steady load.
+    excitation : ExcitationTable or None
+        What shakes it besides the steady load, or drives it.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.
     question : QuestionTable or None

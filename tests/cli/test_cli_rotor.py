@@ -87,3 +87,63 @@ def test_what_shaft_and_films_leave_out_is_said(run, short):
         [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
     ]
     assert run("rotor", short)[1].count("left out") == 2
+
+
+COMPRESSOR = SCENE.with_name("compressor.toml")
+
+
+def test_stability_of_a_compressor(run, tmp_path):
+    code, out, _ = run("stability-level-one", COMPRESSOR, "--json", "--out", tmp_path / "out")
+    assert code == 0
+    found, widths = json.loads(out), (15.0, 14.0, 13.0, 12.0, 11.0)
+    gases = zip((5.0, 6.0, 7.2, 8.6, 10.3), (6.0, 7.2, 8.6, 10.3, 12.4), strict=True)
+    wanted = [
+        3.0 * 60e3 * 9.5493 / (400.0 * width * 4000.0) * after / before * 1e6
+        for width, (before, after) in zip(widths, gases, strict=True)
+    ]
+    assert found["stage_cross_coupling"] == pytest.approx(wanted, rel=1e-5)
+    assert found["margin"] == pytest.approx(found["zero_cross_coupling"] / sum(wanted), rel=1e-5)
+    assert found["critical_speed_ratio"] < 1.0
+    assert found["verdict"] == "acceptable: no analysis of level II is required"
+    assert [curve["name"] for curve in found["curves"]] == ["smallest clearance", "largest clearance"]
+    files = {f"stability_level_one.{ending}" for ending in ("png", "csv", "json")}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == files
+    assert json.loads((tmp_path / "out" / "stability_level_one.json").read_text()) == found
+    with (tmp_path / "out" / "stability_level_one.csv").open() as file:
+        heading, *rows = list(csv.reader(file))
+    assert heading[1] == "smallest clearance log decrement [1]"
+    assert [float(row[1]) for row in rows] == pytest.approx(found["curves"][0]["log_decrement"], rel=1e-8)
+
+
+def test_help_of_the_stability_has_an_example(run):
+    code, out, _ = run("stability-level-one", "--help")
+    assert code == 0
+    assert "examples/compressor.toml" in out
+
+
+def test_a_rotor_without_a_compressor_has_no_such_stability(run):
+    code, _, err = run("stability-level-one", SCENE)
+    assert code == 2
+    assert "shaft.compressor is required" in err
+
+
+def test_a_bad_compressor_names_its_key(run, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text(COMPRESSOR.read_text().replace('width = "13 mm"', 'width = "-13 mm"'))
+    code, _, err = run("stability-level-one", path)
+    assert code == 2
+    assert "shaft.compressor.impellers[2].width must be finite and positive" in err
+
+
+def test_a_run_over_time_is_followed_and_written(run, tmp_path):
+    quake = (SCENE.parent / "earthquake.toml").read_text(encoding="utf-8")
+    scene = tmp_path / "quake.toml"
+    rows = "[[0.0, 0.0], [0.02, 3.0], [0.04, 0.0]]"
+    scene.write_text(quake.replace('"earthquake.csv"', rows), encoding="utf-8")
+    code, out, _ = run("rotor-run", scene, "--json", "--out", tmp_path / "motion.csv")
+    assert code == 0
+    found = json.loads(out)
+    assert found["end"] == pytest.approx(0.04)
+    assert set(found["peaks"]) == {"left", "right", "disk"}
+    assert found["work"]["steps"] > 0
+    assert (tmp_path / "motion.csv").read_text(encoding="utf-8").startswith("time")

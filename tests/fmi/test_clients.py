@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal import JFOFilm, MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.cosim import Jacobi, critical_macro_step
@@ -21,7 +21,16 @@ from rotorfilm.rotors import RigidRotor, mount
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(mass=50.0, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
 PLANT = control.ss([[0.0, 1.0], [-400.0, -2.0]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
-MODELS = {"film": BEARING, "rotor": ROTOR, "plant": PLANT, "system": mount(ROTOR, {"": BEARING})}
+BATH = JFOFilm(
+    bearing=replace(BEARING, film=MapFilm()), cells=(16, 4), cavitation_pressure=-1e5, submerged=True
+)
+MODELS = {
+    "film": BEARING,
+    "rotor": ROTOR,
+    "plant": PLANT,
+    "system": mount(ROTOR, {"": BEARING}),
+    "bath": BATH,
+}
 
 
 def references(path):
@@ -52,6 +61,27 @@ def test_libcosim_gets_the_force_of_python(cosim, tmp_path):
     found = observer.last_real_values(index, [known["film.force_x"], known["film.force_y"]])
     expected = BEARING.force([3e-5, 0.0], [0.0, 0.0], 157.0)
     np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_libcosim_steps_a_film_that_conserves_its_oil(cosim, tmp_path):
+    from libcosimpy.CosimManipulator import CosimManipulator
+
+    execution_of, slave_of, observer_of = cosim
+    path = export_fmu(BATH, tmp_path / "film.fmu", component="film")
+    known = references(path)
+    execution = execution_of.from_step_size(step_size=1_000_000)
+    index = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name="film"))
+    observer, manipulator = observer_of.create_last_value(), CosimManipulator.create_override()
+    execution.add_observer(observer)
+    execution.add_manipulator(manipulator)
+    # It rests in the middle; from there the journal turns and goes to where it is held.
+    film = BATH.start([0.0] * 5)
+    for k, u in enumerate([[0.0] * 5, [3e-5, -6e-5, 0.0, 0.0, 157.0], [3e-5, -6e-5, 0.0, 0.0, 157.0]]):
+        manipulator.slave_real_values(index, [known[f"film.{s.name}"] for s in BATH.inputs], u)
+        assert execution.step(1)
+        film, output, _ = BATH.step(film, 1e-3 * k, u, 1e-3)
+    found = observer.last_real_values(index, [known[f"film.{s.name}"] for s in BATH.outputs])
+    np.testing.assert_allclose(found, output, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.closed_form

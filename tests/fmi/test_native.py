@@ -288,6 +288,7 @@ def test_what_belongs_into_an_fmu_is_there(version, tmp_path):
     path = export_fmu(BEARING, tmp_path / "a.fmu", version, component="bearing")
     with zipfile.ZipFile(path) as archive:
         entries = archive.namelist()
+        map_size = archive.getinfo("resources/rotorfilm.bin").compress_size
         page = archive.read("documentation/index.html").decode()
         csv = np.genfromtxt(
             io.BytesIO(archive.read("documentation/reference.csv")), delimiter=",", names=True
@@ -295,6 +296,7 @@ def test_what_belongs_into_an_fmu_is_there(version, tmp_path):
     assert entries == sorted(entries)
     assert {"documentation/licenses/rotorfilm.txt", "documentation/licenses/fmi.txt"} <= set(entries)
     assert "resources/rotorfilm.bin" in entries
+    assert map_size < 0.25 * BEARING.native().tables["coefficients"].nbytes
     extra = {"2.0": "model.png", "3.0": "terminalsAndIcons/terminalsAndIcons.xml"}
     assert extra[version] in entries
     assert "sources/buildDescription.xml" in entries or version == "2.0"

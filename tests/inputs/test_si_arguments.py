@@ -20,11 +20,12 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CountedMass", "CountedThreshold", "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn",
-    "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
-    "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
-    "Reduction", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError", "SqueezeImpedance",
-    "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "CountedMass", "CountedThreshold", "CouplingReport", "CrackedResponse", "CriticalMass", "CriticalSpeed",
+    "DamperTurn", "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit",
+    "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
+    "Reduction", "RingContacts", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError",
+    "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory",
+    "VariableCompliance", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

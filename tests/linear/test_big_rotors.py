@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from rotorfilm import InputError, ValidityWarning
+from rotorfilm import ConvergenceError, InputError
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
@@ -23,7 +23,8 @@ from rotorfilm.linear import (
     stability_changes,
     unbalance_response,
 )
-from rotorfilm.linear.large import banded, crossings
+from rotorfilm.linear.critical import crossings
+from rotorfilm.linear.large import banded
 from rotorfilm.linear.large.banded import BandedCholesky, BandedFactor
 from rotorfilm.linear.large.condensed import TOLERANCE, WHOLE, models, usual_frequency
 from rotorfilm.linear.large.defects import WholeRotor, seen_rows, whirl_errors
@@ -281,27 +282,30 @@ def test_critical_speeds_are_roots_of_the_whole_rotor(rotor):
 
 
 def test_critical_speeds_of_coarse_steps_are_those_of_fine_ones(monkeypatch):
-    """Whirls are counted: a step that misses one is halved. Few coordinates are solved per critical speed."""
+    """Steps are halved until all is proven. All coordinates are solved a few times per critical speed."""
     rotor = long_rotor(30)
     count = []
-    kept = crossings.whirl_near
-    monkeypatch.setattr(crossings, "whirl_near", lambda *a: count.append(1) or kept(*a))
+    kept = crossings.inverse_steps
+    large = len(rotor.assembly.weight)
+    monkeypatch.setattr(
+        crossings, "inverse_steps", lambda *a: count.append(a[0].mass.shape[0] == large) or kept(*a)
+    )
     fine = critical_speeds(rotor, FILMS, np.linspace(20.0, 700.0, 35))
-    assert len(count) <= 6 * len(fine)
+    assert len(fine) <= sum(count) <= 4 * len(fine)
     coarse = critical_speeds(rotor, FILMS, [20.0, 250.0, 700.0])
     assert_allclose([one.speed for one in coarse], [one.speed for one in fine], rtol=1e-8)
 
 
 @pytest.mark.parametrize("count", [6, 30])
-def test_an_interval_in_which_critical_speeds_may_be_missed_is_named(count):
+def test_an_interval_in_which_critical_speeds_are_not_proven_is_named(count):
     """Springs that stiffen a thousandfold at 200 rad/s: no whirl of one side is one of the other."""
     springs = np.array([1e5, 1e5, 1e8, 1e8])[:, None, None] * np.eye(2)
     speeds = [0.0, 200.0, 200.001, 800.0]
     film = TabulatedBearing(speeds=speeds, stiffness=springs, damping=[50.0 * np.eye(2)] * 4)
-    with pytest.warns(ValidityWarning, match=r"between 197\.727 and 201\.591 rad/s may be missed") as told:
-        found = critical_speeds(long_rotor(count), dict.fromkeys(FILMS, film), np.linspace(20.0, 700.0, 12))
-    assert len(told) == 1
-    assert not any(190.0 < one.speed < 210.0 for one in found)
+    with pytest.raises(ConvergenceError, match=r"and was not between (199\.99|200\.00).* rad/s") as told:
+        critical_speeds(long_rotor(count), dict.fromkeys(FILMS, film), np.linspace(20.0, 700.0, 12))
+    assert len(told.value.partial) > 0
+    assert all(one.speed < 200.0 for one in told.value.partial)
 
 
 def spun(**changes):

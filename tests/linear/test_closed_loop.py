@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm.bearings.damper import PorousDamper
 from rotorfilm.bearings.journal import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.linear import closed_loop, coefficients, equilibrium, transmissibility, whirl_threshold
@@ -131,3 +132,10 @@ def test_speed_too_low_for_the_load(bearing):
 def test_a_bare_position_is_refused(bearing):
     with pytest.raises(InputError, match=r"at must be an Equilibrium, .* got \(0.0, 0.0\)"):
         closed_loop(RigidRotor(mass=1.0, speed=1.0), bearing, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("load", [[0.0, 0.0], [0.0, -100.0]])
+def test_a_centered_damper_is_told_what_to_take(load):
+    damper = PorousDamper(radius=0.05, length=0.024, clearance=1e-4, viscosity=8e-3)
+    with pytest.raises((EquilibriumError, InputError), match="small_motion_transmissibility"):
+        transmissibility(RigidRotor(mass=20.0, speed=300.0), damper, load, [100.0, 200.0])

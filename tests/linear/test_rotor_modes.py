@@ -290,6 +290,10 @@ def test_threshold_of_internal_damping():
     onset = rotor_threshold(rotor, hard, np.linspace(100.0, 1000.0, 10))
     assert onset.speed == pytest.approx(2.5 * math.sqrt(2e5 / 3.0), rel=1e-5)
     assert onset.whirl_ratio == pytest.approx(0.4, rel=1e-5)
+    told = []
+    assert rotor_threshold(rotor, hard, [100.0, 200.0, 400.0, 900.0], report=lambda *one: told.append(one))
+    assert [fraction for fraction, _ in told] == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert told[1][1] == "what grows at 200 rad/s"
     assert rotor_threshold(rotor, hard, [100.0, 200.0]).reason == "stable at every speed given"
     assert rotor_threshold(rotor, hard, [800.0, 900.0]).reason == "unstable at the first speed given"
 

@@ -1,6 +1,7 @@
 """Flexible rotors on ball bearings that resist tilts: closed forms of a mass on a cantilever, balances."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -171,3 +172,61 @@ def test_what_does_not_fit_is_named() -> None:
         rf.TiltingBalls(bearing=rotor)
     with pytest.raises(InputError, match=r"place must have shape \(4,\)"):
         bearings["left"].tilting_force([0.0, 0.0])
+
+
+def spindle(bearing: rf.BallBearing | rf.BearingPair) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls]]:
+    """Return a spindle with a tool in its holder on two equal bearings."""
+    rotor = rf.ShaftRotor(
+        elements=rf.ShaftElement(length=0.32, outer_diameter=0.035, material=STEEL).split(4),
+        speed=0.0,
+        stations=tuple(
+            rf.Station(node=node, name=name, feels_tilt=True) for name, node in (("front", 1), ("rear", 3))
+        ),
+        disks=(rf.Disk(node=0, mass=1.2),),
+    )
+    return rotor, dict.fromkeys(("front", "rear"), rf.TiltingBalls(bearing=bearing))
+
+
+LOOSE = rf.BallBearing(
+    balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6, cage_angle=0.2
+)
+
+
+def test_critical_speeds_of_a_spindle_are_those_of_its_modes_in_either_sense_of_rotation() -> None:
+    rotor, bearings = spindle(PAIR)
+    found = rf.critical_speeds(rotor, bearings, np.linspace(2500.0, 4500.0, 4))
+    backward, forward = found
+    assert (backward.direction < -0.99, forward.direction > 0.99) == (True, True)
+    for one, number in ((backward, 0), (forward, 1)):
+        assert rf.rotor_modes(rotor, bearings, one.speed).frequency[number] == pytest.approx(
+            one.speed, rel=1e-7
+        )
+    reversed_ = rf.critical_speeds(rotor, bearings, -np.linspace(2500.0, 4500.0, 4))
+    assert sorted(-one.speed for one in reversed_) == pytest.approx([one.speed for one in found], rel=1e-5)
+
+
+def test_campbell_diagram_and_threshold_take_ball_bearings() -> None:
+    rotor, bearings = spindle(replace(PAIR, damping=300.0))
+    speeds = np.linspace(1000.0, 3000.0, 3)
+    lines = rf.campbell(rotor, bearings, speeds)
+    for k, speed in enumerate(speeds):
+        modes = rf.rotor_modes(rotor, bearings, speed).frequency[:4]
+        assert np.sort(lines.frequency[:4, k]) == pytest.approx(np.sort(modes), rel=1e-8)
+    # Ball bearings have next to no cross coupling: damping makes every whirl decay.
+    threshold = rf.rotor_threshold(rotor, bearings, speeds)
+    assert threshold.speed is None
+    assert threshold.reason == "stable at every speed given"
+
+
+def test_deep_groove_bearings_with_clearance_rest_on_some_of_their_balls() -> None:
+    rotor, bearings = spindle(LOOSE)
+    at = rf.rotor_equilibrium(rotor, bearings, 1000.0)
+    loads = np.array([at.loads["front"], at.loads["rear"]])
+    assert loads[:, 1].sum() == pytest.approx(-9.80665 * rotor.mass, rel=1e-8)
+    displacement = bearings["front"].displacement(at.coefficients["front"].position, 1000.0)
+    assert 1 <= LOOSE.loads(displacement, 1000.0).carrying < 5
+    # With next to no thrust the tilts are held by few balls: much lower than on balls that all carry.
+    modes = rf.rotor_modes(rotor, bearings, 1000.0).frequency[:2]
+    thrust = dict.fromkeys(("front", "rear"), rf.TiltingBalls(bearing=replace(LOOSE, axial_load=100.0)))
+    pressed = rf.rotor_modes(rotor, thrust, 1000.0).frequency[:2]
+    assert pressed[0] > 2.0 * modes[0]

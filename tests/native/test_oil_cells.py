@@ -17,13 +17,13 @@ def cells_of(seed, *, backward=False, fed=(), store=0.0, supplied=True):
         opening[3:5, :2], opening[9] = 0, 1
     count = 2 if supplied else 0
     return OilCells(
-        wedge=(-1.0 if backward else 1.0) * rng.uniform(0.5, 1.0, N),
-        around=rng.uniform(0.5, 2.0, N),
+        wedge=(-1.0 if backward else 1.0) * rng.uniform(0.5, 1.0, (N, M)),
+        around=rng.uniform(0.5, 2.0, (N, M)),
         along=rng.uniform(0.5, 2.0, N),
         store=store * rng.uniform(0.5, 1.0, N),
         width=rng.uniform(0.1, 0.4, M),
         conductance=rng.uniform(1.0, 4.0, (N, M)),
-        center=1.5 if supplied else 0.0,
+        center=rng.uniform(1.0, 2.0, N) if supplied else np.zeros(N),
         center_pressure=0.1,
         end_pressure=0.05 if supplied else 0.0,
         old=None,
@@ -101,13 +101,13 @@ def test_sets_have_time_to_move_along_the_bearing():
     lines, nodes = 4, 90
     still, one = np.zeros(lines), np.ones(lines)
     cells = cells_of(1, supplied=False)._replace(
-        wedge=still,
-        around=still,
+        wedge=still[:, None],
+        around=still[:, None],
         along=one,
         store=one,
         width=np.full(nodes, 1.0 / nodes),
         conductance=np.full((lines, nodes), 1.0 * nodes),
-        center=2.0 * nodes,
+        center=np.full(lines, 2.0 * nodes),
         center_pressure=10.0,
         old=np.full((lines, nodes), 0.5 / nodes),
         opening=np.full((lines, nodes), -1, dtype=np.int32),
@@ -120,6 +120,6 @@ def test_sets_have_time_to_move_along_the_bearing():
 
 def test_transport_without_a_supply_is_refused():
     cells = cells_of(1, supplied=False)
-    cells = cells._replace(along=np.zeros(N), wedge=np.ones(N))
+    cells = cells._replace(along=np.zeros(N), wedge=np.ones((N, 1)))
     with pytest.raises(ConvergenceError, match="is there any supply"):
         solve_oil(cells, np.zeros((N, M)), np.ones((N, M)), np.zeros((N, M)))

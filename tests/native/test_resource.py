@@ -64,3 +64,17 @@ def test_equal_content_gives_equal_bytes_and_long_names_are_cut_between_characte
     content = pack(SPEC, "t", (TIME, long))
     assert content == pack(SPEC, "t", (TIME, long))
     assert "ä".encode() * 23 + b"\0\0" in content
+
+
+def test_tables_that_were_rounded_take_half_the_room_and_others_keep_every_digit():
+    rng = np.random.default_rng(8)
+    smooth = np.cumsum(rng.integers(-900, 900, size=400))
+    rounded, rough = 1e-8 * smooth, rng.normal(size=400)
+    rounded[7], rounded[8] = 1e-8 * (2**31 - 1), -1e-8 * 2**31
+    beyond = rounded.copy()
+    beyond[9] = 1e-8 * 2**31
+    sizes = [
+        len(pack(NativeSpec(kernel="k", tables={"a": each}), "t", (TIME,)))
+        for each in (rounded, rough, beyond)
+    ]
+    assert sizes == [sizes[1] - 4 * 400 + 8, sizes[1], sizes[1]]

@@ -35,13 +35,16 @@ OPTIONS = ["-g1", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=
 
 
 def small_bearing():
-    """Return a bearing over a small table of five slendernesses, for files that are quick to damage."""
+    """Return a bearing over a small table of five slendernesses, for files that are quick to damage.
+
+    It is stored in quanta, as that of the package is.
+    """
     rng = np.random.default_rng(2)
     table = MapTable(
         slenderness_range=(0.2, 1.0),
         reach=3.0,
         log_center=rng.normal(size=10),
-        coefficients=0.1 * rng.normal(size=(10, 7, 7)),
+        coefficients=1e-8 * rng.integers(-30_000_000, 30_000_000, size=(10, 7, 7)),
     )
     return JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm(table))
 
@@ -107,7 +110,7 @@ def sealed(content):
 
 def damaged(good):
     """Return contents that no library may open."""
-    version = good[:8] + struct.pack("<I", 2) + good[12:]
+    version = good[:8] + struct.pack("<I", 1) + good[12:]
     yield from (good[:length] for length in (0, 7, 23, 24, 100, 200, 300, len(good) - 8, len(good) - 1))
     yield from (sealed(good[:length]) for length in (200, 300, 500, len(good) - 8))
     yield from (good + b"\0", version, b"RFILMMAP" + good[8:], good[:-1] + bytes([good[-1] ^ 1]))

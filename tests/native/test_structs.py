@@ -15,6 +15,7 @@ from rotorfilm.native.layouts import (
     heat_structs,
     master_structs,
     pad_structs,
+    run_structs,
     structs,
 )
 from rotorfilm.native.library import FOLDER
@@ -31,6 +32,7 @@ KINDS = {
         master_structs,
         pad_kernels,
         pad_structs,
+        run_structs,
         tilting_kernel,
     )
     for name, kind in inspect.getmembers(module, inspect.isclass)

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from rotorfilm import JFODamper
+from rotorfilm import JFODamper, damper_turn, simulate
 from rotorfilm.errors import InputError, SceneError
+from rotorfilm.questions.damper.conserved_peaks import _of_turn
+from rotorfilm.questions.registry import ladder_of
 from rotorfilm.scenes import read_scene
+from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_runs import run_damper
 
 SUPPLY = {
@@ -116,16 +119,63 @@ def test_a_run_conserves_its_oil():
     assert 0.1 < run.peak_eccentricity_ratio < 0.7
 
 
+LOST = {"kind": "blade_loss", "unbalance": "1000 g mm", "revolutions": 2}
+HOLES = {
+    "supply_pressure": "5 bar",
+    "feed_holes": [{"center": f"{at} deg", "diameter": "4 mm"} for at in (0, 120, 240)],
+}
+
+
+@pytest.mark.convergence
+@pytest.mark.filterwarnings("ignore:left out. inertia of the film")
+def test_peak_after_a_lost_blade_is_within_its_estimate():
+    damper = {**DAMPER, "supply": HOLES}
+    peak = scene(
+        quantity="blade_loss_peak",
+        damper=damper,
+        excitation=LOST,
+        rigid_rotor={"mass": "20 kg"},
+        tolerance="12 %",
+    )
+    answer = peak.ask()
+    assert answer.met
+    assert answer.model == "conserved oil 32 x 8, 48 steps"
+    models = damper_models(peak)
+    fine = dataclasses.replace(models.support, cells=(72, 16))
+    dt = 2.0 * np.pi / peak.speed / 128
+    run = simulate(models.rotor, fine, duration=models.duration, samples=513, max_step=dt)
+    truth = np.hypot(*run.position).max()
+    assert abs(answer.value / truth - 1.0) < answer.error_estimate < 0.08
+
+
+@pytest.mark.closed_form
+def test_orbit_past_holes_balances_the_film_that_is_stepped_along_it():
+    """m q'' = F + u omega^2 (cos, sin) in its first harmonic, F by `damper_turn` on the orbit itself."""
+    asked = scene("unbalance_amplitude", unbalance="300 g mm", damper={**DAMPER, "supply": HOLES})
+    rung, speed = ladder_of(asked).rungs[0], asked.speed
+    found = rung.follow(12 * 2.0 * np.pi / speed)
+    q = found.run.position[:, -48:]
+    film = dataclasses.replace(rung.damper, stiffness=0.0)
+    force = damper_turn(film, q, speed).force - 1e6 * q
+    wave = np.exp(-2j * np.pi * np.arange(1, 49) / 48)
+    place, pull = (both[0] + 1j * both[1] for both in (q, force))
+    balance = 20.0 * speed**2 * np.mean(place * wave) + np.mean(pull * wave)
+    assert abs(balance + 3e-4 * speed**2) < 0.02 * 3e-4 * speed**2
+    assert rung.found == pytest.approx(np.abs(place - place.mean()).max(), rel=2e-3)
+    both = sum(abs(np.mean(pull * one)) for one in (wave, wave.conj()))
+    transmitted = _of_turn(found, rung.rotor, "transmissibility", 1)
+    assert transmitted == pytest.approx(both / (3e-4 * speed**2), rel=0.02)
+
+
 def test_what_knows_no_supply_says_so():
-    lost = {"kind": "blade_loss", "unbalance": "1000 g mm", "revolutions": 2}
-    peak = scene(quantity="blade_loss_peak", excitation=lost, rigid_rotor={"mass": "20 kg"}, tolerance="5 %")
-    with pytest.raises(InputError, match=r"damper.supply must be left out for blade_loss_peak"):
+    named = {**DAMPER, "film": {"name": "short"}}
+    peak = scene("blade_loss_peak", excitation=LOST, rigid_rotor={"mass": "20 kg"}, damper=named)
+    with pytest.raises(InputError, match=r"damper.film must be left out beside supply for blade_loss_peak"):
         peak.solve()
     with pytest.raises(InputError, match=r"damper.supply must be left out for cosimulation_error"):
         scene(quantity="cosimulation_error").solve()
-    holes = {"supply_pressure": "1 bar", "feed_holes": [{"center": "0 deg", "diameter": "4 mm"}]}
-    with pytest.raises(InputError, match=r"supply.feed_holes must be left out .* damper_turn"):
-        scene(damper={**DAMPER, "supply": holes}).solve()
+    with pytest.raises(InputError, match=r"supply.feed_holes must be left out for a question about jumps"):
+        scene("jump_up", damper={**DAMPER, "supply": HOLES}).solve()
     for wrong, said in (
         ({"supply": {}}, "must have a supply above the pressure of its cavity"),
         ({"extent": {"kind": "full"}}, "extent must be left out beside supply"),

@@ -27,6 +27,7 @@ from rotorfilm.rotors import (
     Unbalance,
 )
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
+from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
 from rotorfilm.scenes.shaft.solve_shaft import campbell_columns, response_columns, solve_rotor
 
 RPM = math.pi / 30.0
@@ -215,7 +216,7 @@ def test_what_a_shaft_cannot_be_asked():
         ),
         (
             [SHAFT, SPEEDS, SPRINGS.replace('stiffness = "1 MN/m"\n', "")],
-            "journal, or else stiffness, is required",
+            "journal, or else stiffness or seal, is required",
         ),
         (
             [SHAFT, 'beam = "clasical"\n', SPEEDS, SPRINGS],
@@ -249,3 +250,76 @@ def test_a_peak_between_the_speeds_is_not_missed():
     fine = unbalance_response(rotor, bearings, np.linspace(100.0, 120.0, 401))
     k = fine.output_labels.index("large_y")
     assert answer.amplitudes["large_y"].max() == pytest.approx(np.abs(fine.complex[k, 0]).max(), rel=0.02)
+
+
+COMPRESSOR = """
+[shaft.compressor]
+speed = "9000 rpm"
+axial_stages = [{ power = "500 kW", diameter = "600 mm", height = "80 mm" }]
+nodes = [{ node = 2, share = 3 }, { node = 4 }]
+stage_speed = "150 Hz"
+"""
+
+
+def test_keys_of_a_compressor_and_of_dampings_arrive():
+    damped = 'mass_damping = 4\nstiffness_damping = "0.02 ms"\n'
+    skewed = DISKS.replace('"280 mm", inner', '"280 mm", skew = "0.01 deg", skew_angle = "90 deg", inner')
+    shaft = scene(HEAD, SHAFT, skewed, SPEEDS, damped, SPRINGS, COMPRESSOR).shaft
+    built = shaft.build()
+    assert (built.mass_damping, built.stiffness_damping) == (4.0, 2e-5)
+    assert_allclose([built.disks[0].skew, built.disks[0].skew_angle], [math.radians(0.01), math.pi / 2.0])
+    table = shaft.compressor
+    assert table.shares == {2: 3.0, 4: 1.0}
+    assert_allclose([table.speed, table.stage_speed], [9000.0 * RPM, 300.0 * math.pi])
+    wanted = 1.5 * 5e5 / (300.0 * math.pi * 0.6 * 0.08)
+    found = solve_level_one(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, COMPRESSOR))
+    assert found.anticipated_cross_coupling == pytest.approx(wanted)
+    assert found.average_density is None
+    assert set(table.cases(shaft.bearings)) == {"as given"}
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("node = 4 }", "node = 44 }"), r"compressor.nodes\[1\].node must be a node of the shaft, 0 to 6"),
+        (
+            ('axial_stages = [{ power = "500 kW", diameter = "600 mm", height = "80 mm" }]', ""),
+            "at least one",
+        ),
+        (('"9000 rpm"', '"-9000 rpm"'), "compressor.speed must be finite and positive"),
+        (("share = 3", "share = 0"), r"nodes\[0\].share must be finite and positive"),
+    ],
+)
+def test_a_bad_compressor(change, message):
+    with pytest.raises(SceneError, match=message):
+        scene(HEAD, SHAFT, SPEEDS, SPRINGS, COMPRESSOR.replace(*change))
+
+
+SEAL = """[[shaft.bearings]]
+name = "wear_ring"
+node = 3
+[shaft.bearings.seal]
+radius = "60 mm"
+length = "25 mm"
+clearance = "0.6 mm"
+pressure_drop = "6 bar"
+viscosity = "1 mPa s"
+density = 1000
+inlet_swirl = 0.4
+"""
+ASKED = '[question]\nquantity = "critical_speed"\ntolerance = "1 %"\n'
+
+
+@pytest.mark.filterwarnings("ignore:left out")
+def test_a_seal_holds_a_shaft_and_its_mass_is_said_to_be_left_out():
+    stiff = SPRINGS.replace("1 MN/m", "20 MN/m").replace("800 kN/m", "20 MN/m")
+    given = scene(HEAD, SHAFT.replace("50 mm", "90 mm"), DISKS, SPEEDS, stiff, SEAL, ASKED)
+    speeds, bearings = given.shaft.speeds, given.shaft.build_bearings()
+    own = bearings["wear_ring"]
+    assert not own.added_mass
+    assert own.inlet_swirl == 0.4
+    answer = given.solve()
+    expected = critical_speeds(given.shaft.build(), bearings, speeds.build())
+    assert_allclose(answer.value, expected[0].speed, rtol=1e-3)
+    mass = own.matrices(speeds.last).M
+    assert any(f"{mass:.3g} kg of the fluid are left out" in line for line in answer.remarks)

@@ -6,7 +6,11 @@ from ...sources import show
 
 if TYPE_CHECKING:
     from .ball_support import BallSupport as BallSupport
-    from .contact_law import ContactLaw as ContactLaw
+    from .contact_law import ContactLaw as ContactLaw, require_state_space
+    from .contact_stiffness import (
+        ContactStiffness as ContactStiffness,
+        dynamic_stiffness as dynamic_stiffness,
+    )
     from .film.checkerboard import checkerboard
     from .film.contact_grid import ContactGrid as ContactGrid
     from .film.contact_scheme import (
@@ -19,6 +23,7 @@ if TYPE_CHECKING:
         BarusViscosity as BarusViscosity,
         DowsonHigginsonDensity as DowsonHigginsonDensity,
         RoelandsViscosity as RoelandsViscosity,
+        roelands_viscosity,
     )
     from .film.small_motion import SmallMotion
     from .film.stationary import HERTZ_LOAD
@@ -29,6 +34,7 @@ if TYPE_CHECKING:
     from .moving_contact import MovingContact as MovingContact, moving_contact as moving_contact
     from .point_contact import PointContact as PointContact, perturbed as perturbed
     from .reduction import (
+        in_series,
         interpolate_contact as interpolate_contact,
         reduce_ball as reduce_ball,
         reduce_contact as reduce_contact,

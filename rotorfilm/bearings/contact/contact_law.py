@@ -62,12 +62,7 @@ class ContactLaw:
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "span", "exponent", "film_scale", "time_scale", "force_scale")
-        size = len(require_finite("A", self.A))
-        for name, shape in (("A", (size, size)), ("B", (size, 1)), ("C", (1, size)), ("D", (1, 1))):
-            if np.shape(getattr(self, name)) != shape:
-                raise InputError(f"{name} must have shape {shape}, got {np.shape(getattr(self, name))}")
-        if size and np.linalg.eigvals(self.A).real.max() >= 0.0:
-            raise InputError(f"A must be stable, got eigenvalues {np.linalg.eigvals(self.A)}")
+        require_state_space(self.A, self.B, self.C, self.D)
 
     @property
     def order(self) -> int:
@@ -207,3 +202,14 @@ def transfer(system: Linearization, s: np.ndarray) -> np.ndarray:
     """Return C (s - A)^-1 B + D of a system with one input and output, shape (n,)."""
     A, B, C, D = system
     return np.array([(C @ np.linalg.solve(v * np.eye(len(A)) - A, B.astype(complex)) + D)[0, 0] for v in s])
+
+
+def require_state_space(A: Array, B: Array, C: Array, D: Array) -> None:
+    """Raise InputError unless the matrices are of a stable system of one input and one output."""
+    size = len(require_finite("A", A))
+    wanted = {"A": (A, (size, size)), "B": (B, (size, 1)), "C": (C, (1, size)), "D": (D, (1, 1))}
+    for name, (matrix, shape) in wanted.items():
+        if np.shape(matrix) != shape:
+            raise InputError(f"{name} must have shape {shape}, got {np.shape(matrix)}")
+    if size and np.linalg.eigvals(A).real.max() >= 0.0:
+        raise InputError(f"A must be stable, got eigenvalues {np.linalg.eigvals(A)}")

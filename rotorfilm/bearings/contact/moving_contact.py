@@ -15,7 +15,7 @@ from ...errors import ConvergenceError, InputError, require_each, require_kind, 
 from ...inputs.kinds import arguments
 from ...model import Array
 from ...signals import Signal
-from .film.stationary import HERTZ_LOAD, stationary_at
+from .film.stationary import stationary_at
 from .motion.contact_state import level_of
 from .motion.contact_steps import FixedSteps, Stepper
 from .motion.levels import GivenMotion, Level
@@ -121,7 +121,7 @@ class MovingContact:
     def answer(self, state: Levels) -> Array:
         """Return (force_z, central_film, minimum_film) [N, m, m] of a state."""
         equations, newest = self.contact.equations, state[0]
-        load = equations.load(newest.pressure) / HERTZ_LOAD
+        load = equations.carried_load(newest.pressure)
         central = equations.central_film(newest.pressure, newest.delta)
         film = equations.film(newest.pressure, newest.delta)
         return np.array(

@@ -161,7 +161,9 @@ def _family(equations: ContactEquations) -> str:
         ]
     if equations.density is not None:
         fluid.append(f"{equations.density.pressure_ratio / equations.Q0:.9g}")
-    return _digest(repr((source_digest(__name__), equations.grid, equations.scheme, fluid)))
+    return _digest(
+        repr((source_digest(__name__), equations.grid, equations.scheme, equations.ellipse, fluid))
+    )
 
 
 def _digest(key: str) -> str:

@@ -1,4 +1,4 @@
-"""The dimensionless point contact of a ball on a plane, lubricated and elastic."""
+"""The dimensionless point contact of a ball on a plane or in a groove, lubricated and elastic."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from ...errors import (
     warn_user,
 )
 from ...inputs.kinds import arguments
+from ..ellipse import Ellipse, require_ellipticity
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
 from .film.contact_scheme import ContactScheme, UpwindScheme
@@ -45,6 +46,10 @@ class PointContact:
     contact; loads in the Hertzian load 2 pi p_H a^2/3. `RollingBall` converts from SI. Equations, accuracy
     and errata of the source: `docs/contact.md`.
 
+    A ball in a groove touches on an ellipse whose longer half-axis lies across the rolling. All units are
+    then made of the half-axis along it and of the radius R of curvature along it, and the Hertzian load is
+    2 pi ellipticity/3; lengths across, of the grid too, are in the longer half-axis.
+
     Parameters
     ----------
     V : float [1]
@@ -59,6 +64,8 @@ class PointContact:
         `BarusViscosity()` or `RoelandsViscosity(...)`.
     density : DowsonHigginsonDensity, optional
         Of the lubricant; incompressible by default.
+    ellipticity : float [1]
+        Longer over shorter half-axis of the dry contact; 1, a circle, by default.
 
     Raises
     ------
@@ -72,8 +79,10 @@ class PointContact:
     scheme: ContactScheme = field(default_factory=UpwindScheme)
     piezoviscosity: Piezoviscosity = field(default_factory=BarusViscosity)
     density: DowsonHigginsonDensity | None = None
+    ellipticity: float = 1.0
 
     def __post_init__(self) -> None:
+        require_ellipticity(self.ellipticity)
         require_positive("V", self.V)
         require_positive("Q0", self.Q0)
         kinds = {"grid": ContactGrid, "scheme": ContactScheme, "piezoviscosity": Piezoviscosity}
@@ -94,6 +103,7 @@ class PointContact:
             scheme=self.scheme,
             viscosity=self.piezoviscosity,
             density=self.density,
+            ellipse=Ellipse(float(self.ellipticity)),
         )
 
     def stationary(self, load: float = 1.0, near: ContactState | None = None) -> ContactState:
@@ -157,7 +167,7 @@ class PointContact:
         snapshots: Sequence[float] = (),
         keep: str | Path | None = None,
     ) -> ContactRun:
-        """Return the motion of a ball on the contact, W delta'' = integral of p - (2 pi/3) f(t).
+        """Return the motion of a ball on the contact, W delta'' = integral of p - (2 pi ellipticity/3) f(t).
 
         Parameters
         ----------
@@ -168,7 +178,7 @@ class PointContact:
         duration : float [1]
             Of the run as a whole.
         W : float [1]
-            Inertia of the ball, pi m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
+            Inertia of the ball, pi ellipticity m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
         load : float or callable
             f or f(t). A callable may list the times of its jumps in an attribute `breakpoints`; at one of
             them it is to return the value before the jump.
@@ -193,7 +203,8 @@ class PointContact:
             If the run cannot be saved on its way.
         """
         force = load if callable(load) else _Constant(require_number("load", load))
-        return self._run(start, BallMotion(W=W, load=force), duration, control, snapshots, keep)
+        motion = BallMotion(W=W, load=force, unit=self.equations.ellipse.load)
+        return self._run(start, motion, duration, control, snapshots, keep)
 
     def drive(
         self,

@@ -10,10 +10,9 @@ import numpy as np
 
 from ...errors import InputError, ValidityWarning, require_positive
 from ...inputs.kinds import arguments
-from ...model import Linearization
+from ...model import Array, Linearization
 from .between_points import point_between
 from .contact_law import ContactLaw, transfer
-from .film.stationary import HERTZ_LOAD
 from .operating_points import FREQUENCIES, LOADS, ContactPoint, kept_points, operating_point, under_load
 from .point_contact import ALTERNATING, PointContact
 from .rational_fit import fit_transfer
@@ -49,7 +48,8 @@ def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> 
         If the fitted damping is negative at some frequency, or the pressure alternates from cell to cell.
     """
     require_positive("load", load)
-    return _scaled(_law(operating_point(under_load(contact.equations, load)), order), load)
+    equations = under_load(contact.equations, load)
+    return _scaled(_law(operating_point(equations), equations.ellipse.load, order), load)
 
 
 @arguments
@@ -67,7 +67,7 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
     require_positive("load", load)
     equations = under_load(contact.equations, load)
     between = point_between(kept_points(equations), equations.V, equations.Q0)
-    law = _law(between.point, order)
+    law = _law(between.point, equations.ellipse.load, order)
     return _scaled(
         replace(
             law,
@@ -101,10 +101,38 @@ def in_si(ball: RollingBall, contact: PointContact, law: ContactLaw) -> ContactL
     )
 
 
-def _law(point: ContactPoint, order: int) -> ContactLaw:
-    """Return the law of a point, in its own units."""
+def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linearization, float]:
+    """Return force over approach of contacts in series beside the static one, and the error of its damping.
+
+    To first order in what films add to the stiffness k: Z = k + sum of share^2 (Z_c - Z_c(0)), where a
+    contact has the `share` k/k_c of the approach.
+
+    Parameters
+    ----------
+    laws : list of ContactLaw
+        In SI.
+    shares : ndarray, shape (n,)
+        Sum 1.
+    order : int
+        Of the result.
+    """
+    unit = max(law.time_scale for law in laws)
+    value = np.zeros(len(FREQUENCIES), dtype=complex)
+    for law, share in zip(laws, shares, strict=True):
+        s = 1j * FREQUENCIES * law.time_scale / unit
+        per = law.force_scale / law.film_scale
+        value -= share**2 * per * transfer(Linearization(law.A, law.B, law.C, law.D), s)
+    scale = float(np.max(abs(value)))
+    fit = fit_transfer(FREQUENCIES, value / scale, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST)).system
+    missed = (transfer(fit, 1j * FREQUENCIES) - value / scale).imag / FREQUENCIES
+    error = float(np.max(abs(missed)) / np.max(abs(value.imag / scale / FREQUENCIES)))
+    return Linearization(fit.A / unit, fit.B / unit, fit.C * scale, fit.D * scale), error
+
+
+def _law(point: ContactPoint, unit: float, order: int) -> ContactLaw:
+    """Return the law of a point in its own units, `unit` being the integral of the dry pressure."""
     static = fit_static_law(point.delta, np.array(LOADS))
-    change = -(point.stiffness[1:] - point.stiffness[0].real) / HERTZ_LOAD
+    change = -(point.stiffness[1:] - point.stiffness[0].real) / unit
     fit = fit_transfer(FREQUENCIES, change, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))
     law = ContactLaw(
         offset=static.offset,

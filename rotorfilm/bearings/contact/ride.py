@@ -12,6 +12,7 @@ from ...errors import ConvergenceError, require_number, require_positive, warn_u
 from ...inputs.kinds import arguments
 from ...model import Array, breakpoints
 from ...results import Trajectory
+from ..cubic import cubic
 from .contact_law import ContactLaw
 from .ride_steps import RideLaw
 
@@ -184,10 +185,5 @@ def _sampled(part: _Part, time: Array, first: bool) -> Array:
     before, after = part.y[k], part.y[k + 1]
     rows = np.asarray(before + share * (after - before), dtype=float)
     # Hermite, where rates are known: of the approach, the velocity.
-    s = share[:, 0]
-    rows[:, 0] = (
-        before[:, 0] * (1.0 + 2.0 * s) * (1.0 - s) ** 2
-        + after[:, 0] * s**2 * (3.0 - 2.0 * s)
-        + step * s * (1.0 - s) * (before[:, 1] * (1.0 - s) - after[:, 1] * s)
-    )
+    rows[:, 0], _ = cubic(before[:, 0], after[:, 0], step * before[:, 1], step * after[:, 1], share[:, 0])
     return rows

@@ -10,15 +10,15 @@ from ...errors import InputError, require_each, require_non_negative, require_nu
 from ...inputs.si_arguments import quantities
 from .film.contact_grid import ContactGrid
 from .film.contact_scheme import ContactScheme, UpwindScheme
-from .film.pressure_fluid import HIGGINSON_PRESSURE, BarusViscosity, DowsonHigginsonDensity, RoelandsViscosity
+from .film.pressure_fluid import (
+    HIGGINSON_PRESSURE,
+    BarusViscosity,
+    DowsonHigginsonDensity,
+    RoelandsViscosity,
+    roelands_viscosity,
+)
 from .film_formulas import HamrockDowson, Moes, moes_parameters
 from .point_contact import PointContact
-
-ROELANDS_PRESSURE = 1.96e8
-"""Reference pressure of Roelands' law [Pa]."""
-
-ROELANDS_SHIFT = 9.67
-"""Shift in ln(mu_0) + shift of that law, mu_0 in Pa s."""
 
 
 class PublishedFilms(NamedTuple):
@@ -195,11 +195,8 @@ class RollingBall:
         )
 
     def _roelands(self) -> RoelandsViscosity:
-        level = math.log(self.viscosity) + ROELANDS_SHIFT
-        exponent = self.pressure_coefficient * ROELANDS_PRESSURE / level if level > 0.0 else math.inf
-        if exponent > 1.0:
-            raise InputError(
-                "pressure_coefficient must give Roelands' law an exponent of at most 1, "
-                f"got {self.pressure_coefficient!r} with {exponent:.3g}"
-            )
-        return RoelandsViscosity(exponent=exponent, pressure_ratio=self.contact_pressure / ROELANDS_PRESSURE)
+        return roelands_viscosity(
+            viscosity=self.viscosity,
+            pressure_coefficient=self.pressure_coefficient,
+            pressure=self.contact_pressure,
+        )

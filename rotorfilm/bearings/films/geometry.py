@@ -198,12 +198,12 @@ class FilmGeometry:
         """Whether there is an opening that a supply feeds."""
         return bool(self.grooves or self.pockets or self.circumferential)
 
-    def require_whole_length(self, film: str) -> None:
-        """Raise InputError, naming the film that cannot, where an opening ends within the length."""
+    def require_whole_length(self, film: str, remedy: str = "ReynoldsFilm") -> None:
+        """Raise InputError, naming the film that cannot and one that can, of an opening within the length."""
         if self.pockets or self.circumferential:
             found = [*self.pockets, *["a circumferential groove"] * self.circumferential]
             raise InputError(
-                f"openings must run over the whole length for {film}, got {found}; take ReynoldsFilm"
+                f"openings must run over the whole length for {film}, got {found}; take {remedy}"
             )
 
     def openings(self) -> tuple[Span, ...]:

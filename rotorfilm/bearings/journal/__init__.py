@@ -5,19 +5,20 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
+    from ..differences import extrapolated_value
     from ..oil.heat_balance import heat_surplus
     from ..oil.heated_bearing import HeatedBearing as HeatedBearing
     from .arc_pressure import middle_pressure, tension
     from .bearing import JournalBearing as JournalBearing
     from .bearing_losses import bearing_losses, has_losses
     from .build_groove_map import build_groove_map as build_groove_map
+    from .conserved.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
     from .conserved.jfo_film import JFOFilm as JFOFilm
     from .conserved.jfo_state import JFOState as JFOState
     from .conserved.rupture_error import (
         RUPTURE_CELLS,
         RuptureError as RuptureError,
         both_films,
-        extrapolated_value,
         rupture_error as rupture_error,
     )
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
     from .grooves.openings import is_mappable
     from .heat.balanced_bearing import BalancedBearing as BalancedBearing
     from .heat.field.energy_film import MeanTemperature as MeanTemperature
-    from .heat.field.heated_film import FilmProfile, HeatedFilm as HeatedFilm
+    from .heat.field.heat_rounds import FilmProfile
+    from .heat.field.heated_film import HeatedFilm as HeatedFilm
     from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
     from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
     from .heat.field.walls import (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,11 +19,12 @@ from ...errors import (
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
-from ...native.layouts.ball_structs import ROW
+from ...native.layouts.ball_structs import ROW, WAVE
 from .ball_element import BallElement
 from .ball_law import BallLaw, RunningBalls
 from .elliptic_contact import EllipticContact
 from .rolling_material import RollingMaterial
+from .waviness import Waviness
 
 
 @quantities
@@ -67,6 +68,8 @@ class BallBearing(BallElement):
         Where the first ball is, from +x towards +y.
     damping : float [N s/m]
         Viscous damping beside the balls along x and y, as measured or assumed; dry contacts have none.
+    waviness : tuple of Waviness
+        Waves of the races; of the inner one at the angle 0 of the shaft, where that is not known.
 
     Raises
     ------
@@ -99,6 +102,7 @@ class BallBearing(BallElement):
     tilt: tuple[float, float] = (0.0, 0.0)
     cage_angle: float = 0.0
     damping: float = 0.0
+    waviness: tuple[Waviness, ...] = ()
 
     def __post_init__(self) -> None:
         require_count("balls", self.balls, 3)
@@ -116,6 +120,8 @@ class BallBearing(BallElement):
         for name in ("ball_material", "ring_material"):
             require_kind(name, getattr(self, name), RollingMaterial, "a RollingMaterial")
         require_kind("law", self.law, BallLaw, "RunningBalls() or StaticBalls()")
+        for number, wave in enumerate(self.waviness):
+            require_kind(f"waviness[{number}]", wave, Waviness, "a Waviness")
         self._require_films()
         self._require_one_of_both()
         self.require_place()
@@ -151,6 +157,20 @@ class BallBearing(BallElement):
         return self.law.inertia, self.growth
 
     @property
+    def cage_ratio(self) -> float:
+        """Speed of the cage over that of the shaft at the free contact angle."""
+        return 0.5 * (1.0 - self.ball_diameter / self.pitch_diameter * math.cos(self.free_contact_angle))
+
+    def turned(self, angle: float) -> BallBearing:
+        """Return the bearing with its cage turned further [rad]."""
+        return replace(self, cage_angle=self.cage_angle + angle)
+
+    @property
+    def waves(self) -> Array:
+        """Waves of the races as the compiled kernel reads them, shape (waves, columns)."""
+        return np.array([wave.numbers for wave in self.waviness]).reshape(-1, len(WAVE))
+
+    @property
     def separates(self) -> bool:
         """Whether this is an angular contact bearing, whose rings come apart under a thrust along -z."""
         return bool(self.contact_angle)
@@ -177,10 +197,15 @@ class BallBearing(BallElement):
     @cached_property
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
         """Inner and outer contact of a ball, at the free contact angle."""
-        cosine = math.cos(self.free_contact_angle)
+        return self.contacts_at(self.free_contact_angle, self.free_contact_angle)
+
+    def contacts_at(self, inner_angle: float, outer_angle: float) -> tuple[EllipticContact, EllipticContact]:
+        """Return inner and outer contact of a ball at these contact angles [rad]."""
         compliance = self.ball_material.compliance + self.ring_material.compliance
+        sides = (1.0, self.inner_conformity, inner_angle), (-1.0, self.outer_conformity, outer_angle)
         found = []
-        for side, conformity in ((1.0, self.inner_conformity), (-1.0, self.outer_conformity)):
+        for side, conformity, angle in sides:
+            cosine = math.cos(angle)
             race = 2.0 * cosine / (self.pitch_diameter - side * self.ball_diameter * cosine)
             groove = (2.0 - 1.0 / conformity) / self.ball_diameter
             found.append(

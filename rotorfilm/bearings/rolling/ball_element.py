@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +17,8 @@ from ...native.ball_kernel import DEGREES, BallKernel
 from ...native.layouts.ball_structs import ROW
 from ..kernel_reaction import KernelReaction
 from .ball_degrees import MOST_PRESSURE, BallDegrees
+
+_ROUNDOFF = 4e-16
 
 
 class BallElement(BallDegrees, KernelReaction):
@@ -33,11 +37,36 @@ class BallElement(BallDegrees, KernelReaction):
     def running(self) -> tuple[int, float]:
         """Inertia of the balls, of `BallLaw`, and growth of the inner rings [m]."""
 
+    @property
+    @abstractmethod
+    def waves(self) -> Array:
+        """Waves of the races as the compiled kernel reads them, shape (waves, columns)."""
+
+    @abstractmethod
+    def turned(self, angle: float) -> Self:
+        """Return the bearing with its cage turned further [rad]."""
+
     @cached_property
     def kernel(self) -> BallKernel:
         """The bearing in compiled code."""
         place = (self.axial_displacement, *self.tilt)
-        return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping)
+        return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping, self.waves)
+
+    @property
+    def pitch(self) -> float:
+        """Angle from ball to ball [rad]."""
+        return 2.0 * math.pi / float(self.rows[0, ROW.index("count")])
+
+    @property
+    @abstractmethod
+    def cage_ratio(self) -> float:
+        """Speed of the cage over that of the shaft at the free contact angle."""
+
+    @property
+    def tables(self) -> dict[str, Array]:
+        """Rows and waves as the kernels of FMUs read them."""
+        waves = self.waves
+        return {"rows": self.rows, "waves": waves if waves.size else np.zeros((1, waves.shape[1]))}
 
     def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
         """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
@@ -70,6 +99,13 @@ class BallElement(BallDegrees, KernelReaction):
     def nominal_force(self) -> float:
         """Typical force [N]: a tenth of what presses the most loaded ball to 4200 MPa."""
         return 0.1 * self.largest_load * float(self.rows[0, ROW.index("count")]) / 4.37
+
+    @property
+    def force_noise(self) -> float:
+        """What roundoff of places leaves of the force [N]: that of the groove centers, by all balls."""
+        stiffness = 1.5 * self.largest_load / sum(one.approach(self.largest_load) for one in self.contacts)
+        row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
+        return _ROUNDOFF * (row["inner"] + row["outer"]) * stiffness * row["count"] * len(self.rows)
 
     def require_place(self) -> None:
         """Raise InputError where the fields of the shaft break a rule."""
@@ -129,9 +165,7 @@ class BallElement(BallDegrees, KernelReaction):
             for name, unit, value, text in numbers
         )
         law = np.array([inertia, self.axial_load is not None], dtype=float)
-        return NativeSpec(
-            kernel="ball_bearing", parameters=parameters, tables={"rows": self.rows, "law": law}
-        )
+        return NativeSpec(kernel="ball_bearing", parameters=parameters, tables={**self.tables, "law": law})
 
     def report(self, status: int, state: tuple[float, ...]) -> None:
         """Raise, or warn, about a planar state that has this status."""

@@ -93,6 +93,20 @@ class BearingPair(BallElement):
         return self.bearing.running
 
     @property
+    def cage_ratio(self) -> float:
+        """Speed of the cages over that of the shaft, that of the bearing."""
+        return self.bearing.cage_ratio
+
+    def turned(self, angle: float) -> BearingPair:
+        """Return the pair with its cages turned further [rad]."""
+        return replace(self, bearing=self.bearing.turned(angle))
+
+    @property
+    def waves(self) -> Array:
+        """Waves of the races of both rows, those of the bearing."""
+        return self.bearing.waves
+
+    @property
     def separates(self) -> bool:
         """Whether both rows carry thrust of one direction only."""
         return self.bearing.separates and self.directions[0] == self.directions[1]

@@ -5,53 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 from ...errors import InputError, require_each, require_non_negative, require_positive
 from ...inputs.si_arguments import quantities
-
-
-class EllipticIntegrals(NamedTuple):
-    """Complete elliptic integrals of the parameter 1 - 1/ellipticity^2.
-
-    Attributes
-    ----------
-    first, second : float [1]
-        K and E.
-    share : float [1]
-        (K - E)/K, with its digits where the ellipse is nearly a circle.
-    """
-
-    first: float
-    second: float
-    share: float
-
-
-def elliptic_integrals(ellipticity: float) -> EllipticIntegrals:
-    """Return the complete elliptic integrals of an ellipse, by the arithmetic-geometric mean.
-
-    Parameters
-    ----------
-    ellipticity : float [1]
-        Longer over shorter axis, at least 1.
-
-    Raises
-    ------
-    InputError
-        If it is below 1.
-    """
-    require_positive("ellipticity", ellipticity)
-    if ellipticity < 1.0:
-        raise InputError(f"ellipticity must be at least 1, got {ellipticity!r}")
-    larger, smaller = 1.0, 1.0 / ellipticity
-    square, weight, share = (1.0 - smaller) * (1.0 + smaller), 0.5, 0.0
-    while square > 1e-24:
-        share += weight * square
-        half = 0.5 * (larger - smaller)
-        larger, smaller = 0.5 * (larger + smaller), math.sqrt(larger * smaller)
-        square, weight = half**2, 2.0 * weight
-    first = 0.5 * math.pi / larger
-    return EllipticIntegrals(first, first * (1.0 - share), share)
+from ..ellipse import EllipticIntegrals, curvature_ratio, elliptic_integrals
 
 
 @quantities
@@ -97,7 +54,7 @@ class EllipticContact:
         low, high = 1.0, ratio
         kappa = ratio**0.636  # Hamrock and Brewe (1983)
         for _ in range(200):
-            excess = _curvature_ratio(kappa) - ratio
+            excess = curvature_ratio(kappa) - ratio
             low, high = (low, kappa) if excess > 0.0 else (kappa, high)
             slope = 1.57 * ratio / kappa
             trial = kappa - excess / slope
@@ -145,9 +102,3 @@ class EllipticContact:
         """Return the load [N] under which the largest pressure [Pa] is this."""
         require_non_negative("pressure", pressure)
         return (pressure / self.pressure(1.0)) ** 3
-
-
-def _curvature_ratio(kappa: float) -> float:
-    """Return rho_x/rho_y = (kappa^2 E - K)/(K - E) of an ellipse; 1 of a circle."""
-    m, share = (1.0 - 1.0 / kappa) * (1.0 + 1.0 / kappa), elliptic_integrals(kappa).share
-    return kappa**2 * (m - share) / share if share > 0.0 else 1.0

@@ -145,8 +145,8 @@ class KernelPartner:
 
 
 def kernel_partner(model: Model) -> KernelPartner | None:
-    """Return a model by its kernel; None if it has none."""
-    spec = model.native() if isinstance(model, HasKernel) else None
+    """Return a model by its kernel; None if it has none, or one that steps by itself."""
+    spec = model.native() if isinstance(model, HasKernel) and isinstance(model, Model) else None
     if spec is None:
         return None
     found = KernelPartner(model, spec)

@@ -76,6 +76,25 @@ NATIVE = {
 }
 """What holds for every native FMU."""
 
+NATIVE_STEPPED = {
+    **NATIVE,
+    "Conventions": (
+        "Values are in SI units where a unit is given. The model integrates in time by itself. When "
+        "initialization ends it goes to the state that is stationary under the start values of the inputs. "
+        "Outputs belong to the end of the last step; inputs set after it act in the next one. Parameters may "
+        "be set between steps too. The state of the model is no list of variables: it goes through FMI as "
+        "one block of bytes, to the last bit."
+    ),
+    "Statuses": (
+        "A value that is not finite or out of its bounds, an attempt to set an output, and start values "
+        "without a stationary state (a journal at the wall) are errors, with the values in the log; the "
+        "instance works again after a reset or with a saved FMU state. A step that cannot be made, as one in "
+        "which the journal gets to the wall, is discarded: state, time and outputs stay those at its start. "
+        "With a state saved before it, it may be tried again, shorter or with other inputs."
+    ),
+}
+"""What holds for a native FMU of a model with its own integrator."""
+
 PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><title>{title}</title></head>

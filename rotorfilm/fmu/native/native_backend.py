@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import FmuError
-from ...model import Array, Dynamic, Model, Switched
+from ...model import Array, Dynamic, Model, Stepped, Switched
 from ...native.kernel_table import carried_library, kernel_row, kernel_texts
 from ...native.resource import FILE_NAME, pack
 from ...native.spec import NativeSpec
 from ...signals import Variable
 from ..archive import licenses
-from ..description.documentation import NATIVE, to_html
+from ..description.documentation import NATIVE, NATIVE_STEPPED, to_html
 from ..description.terminals import terminal_files
 from ..description.variables import fmi_variables, labelled, references, require_unique, structured_name
 from ..description.xml3 import build_description
@@ -58,12 +58,24 @@ INTERFACES = {
             **_BOTH3,
             "canHandleVariableCommunicationStepSize": "true",
             "hasEventMode": "true",
-            "providesIntermediateUpdate": "false",
-            "canReturnEarlyAfterIntermediateUpdate": "false",
+            "providesIntermediateUpdate": "true",
+            "canReturnEarlyAfterIntermediateUpdate": "true",
         },
     },
 }
 """What the C library can do, as each FMI version spells it."""
+
+
+def interfaces_of(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:
+    """Return what the C library can do with a model: one that steps by itself has Co-Simulation alone."""
+    every = INTERFACES[version]
+    if not isinstance(model, Stepped):
+        return every
+    own = {
+        name: "false" if "Derivatives" in f"{name}s" else yes for name, yes in every["CoSimulation"].items()
+    }
+    return {"CoSimulation": own}
+
 
 CATEGORIES = {
     "logStatusWarning": "A state where the model is less accurate.",
@@ -85,7 +97,7 @@ class Export(NamedTuple):
 
     Attributes
     ----------
-    model : Model
+    model : Model or Stepped
     spec : NativeSpec
         Its kernel.
     component : str
@@ -104,7 +116,7 @@ class Export(NamedTuple):
         What stands before the dot of each variable; empty where names are flat.
     """
 
-    model: Model
+    model: Model | Stepped
     spec: NativeSpec
     component: str
     title: str
@@ -209,7 +221,8 @@ def _build(export: Export) -> bytes:
 
 
 def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
-    texts = {**kernel_texts(export.spec.kernel), **NATIVE}
+    general = NATIVE_STEPPED if isinstance(export.model, Stepped) else NATIVE
+    texts = {**kernel_texts(export.spec.kernel), **general}
     rows = [f"{p.name} = {p.value!r} {p.unit}: {p.description}" for p in export.spec.parameters]
     tables = [f"{name}: table of shape {np.shape(table)}" for name, table in export.spec.tables.items()]
     return to_html(export.title, variables, texts, "\n".join([*rows, *tables]))

@@ -18,7 +18,11 @@ SLAVE = f"{PACKAGE}.fmu.python.slave"
 STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
 API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
-LIBRARY = {f"{PACKAGE}.native", f"{PACKAGE}.bearings.films.conserved.stepped_film"}
+LIBRARY = {
+    f"{PACKAGE}.native",
+    f"{PACKAGE}.bearings.films.conserved.stepped_film",
+    f"{PACKAGE}.bearings.rolling.ball_element",
+}
 """What a module imports that calls the compiled library."""
 
 COMPANIONS = "bearings/journal/map/data/*"

@@ -11,12 +11,14 @@ from scipy.linalg.lapack import zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from ...model import Array
+from .work import tally
 
 
 class BandedCholesky:
     """The factor of a positive definite sparse matrix; LinAlgError for another."""
 
     def __init__(self, matrix: Any) -> None:
+        tally("factorizations")
         self.order = band_order(matrix)
         rows, columns, values, _ = _in_order(matrix, self.order)
         upper = rows <= columns
@@ -38,6 +40,7 @@ class BandedFactor:
     """The LU factor of a complex sparse matrix, with exchange of rows."""
 
     def __init__(self, matrix: Any) -> None:
+        tally("factorizations")
         self.order = band_order(abs(matrix) + abs(matrix).T)
         rows, columns, values, self.width = _in_order(matrix, self.order)
         band = np.zeros((3 * self.width + 1, len(self.order)), dtype=complex)
@@ -57,6 +60,7 @@ class DenseFactor:
     """The LU factor of a dense matrix."""
 
     def __init__(self, matrix: np.ndarray) -> None:
+        tally("factorizations")
         self.factor = lu_factor(matrix, check_finite=False)
 
     def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:

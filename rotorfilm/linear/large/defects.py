@@ -15,7 +15,7 @@ from .condensed import MARGIN, Condensed
 from .second_order import small_motion
 from .tilting import film_rows
 
-_FASTER = 1.0 / (1.0 - MARGIN**-2.0)
+FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 """How much more what is left out gives way than to slow forces, at most."""
 
 
@@ -64,6 +64,16 @@ def whirl_errors(
 ) -> Array:
     """Return estimates of |ds / s| of eigenvalues s found in the shapes of a model, shape (m,).
 
+    The parameters are those of `whirl_changes`.
+    """
+    return np.asarray(whirl_changes(model, whole, values, right, left) / np.abs(values))
+
+
+def whirl_changes(
+    model: Condensed, whole: WholeRotor, values: np.ndarray, right: np.ndarray, left: np.ndarray
+) -> Array:
+    """Return estimates of |ds| of eigenvalues s found in the shapes of a model, shape (m,) [1/s].
+
     With vectors x, y of the whole rotor, r = L(s) x and l = L(s)* y are the forces that the shapes do not
     balance, and the error is -l* A r / (y* L'(s) x) to leading order, A the answer of what is left out.
 
@@ -78,7 +88,7 @@ def whirl_errors(
     unbalanced = model.answer(whole.forces(values, right))
     slope = np.sum(left.conj() * whole.slope(values, right), axis=0)
     change = np.sum(whole.adjoint_forces(values, left).conj() * unbalanced, axis=0) / slope
-    return np.asarray(_FASTER * np.abs(change / values))
+    return np.asarray(FASTER * np.abs(change))
 
 
 def seen_rows(structure: Structure) -> Array:
@@ -90,34 +100,3 @@ def seen_rows(structure: Structure) -> Array:
     probes = [readout.row[None, :n] for readout in structure.readouts if readout.signal.unit == "m"]
     housings = [] if structure.housings is None else [structure.housings]
     return np.concatenate([structure.journals, *housings, *probes])
-
-
-def response_error(
-    model: Condensed,
-    whole: WholeRotor,
-    value: complex,
-    forces: np.ndarray,
-    motion: np.ndarray,
-    dual: np.ndarray,
-) -> float:
-    """Return the largest error of displacements at bearings and probes / the largest of them, estimated.
-
-    With r = f - L x and l = t - L* y, where y is the answer to unit forces t there, it is l* A r.
-
-    Parameters
-    ----------
-    model : Condensed
-    whole : WholeRotor
-    value : complex [1/s]
-        s, i times the frequency.
-    forces, motion : ndarray, shape (N, m)
-        f and x.
-    dual : ndarray, shape (N, k)
-        y, as x by the shapes of the model.
-    """
-    unbalanced = model.answer(forces - whole.forces(value, motion))
-    places = seen_rows(model.whole)
-    other = places.T - whole.adjoint_forces(value, dual)
-    felt = np.abs(places @ motion).max(initial=0.0)
-    change = np.abs(other.conj().T @ unbalanced).max(initial=0.0)
-    return float(_FASTER * change / felt) if felt else 0.0

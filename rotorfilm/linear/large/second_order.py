@@ -11,6 +11,7 @@ from scipy import sparse
 
 from ...bearings.at_frequency import MemoryCoefficients
 from ...model import Array
+from ...rotors.sparse_chain import is_sparse
 from ...rotors.structure import Structure, across_planes, both_planes
 from ..rotor_rest import RotorEquilibrium
 from .tilting import film_rows
@@ -39,13 +40,20 @@ class SecondOrder(NamedTuple):
 
 def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     """Return the equations of small motion about an equilibrium, at its speed."""
-    damping = structure.damping + at.speed * structure.gyroscopic
-    stiffness = structure.stiffness + at.speed * structure.circulation
+    damping = _turned(structure.damping, at.speed, structure.gyroscopic)
+    stiffness = _turned(structure.stiffness, at.speed, structure.circulation)
     for name, film in at.coefficients.items():
         rows = film_rows(structure, name, len(film.stiffness))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
     return SecondOrder(structure.mass, damping, stiffness)
+
+
+def _turned(still: Any, speed: float, turning: Any) -> Any:
+    """Return still + speed turning, without the sum of sparse matrices where one has no entries."""
+    if is_sparse(still) and not (still.nnz and turning.nnz):
+        return speed * turning if turning.nnz else still
+    return still + speed * turning
 
 
 def _at_journal(structure: Structure, rows: Array, film: Array) -> Any:

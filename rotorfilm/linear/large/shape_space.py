@@ -11,6 +11,7 @@ from ...model import Array
 from ...rotors.projection import mean_plane, new_shapes
 from ...rotors.structure import Structure
 from .banded import BandedCholesky
+from .inertia_count import negative_count
 
 SHIFT = 0.003
 """Part of the highest frequency at which static shapes are taken: a free rotor has none at 0."""
@@ -87,7 +88,8 @@ def _modes_below(
     while True:
         count = min(count, n - 2)
         squares, modes = eigsh(stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start)
-        if squares.max() > cut**2 or count == n - 2:
-            rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
+        rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
+        # Lanczos' method may miss one: the law of inertia tells how many there are.
+        if (count > len(rising) == negative_count(stiffness, cut**2, mass)) or count == n - 2:
             return np.sqrt(np.maximum(squares[rising], 0.0)), modes[:, rising]
         count *= 2

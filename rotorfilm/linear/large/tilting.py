@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, TypeGuard
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from ...rotors.structure import Structure
 from ..coefficients import coefficients
 
 
-@runtime_checkable
 class TiltingReaction(Protocol):
     """A bearing with force and moment over the place (x, y, tilt_x, tilt_y) of the shaft [m], [rad]."""
 
@@ -33,10 +32,15 @@ class TiltingReaction(Protocol):
         """Return stiffness and damping, shape (4, 4), at a place of the shaft at rest."""
 
 
+def resists_tilt(bearing: object) -> TypeGuard[TiltingReaction]:
+    """Return whether a bearing resists tilts."""
+    return hasattr(type(bearing), "tilting_force")
+
+
 def require_bearings(bearings: object) -> None:
     """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
     if isinstance(bearings, Mapping):
-        bearings = {name: b for name, b in bearings.items() if not isinstance(b, TiltingReaction)}
+        bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
     require_reactions("bearings", bearings, JournalForce)
 
 
@@ -54,22 +58,24 @@ def film_rows(structure: Structure, name: str, size: int) -> Array:
     return np.concatenate([structure.journals[pair], tilts])
 
 
-def force_at(bearing: JournalForce | TiltingReaction, place: Array, speed: float) -> Array:
+def force_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments."""
-    if isinstance(bearing, TiltingReaction):
+    if resists_tilt(bearing):
         return bearing.tilting_force(place, speed)
-    return bearing.force(place, np.zeros(2), speed)
+    force: Array = bearing.force(place, np.zeros(2), speed)
+    return force
 
 
-def slopes_at(bearing: JournalForce | TiltingReaction, place: Array, speed: float) -> Array:
+def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square."""
-    if isinstance(bearing, TiltingReaction):
+    if resists_tilt(bearing):
         return -bearing.tilting_coefficients(place, speed).stiffness
-    return bearing.jacobian(place, np.zeros(2), speed)[:, :2]
+    slopes: Array = bearing.jacobian(place, np.zeros(2), speed)[:, :2]
+    return slopes
 
 
-def coefficients_at(bearing: Reaction | TiltingReaction, place: Array, speed: float) -> Coefficients:
+def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:
     """Return K and C at a place."""
-    if isinstance(bearing, TiltingReaction):
+    if resists_tilt(bearing):
         return bearing.tilting_coefficients(place, speed)
     return coefficients(bearing, place, speed)

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from ...bearings.at_frequency import MemoryCoefficients
-from ...errors import ConvergenceError
+from ...errors import AbsentError, ConvergenceError
 from ...results import Equilibrium, WhirlThreshold
-from ...warming import Remembering
+from ...warming import Remembering, settled
 from ..equilibrium import equilibrium
-from .exponents import rigid_exponents, rigid_growing
+from .exponents import rigid_exponents, rigid_growing, whirl_exponent
 
 BESIDE = 1e-3
 """Relative change of speed at which exponents are counted beside a threshold."""
+
+STEP, NEAR, MOST = 1.1, 1e-4, 30
+"""Factor of the speed between two that are looked at for a border, relative change at which it is found, and
+most looks. K and C jump a little with the cells of the cavity: a border between two speeds always ends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +40,11 @@ class CountedThreshold(WhirlThreshold):
 
 
 def leading_exponent(reaction: Remembering, at: Equilibrium, mass: float) -> complex:
-    """Return the least damped exponent of a rigid mass [kg] on a film at an equilibrium [1/s]."""
+    """Return the exponent of a rigid mass [kg] on a film at an equilibrium that grows most [1/s].
+
+    Where the count says that nothing grows it is one that is damped, mostly of the half-speed whirl, and not
+    always the least damped: its sign counts, not its size.
+    """
     return complex(rigid_exponents(_film(reaction, at), mass).values[0])
 
 
@@ -66,6 +79,49 @@ def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedTh
     )
 
 
+def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: float) -> CountedThreshold:
+    """Return the onset of whirl nearest to a speed [rad/s], found by the whirl at about half the speed.
+
+    Only that whirl is followed, so that a speed takes a tenth of what a count does; what grows beside the
+    onset is counted at the end.
+
+    Raises
+    ------
+    AbsentError
+        If there is none within some 17 times that speed.
+    ConvergenceError
+        If the whirl is not followed, or the count says that another one was missed.
+    """
+    from scipy.optimize import brentq
+
+    whole: Any = reaction  # a force at rest, which is what an equilibrium takes
+
+    def exponent(speed: float) -> complex:
+        return whirl_exponent(_film(reaction, equilibrium(whole, load, speed)), mass)
+
+    speed, own = start, exponent(start).real
+    factor = STEP if own < 0.0 else 1.0 / STEP
+    for _ in range(MOST):
+        last, speed = speed, speed * factor
+        if (exponent(speed).real < 0.0) is not (own < 0.0):
+            onset = float(brentq(lambda at: exponent(at).real, min(last, speed), max(last, speed), rtol=NEAR))
+            return counted_threshold(reaction, _threshold(whole, load, mass, onset, exponent(onset)))
+    raise AbsentError(
+        f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
+    )
+
+
+def _threshold(whole: Any, load: ArrayLike, mass: float, speed: float, exponent: complex) -> WhirlThreshold:
+    return WhirlThreshold(
+        speed=speed,
+        whirl_ratio=abs(exponent.imag) / speed,
+        critical_mass=mass,
+        speed_parameter=speed * math.sqrt(whole.clearance * mass / float(np.linalg.norm(load))),
+        equilibrium=equilibrium(whole, load, speed),
+    )
+
+
 def _film(reaction: Remembering, at: Equilibrium) -> MemoryCoefficients:
-    found: MemoryCoefficients = reaction.coefficients(at.position, at.speed)
+    film: Any = settled(reaction, at.position, at.speed)  # type: ignore[arg-type]
+    found: MemoryCoefficients = film.coefficients(at.position, at.speed)
     return found

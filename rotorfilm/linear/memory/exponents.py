@@ -32,7 +32,8 @@ class Exponents(NamedTuple):
     Attributes
     ----------
     values : ndarray, shape (n,) [1/s]
-        By falling real part, those with imaginary part >= 0; all that grow, at least one.
+        By falling real part, those with imaginary part >= 0: all that grow, or one that is damped, which need
+        not be the least damped, where `growing` is 0.
     growing : int
         How many grow, both of a pair, by the phase of the determinant.
     """
@@ -66,6 +67,22 @@ def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
         f"all {growing} growing exponents of a mass of {mass:.6g} kg on the film must be found, and "
         f"{len(found)} exponents were: {found}"
     )
+
+
+def whirl_exponent(film: MemoryCoefficients, mass: float) -> complex:
+    """Return the exponent that Newton's method finds from the least damped one with K, C of half the speed.
+
+    Raises
+    ------
+    ConvergenceError
+        If it finds none.
+    """
+    value = _refined(film.dynamic_stiffness, mass, next(_starts(film, mass)))
+    if value is None:
+        raise ConvergenceError(
+            f"Newton's method must find the whirl of {mass:.6g} kg at {film.speed:.6g} rad/s"
+        )
+    return value
 
 
 def _starts(film: MemoryCoefficients, mass: float) -> Iterator[complex]:

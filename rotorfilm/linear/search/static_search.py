@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ...errors import FilmContactError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Tangent
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -32,6 +32,7 @@ class StaticTarget(NamedTuple):
     y: float
     room: float
     lead: float  # of the first trial, from the load on
+    noise: float = 0.0  # force that roundoff leaves [N]
 
     @property
     def size(self) -> float:
@@ -61,7 +62,7 @@ def search_place(target: StaticTarget) -> StaticPoint:
     points = []
     for s, phi in _starts(target):
         points.append(_newton(target, s, phi))
-        if points[-1].norm <= place_tolerance(points[-1].s):
+        if is_found(target, points[-1]):
             return points[-1]
     return min(points, key=lambda point: point.norm)
 
@@ -84,10 +85,10 @@ def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
     for share in _ACROSS:
         across = max(share * target.size, left)
         point = search_place(pulled(across))
-        while across > left and point.norm <= place_tolerance(point.s):
+        while across > left and is_found(target, point):
             across = max(across / _LESS, left)
             point = _newton(pulled(across), point.s, point.phi)
-        if across == left and point.norm <= place_tolerance(point.s):
+        if across == left and is_found(target, point):
             return point
     return best
 
@@ -136,7 +137,7 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
     x, y = distance * math.cos(phi), distance * math.sin(phi)
     try:
         fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except (UndefinedDerivativeError, FilmContactError):
+    except (UndefinedDerivativeError, FilmContactError, ConvergenceError):
         return StaticPoint(s, phi, steps)
     size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:
@@ -162,6 +163,6 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
     )
 
 
-def place_tolerance(s: float) -> float:
-    """Return the tolerance: 1e-12, or more where 1 - chi loses digits in the subtraction."""
-    return max(_TOLERANCE, 1e-15 * (1.0 + math.exp(s)))
+def is_found(target: StaticTarget, point: StaticPoint) -> bool:
+    """Return whether the residual is below 1e-12, or what roundoff leaves of the gap and of the force."""
+    return point.norm <= max(_TOLERANCE, 1e-15 * (1.0 + math.exp(point.s)), target.noise / target.size)

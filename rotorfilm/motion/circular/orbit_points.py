@@ -16,7 +16,7 @@ import numpy as np
 
 from ...errors import InputError, require_kind, require_positive
 from ...model import Array, JournalForce, Reaction, largest_eccentricity_ratio, require_reaction
-from ...reactions.added_mass import inertial, require_turning
+from ...reactions.added_mass import inertial, orbit_mass, require_turning
 from ...rotors import RigidRotor
 from ...rotors.rotating import rotating_linearization
 
@@ -99,7 +99,7 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
     radial, tangential = system.reaction.force(position, velocity, speed)
     heavy = inertial(system.reaction)
     if heavy is not None:
-        swung = system.speed**2 * position[0] * heavy.mass(position, velocity)[:, 0]
+        swung = system.speed**2 * position[0] * heavy.mass(position, velocity, speed)[:, 0]
         radial, tangential = radial + swung[0], tangential + swung[1]
     inertia = system.mass * system.speed**2 * position[0]
     return OrbitPoints(eccentricity_ratio, -(inertia + radial) + 1j * tangential, radial + 1j * tangential)
@@ -123,25 +123,6 @@ def growth_rates(system: OrbitRotor, orbits: OrbitSlope) -> Array:
     """Return the largest real part of the Floquet exponents of orbits, shape (n,)."""
     A = rotating_linearization(system.mass, system.speed, orbits.film, orbits.added).A
     return np.linalg.eigvals(A).real.max(axis=-1)
-
-
-def orbit_mass(
-    reaction: JournalForce, position: Array, velocity: Array, speed: float
-) -> tuple[Array, Array] | None:
-    """Return mass (2, 2, ...) [kg] and its slopes times -speed^2 position (2, 4, ...); None without inertia.
-
-    Parameters
-    ----------
-    reaction : Reaction
-    position, velocity : ndarray, shape (2, ...) [m], [m/s]
-        On circular orbits.
-    speed : float [rad/s]
-    """
-    heavy = inertial(reaction)
-    if heavy is None:
-        return None
-    slopes = np.einsum("ijk...,j...->ik...", heavy.mass_slopes(position, velocity), -(speed**2) * position)
-    return heavy.mass(position, velocity), slopes
 
 
 def _motion(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[Array, Array]:

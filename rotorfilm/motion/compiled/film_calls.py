@@ -5,8 +5,9 @@ Every such function is that of the C library (native/films/journal_kernel.h),
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
 with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it along,
-`LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, and any other reaction is
-called back in Python: slower, with the same result.
+`LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, `RubRing` and the sum of
+`ParallelReaction` in native/loops/rub.h, and any other reaction is called back in Python: slower, with the
+same result.
 """
 
 from __future__ import annotations
@@ -22,12 +23,15 @@ import numpy as np
 from ...bearings.damper import PorousDamper, SqueezeFilmDamper
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.linear import LinearBearing
+from ...bearings.parallel import ParallelReaction
 from ...bearings.reaction import FilmReaction
+from ...bearings.rub_ring import RubRing
 from ...bearings.sprung import Sprung
 from ...errors import FilmContactError, InputError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction
 from ...native import Status
 from ...native.damper_kernels import OilDamperKernel
+from ...native.layouts.run_structs import BothStruct
 from ...native.layouts.structs import SprungStruct
 from ...native.library import functions, loops
 from ...reactions.added_mass import inertial, require_massless
@@ -129,10 +133,31 @@ def kernel_call(reaction: Reaction) -> FilmCall | None:
     if type(reaction) is Sprung:
         inner = kernel_call(reaction.reaction)
         return None if inner is None else inner.beside(reaction.stiffness, still=False)
+    if type(reaction) is ParallelReaction:
+        return _summed([kernel_call(one) for one in reaction.reactions])
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
         return FilmCall(address=_address("rf_springs_at"), data=values.ctypes.data, owner=values)
+    if type(reaction) is RubRing:
+        values = reaction.numbers
+        return FilmCall(address=_address("rf_rub_at"), data=values.ctypes.data, owner=values)
     return None
+
+
+def _summed(calls: Sequence[FilmCall | None]) -> FilmCall | None:
+    """Return the sum of forces on one journal; None where one of them has no kernel."""
+    total: FilmCall | None = calls[0]
+    for call in calls[1:]:
+        if total is None or call is None:
+            return None
+        both = BothStruct(total.address, total.data, call.address, call.data)
+        total = FilmCall(
+            address=_address("rf_both_at"),
+            data=ctypes.addressof(both),
+            owner=(both, total, call),
+            beyond=total.beyond or call.beyond,
+        )
+    return total
 
 
 def _bound(film: object) -> FilmCall | None:

@@ -64,7 +64,7 @@ def simulate(
         State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
     rtol : float [1]
         Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
-        films that remember `max_step` says how exact it is, instead.
+        films that remember `max_step` says how exact it is, and `Trajectory.step_error` how exact it was.
     max_step : float [s]
         Longest step of the integrator. With films that remember the length of all steps but those cut short;
         by default 1/384 of a turn at the highest speed.

@@ -125,7 +125,7 @@ class SteppedLoop:
 
     def begin(self, state: Array) -> Moment:
         """Return the moment t = 0, with steady films."""
-        motion = self._motion(0.0, state)
+        motion = self.motion(0.0, state)
         films = tuple(s.film.start(motion[s.motion]) for s in self.stations)
         outputs = [s.film.answer(film) for s, film in zip(self.stations, films, strict=True)]
         return self._moment(0.0, state, films, outputs)
@@ -163,13 +163,13 @@ class SteppedLoop:
 
     def gap(self, moment: Moment) -> float:
         """Return the least clearance left at any journal, relative to its own [1]."""
-        motion = self._motion(moment.time, moment.state)
+        motion = self.motion(moment.time, moment.state)
         return min(1.0 - math.hypot(*motion[s.motion[:2]]) / s.film.clearance for s in self.stations)
 
     def _tried(
         self, now: Moment, t: float, x: Array, dt: float, last: list[StepTrial] | None
     ) -> list[StepTrial]:
-        motion, trials = self._motion(t, x), []
+        motion, trials = self.motion(t, x), []
         for k, station in enumerate(self.stations):
             near = None if last is None else last[k].state
             trials.append(station.film.attempt(now.films[k], motion[station.motion], dt, near))
@@ -190,7 +190,7 @@ class SteppedLoop:
 
     def _within(self, t: float, x: Array, moved: Array) -> Array:
         """Return the state moved no further than to where all journals keep part of their gap."""
-        here, there, share = self._motion(t, x), self._motion(t, moved), 1.0
+        here, there, share = self.motion(t, x), self.motion(t, moved), 1.0
         for station in self.stations:
             c = station.film.clearance
             begin, end = here[station.motion[:2]], there[station.motion[:2]]
@@ -201,7 +201,8 @@ class SteppedLoop:
                 share *= 0.5
         return x + share * (moved - x)
 
-    def _motion(self, t: float, x: Array) -> Array:
+    def motion(self, t: float, x: Array) -> Array:
+        """Return the outputs of the rotor in a state."""
         return self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
 
     def _input(self, trials: list[StepTrial]) -> Array:

@@ -9,12 +9,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...bearings.cubic import cubic
 from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, FilmContactError, InputError, require_finite
 from ...model import Array, Dynamic, breakpoints
 from ...results import Trajectory
 from ...signals import Signal, indices, names, units
 from ..compiled.journal_films import CONTACT_GAP
+from .step_error import StepError
 from .stepped_loop import Moment, SteppedLoop, stations_of
 
 STEPS_A_TURN = 384
@@ -59,7 +61,7 @@ def simulate_steps(
         raise InputError(f"initial_state must have shape ({len(rotor.states)},), got {state.shape}")
     longest = max_step if math.isfinite(max_step) else part_of_turn(rotor, duration)
     count = max(1, math.ceil(duration / longest * (1.0 - 1e-12)))
-    record = _Record(loop, times)
+    record, error = _Record(loop, times), StepError(loop)
     now, before = loop.begin(state), None
     record.add(now, now)
     halvings, done = 0, 0
@@ -75,12 +77,13 @@ def simulate_steps(
                 raise _failed(failure, loop.gap(now), record.trajectory()) from failure
             continue
         record.add(now, reached)
+        error.add(before, now, reached)
         if loop.gap(reached) <= CONTACT_GAP:
             raise ContactError(f"journal reached the wall at t = {reached.time:.9g} s", record.trajectory())
         before, now = now, reached
         if length == left:
             done, halvings = done + 1, max(0, halvings - 1)
-    return record.trajectory()
+    return replace(record.trajectory(), step_error=error.largest)
 
 
 def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError | ConvergenceError:
@@ -147,7 +150,5 @@ class _Record:
 
 def _cubic(last: Moment, now: Moment, s: float) -> Array:
     """Return the rotor's state at a share of the time between two moments."""
-    dt, way = now.time - last.time, now.state - last.state
-    bent = dt * (last.rate + now.rate) - 2.0 * way
-    turned = 3.0 * way - dt * (2.0 * last.rate + now.rate)
-    return np.asarray(last.state + s * (dt * last.rate + s * (turned + s * bent)))
+    dt = now.time - last.time
+    return np.asarray(cubic(last.state, now.state, dt * last.rate, dt * now.rate, s)[0])

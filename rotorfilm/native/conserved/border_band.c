@@ -107,7 +107,7 @@ static inline int factorize_rows(const rf_border_band *band)
 }
 
 /* The same, but the compiler knows that all is real. */
-RF_CLONES_OF_LOOPS
+RF_CLONES_OF_OIL
 static int factorize_real_rows(const rf_border_band *band)
 {
     const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
@@ -173,7 +173,7 @@ static inline void backward(const rf_border_band *band, double *real, double *im
     }
 }
 
-RF_CLONES_OF_LOOPS
+RF_CLONES_OF_OIL
 static void solve_real(const rf_border_band *band, double *x)
 {
     const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};

@@ -11,7 +11,7 @@ static size_t after(const rf_oil_cells *cells, size_t i)
 static double carried(const rf_oil_cells *cells, size_t i, size_t j, const double *theta)
 {
     const size_t up = cells->backward ? after(cells, i) : i;
-    return cells->wedge[i] * cells->width[j] * theta[up * cells->nodes + j];
+    return cells->wedge[i * cells->nodes + j] * cells->width[j] * theta[up * cells->nodes + j];
 }
 
 void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta, double *outflow)
@@ -24,14 +24,14 @@ void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const dou
         double *out = outflow + i * nodes, *next = outflow + after(cells, i) * nodes;
         for (size_t j = 0; j < nodes; ++j) {
             const double fall = p[j] - pressure[after(cells, i) * nodes + j];
-            const double flow = carried(cells, i, j, theta) + cells->around[i] * cells->width[j] * fall;
+            const double flow = carried(cells, i, j, theta) + cells->around[i * nodes + j] * cells->width[j] * fall;
             const double outward = along * c[j] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->end_pressure));
             out[j] += flow + outward;
             next[j] -= flow;
             if (j + 1 < nodes)
                 out[j + 1] -= outward;
         }
-        out[0] += along * cells->center * (p[0] - cells->center_pressure);
+        out[0] += along * cells->center[i] * (p[0] - cells->center_pressure);
     }
 }
 
@@ -117,10 +117,10 @@ static void add_line(const rf_oil_parts *parts, size_t i, const double *by_press
     for (size_t j = 0; j < nodes; ++j) {
         const size_t here = i * nodes + j, beyond = after(cells, i) * nodes + j;
         const size_t up = cells->backward ? beyond : here, down = cells->backward ? here : beyond;
-        const double around = cells->around[i] * cells->width[j], along = cells->along[i] * cells->conductance[here];
+        const double around = cells->around[here] * cells->width[j], along = cells->along[i] * cells->conductance[here];
         add_flow(parts, here, beyond, by_pressure[here] * around);
         add_flow(parts, beyond, here, by_pressure[beyond] * around);
-        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[i]) * cells->width[j]);
+        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[here]) * cells->width[j]);
         if (j + 1 < nodes) {
             add_flow(parts, here, here + 1, by_pressure[here] * along);
             add_flow(parts, here + 1, here, by_pressure[here + 1] * along);
@@ -129,7 +129,7 @@ static void add_line(const rf_oil_parts *parts, size_t i, const double *by_press
         }
         add(parts, here, here, by_theta[here] * cells->store[i] * cells->width[j]);
     }
-    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * cells->along[i] * cells->center);
+    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * cells->along[i] * cells->center[i]);
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */

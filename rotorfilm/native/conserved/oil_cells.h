@@ -7,8 +7,9 @@
        pressure   around and along, in proportion to the fall of P, to the next cells and to the ends,
        storage    store theta - old
 
-   which is nothing where P, theta solve the film: P >= 0, theta <= 1, P (1 - theta) = 0. Factors of a line are to be
-   multiplied by those of a cell along it. Lines between which nothing flows cut the ring open. */
+   which is nothing where P, theta solve the film: P >= 0, theta <= 1, P (1 - theta) = 0. All but conductances along
+   the line are to be multiplied by the width of a cell, those by the factor of its line. Lines between which nothing
+   flows cut the ring open. */
 #ifndef ROTORFILM_OIL_CELLS_H
 #define ROTORFILM_OIL_CELLS_H
 
@@ -22,13 +23,13 @@
 
 typedef struct rf_oil_cells {
     size_t lines, nodes;
-    const double *wedge;       /* N: oil that a full gap carries over the face after a line */
-    const double *around;      /* N: conductance of that face */
+    const double *wedge;       /* N x M: oil that a full gap carries over the face after a cell, around the ring */
+    const double *around;      /* N x M: conductance of that face */
     const double *along;       /* N: conductance of a line's cells along the length */
     const double *store;       /* N: that theta holds back */
     const double *width;       /* M: of the cells along the length */
     const double *conductance; /* N x M: 1/distance to the next node of the line, the last to the end */
-    double center;             /* 1/distance from the first node to a groove at mid-length, 0 without one */
+    const double *center;      /* N: 1/distance from the first node to a groove at mid-length, 0 without one */
     double center_pressure, end_pressure;
     const double *old;        /* N x M: what storage has, or NULL */
     const int32_t *opening;   /* N x M: of which opening a cell is part; RF_FILM_CELL */

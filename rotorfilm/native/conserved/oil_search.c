@@ -191,10 +191,10 @@ static int search_by_newton(rf_oil_solver *solver, uint8_t *full, double *pressu
     const size_t all = cells_of(solver);
     fill(solver, pressure, theta);
     for (size_t q = 0; q < all; ++q) {
-        const size_t i = q / solver->cells->nodes, before = i > 0 ? i - 1 : solver->cells->lines - 1;
-        const double of_faces = solver->cells->around[i] + solver->cells->around[before];
+        const size_t nodes = solver->cells->nodes, before = q >= nodes ? q - nodes : q + all - nodes;
+        const double of_faces = solver->cells->around[q] + solver->cells->around[before];
         if (solver->cells->opening[q] == RF_FILM_CELL)
-            pressure[q] = fmax(-solver->flow[q], 0.0) / (of_faces * solver->cells->width[q % solver->cells->nodes]);
+            pressure[q] = fmax(-solver->flow[q], 0.0) / (of_faces * solver->cells->width[q % nodes]);
     }
     const double unit = fmax(largest(all, pressure), 1e-300);
     for (size_t round = 0; round < most_rounds(solver->cells); ++round) {

@@ -3,11 +3,24 @@
 #include <math.h>
 #include <string.h>
 
+static double pass(void *host, double t, double end)
+{
+    rf_instance *c = host;
+    const double start = c->now.time;
+    c->now.time = t;
+    rf_forget(c);
+    rf_enter(c, RF_WITHIN_STEP);
+    const double wanted = c->within_step(c, t, end);
+    rf_enter(c, RF_STEPPING);
+    c->now.time = start;
+    return wanted;
+}
+
 /* Move the states to *t = end, or as far as it goes. */
 static int move(rf_instance *c, double *t, double end, rf_message *why)
 {
     double *x = c->values[RF_STATE];
-    if (c->sizes.states && c->type->step) {
+    if (rf_kept(c) && c->type->step) {
         const rf_point at = {*t, x, c->values[RF_INPUT]};
         const int status = c->type->step(c->kernel, &at, end - *t, x, why);
         *t = status <= RF_OUTSIDE ? end : *t;
@@ -15,7 +28,8 @@ static int move(rf_instance *c, double *t, double end, rf_message *why)
     }
     if (c->sizes.states) {
         const rf_integration job = {c->type,      c->kernel,       c->sizes.states, c->nominal,
-                                    c->tolerance, &c->now.stride, c->work};
+                                    c->tolerance, &c->now.stride, c->work,
+                                    {c->within_step ? pass : NULL, c}};
         return rf_integrate(&job, t, x, c->values[RF_INPUT], end, why);
     }
     *t = end;
@@ -28,7 +42,7 @@ static rf_answer give_up(rf_instance *c, double reached, const rf_message *why)
 {
     c->now.time = c->last_good_time = reached;
     rf_forget(c);
-    if (c->sizes.states == 0)
+    if (rf_kept(c) == 0)
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "step from t = %.9g s: %s", reached, why->text);
     c->terminated = 1;
     c->now.phase = RF_STEP_FAILED;
@@ -62,7 +76,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
     const double kink = c->event_mode && c->early_return ? c->now.kink : HUGE_VAL;
     const double end = kink > from && kink < from + step ? kink : from + step;
     double t = from, *before = c->work + rf_integration_work(c->sizes.states);
-    memcpy(before, c->values[RF_STATE], c->sizes.states * sizeof *before);
+    memcpy(before, c->values[RF_STATE], rf_kept(c) * sizeof *before);
     int status = move(c, &t, end, &why);
     if (status > RF_OUTSIDE)
         return give_up(c, t, &why);
@@ -70,7 +84,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
     rf_forget(c);
     status = rf_evaluate(c, RF_OUTPUT, &why);
     if (status > RF_OUTSIDE) {
-        memcpy(c->values[RF_STATE], before, c->sizes.states * sizeof *before);
+        memcpy(c->values[RF_STATE], before, rf_kept(c) * sizeof *before);
         return give_up(c, from, &why);
     }
     c->last_good_time = t;

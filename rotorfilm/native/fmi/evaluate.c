@@ -51,7 +51,9 @@ int rf_evaluate(rf_instance *c, rf_role role, rf_message *why)
         return RF_OK;
     int status = rf_apply_parameters(c, why);
     const rf_point at = rf_present_point(c);
-    if (status == RF_OK)
+    if (status == RF_OK && c->type->rest && c->now.phase & (RF_INSTANTIATED | RF_INITIALIZING))
+        status = c->type->rest(c->kernel, &at, c->values[RF_STATE], why);
+    if (status <= RF_OUTSIDE)
         status = function(c->kernel, &at, c->values[role], why);
     for (size_t i = 0; status <= RF_OUTSIDE && i < c->resource->count[role]; ++i)
         if (!isfinite(c->values[role][i]))

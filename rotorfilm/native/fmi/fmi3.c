@@ -46,11 +46,13 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3LogMessageCallback callback,
                                          fmi3IntermediateUpdateCallback update)
 {
-    (void)visible, (void)intermediate, (void)intermediate_count, (void)update;
+    (void)visible, (void)intermediate, (void)intermediate_count; /* all variables may be read */
     rf_instance *c = make(name, token, resources, logging, 1, environment, callback);
     if (c) {
         c->event_mode = event_mode;
         c->early_return = early_return;
+        c->within_step = update ? rf_within_step : NULL;
+        c->update = (void (*)(void))update;
     }
     return c;
 }
@@ -126,7 +128,7 @@ static fmi3Status require_scalars(rf_instance *c, size_t references, size_t valu
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
                           fmi3Float64 values[], size_t value_count)
 {
-    CALL(fmi3GetFloat64, AFTER_START);
+    CALL(fmi3GetFloat64, AFTER_START | RF_WITHIN_STEP);
     const fmi3Status fits = require_scalars(c, count, value_count);
     return fits == fmi3OK ? (fmi3Status)rf_get(c, vr, count, values) : fits;
 }

@@ -20,4 +20,7 @@ enum {
     ANY = RF_INSTANTIATED | RF_CONFIGURING | RF_RECONFIGURING | AFTER_START
 };
 
+/* Tell the host of a step within one of its own; answers where to end. */
+double rf_within_step(rf_instance *c, double t, double end);
+
 #endif

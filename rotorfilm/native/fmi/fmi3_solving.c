@@ -84,6 +84,15 @@ fmi3Status fmi3EnterStepMode(fmi3Instance instance)
     return fmi3OK;
 }
 
+double rf_within_step(rf_instance *c, double t, double end)
+{
+    fmi3IntermediateUpdateCallback update = (fmi3IntermediateUpdateCallback)c->update;
+    fmi3Boolean leave = fmi3False;
+    fmi3Float64 when = t;
+    update(c->host.environment, t, fmi3False, fmi3True, fmi3True, c->early_return != 0, &leave, &when);
+    return c->early_return && leave ? when : end;
+}
+
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 step, fmi3Boolean final,
                       fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early,
                       fmi3Float64 *last_time)

@@ -25,21 +25,25 @@ static void start(rf_instance *c)
     c->stop_defined = c->terminated = 0;
     c->last_good_time = 0.0;
     c->parameters_changed = 1;
+    if (c->memory)
+        memset(c->values[RF_STATE], 0, c->memory * sizeof(double));
     rf_forget(c);
 }
 
-/* One block for all numbers: values that are saved, values that follow, derivatives, work. */
+/* One block for all numbers: values that are saved, values that follow, derivatives, work. A memory is where states
+   would be. */
 static int allocate(rf_instance *c)
 {
     const size_t p = c->sizes.parameters, m = c->sizes.inputs, q = c->sizes.outputs, n = c->sizes.states;
-    const size_t z = c->sizes.events, total = p + m + n + q + n + z + n + n * n + n * m + q * n + q * m + rf_integration_work(n) + n;
+    const size_t z = c->sizes.events, kept = rf_kept(c), derived = q + n + z + n + n * n + n * m + q * n + q * m;
+    const size_t total = p + m + kept + derived + rf_integration_work(n) + kept;
     double *at = calloc(total + 1, sizeof *at);
     if (!at)
         return 0;
-    c->value_count = p + m + n;
+    c->value_count = p + m + kept;
     c->values[RF_PARAMETER] = at, at += p;
     c->values[RF_INPUT] = at, at += m;
-    c->values[RF_STATE] = at, at += n;
+    c->values[RF_STATE] = at, at += kept;
     c->values[RF_OUTPUT] = at, at += q;
     c->values[RF_DERIVATIVE] = at, at += n;
     c->values[RF_SWITCH] = at, at += z;
@@ -88,6 +92,11 @@ static int load(rf_instance *c, const char *token, const char *folder, rf_messag
     c->kernel = c->type->create(&c->resource->tables, &c->sizes, why);
     if (!c->kernel || !fits(c, why))
         return 0;
+    c->memory = c->type->memory ? c->type->memory(c->kernel) : 0;
+    if (c->memory && !c->co_simulation) {
+        rf_say(why, RF_INVALID, "the kernel %s steps by itself: it has Co-Simulation only", c->resource->kernel);
+        return 0;
+    }
     if (allocate(c))
         return 1;
     rf_say(why, RF_MEMORY, "no memory for an instance");

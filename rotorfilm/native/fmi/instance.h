@@ -20,7 +20,8 @@ typedef enum rf_phase {
     RF_STEPPING = 32,
     RF_STEP_FAILED = 64,
     RF_RECONFIGURING = 128,
-    RF_TERMINATED = 256
+    RF_TERMINATED = 256,
+    RF_WITHIN_STEP = 512 /* while the host is told of a step within one of its own */
 } rf_phase;
 
 #define RF_ALWAYS (~0u) /* the rule of what mends an instance */
@@ -58,10 +59,13 @@ struct rf_instance {
     rf_host host;
     unsigned categories; /* bits of those that are on */
     int co_simulation, event_mode, early_return;
+    double (*within_step)(rf_instance *c, double t, double end); /* NULL, or who is told of steps within one */
+    void (*update)(void);                                       /* the host's callback behind it */
     rf_resource *resource;
     const rf_kernel_type *type;
     void *kernel;
     rf_sizes sizes;
+    size_t memory; /* numbers that the kernel remembers; it then has no states */
     rf_condition now;
     rf_phase resume; /* phase after reconfiguration */
     double stop_time, tolerance, last_good_time;
@@ -73,6 +77,12 @@ struct rf_instance {
     rf_jacobian jacobian;
     double *work, *nominal;
 };
+
+/* Numbers of the states, or of a memory. */
+static inline size_t rf_kept(const rf_instance *c)
+{
+    return c->sizes.states + c->memory;
+}
 
 /* The next ones answer NULL where it went wrong, with the message sent to the host. */
 rf_instance *rf_make_instance(const char *name, const char *token, const char *folder, int logging,
@@ -113,7 +123,7 @@ void rf_enter(rf_instance *c, rf_phase phase);
 /* Leave an event behind: the next one becomes known. */
 void rf_pass_event(rf_instance *c);
 int rf_has_kink(const rf_instance *c);
-/* Advance by `step` from `from`; early returns end at a time event, where c->now.time then is. */
+/* Advance by `step` from `from`; early returns end at a time event, or where within_step wants it: c->now.time. */
 rf_answer rf_step(rf_instance *c, double from, double step);
 
 /* Saved conditions are blocks of rf_saved_size() bytes; as bytes they carry a checksum. */

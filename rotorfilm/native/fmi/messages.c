@@ -17,6 +17,7 @@ const char *rf_phase_name(uint32_t phase)
     case RF_CONTINUOUS: return "continuous-time mode";
     case RF_STEPPING: return "step mode";
     case RF_STEP_FAILED: return "step failed";
+    case RF_WITHIN_STEP: return "intermediate update mode";
     case RF_RECONFIGURING: return "reconfiguration mode";
     default: return "terminated";
     }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define MAGIC "RFILMRES"
-#define VERSION 1
+#define VERSION 2
 #define MOST_BYTES ((size_t)1 << 30)
 
 enum { HEADER = 24, MODEL = 176, VARIABLE = 96, TABLE = 64 }; /* bytes of each record */
@@ -85,7 +85,31 @@ static int measure(const unsigned char *at, size_t size, rf_table *table, size_t
         count *= k < table->axes ? table->extent[k] : 1;
     }
     *numbers = count;
-    return count <= (size - offset) / 8;
+    const size_t room = (size_t)(size - offset);
+    return read_u32(at + 52) ? room >= 8 && count <= (room - 8) / 4 : count <= room / 8;
+}
+
+static void read_doubles(const unsigned char *from, size_t count, double *numbers)
+{
+    for (size_t k = 0; k < count; ++k)
+        numbers[k] = read_double(from + 8 * k);
+}
+
+/* A quantum, and the third differences of its multiples modulo 2^32, the lowest bytes of all first. */
+static void read_quanta(const unsigned char *from, size_t count, double *numbers)
+{
+    const double quantum = read_double(from);
+    uint32_t sum[3] = {0, 0, 0};
+    from += 8;
+    for (size_t k = 0; k < count; ++k) {
+        uint32_t step = 0;
+        for (size_t plane = 0; plane < 4; ++plane)
+            step |= (uint32_t)from[plane * count + k] << 8 * plane;
+        sum[0] += step;
+        sum[1] += sum[0];
+        sum[2] += sum[1];
+        numbers[k] = quantum * (int32_t)sum[2];
+    }
 }
 
 static int read_tables(const unsigned char *bytes, size_t size, size_t directory, rf_resource *to,
@@ -106,11 +130,12 @@ static int read_tables(const unsigned char *bytes, size_t size, size_t directory
         return rf_say(why, RF_MEMORY, "no memory for the %zu numbers of %s", total, FILE_NAME);
     double *next = to->numbers;
     for (size_t i = 0; i < to->tables.count; ++i) {
-        const unsigned char *from = bytes + read_u64(bytes + directory + i * TABLE + 56);
-        (void)measure(bytes + directory + i * TABLE, size, list + i, &count);
+        const unsigned char *entry = bytes + directory + i * TABLE, *from = bytes + read_u64(entry + 56);
+        (void)measure(entry, size, list + i, &count);
         list[i].numbers = next;
-        for (size_t k = 0; k < count; ++k, from += 8, ++next)
-            if (!isfinite(*next = read_double(from)))
+        (read_u32(entry + 52) ? read_quanta : read_doubles)(from, count, next);
+        for (const double *end = next + count; next < end; ++next)
+            if (!isfinite(*next))
                 return rf_say(why, RF_INVALID, "table %s of %s must be finite", list[i].name, FILE_NAME);
     }
     return RF_OK;

@@ -175,6 +175,8 @@ rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unkn
                            double *sensitivity, int transposed)
 {
     rf_message why;
+    if (!c->type->jacobian)
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no partial derivatives are provided");
     int status = rf_apply_parameters(c, &why);
     const rf_point at = rf_present_point(c);
     if (status == RF_OK)

@@ -10,7 +10,7 @@
 #include "../kernels/kernel_list.h"
 
 #if defined(RF_SUBSET)
-#define RF_ON_GRIDS (((RF_SUBSET) & (RF_ROTORFILM_GRIDS | RF_ROTORFILM_LOOPS)) != 0)
+#define RF_ON_GRIDS (((RF_SUBSET) & (RF_ROTORFILM_GRIDS | RF_ROTORFILM_OIL | RF_ROTORFILM_LOOPS)) != 0)
 #else
 #define RF_ON_GRIDS 1
 #endif
@@ -22,11 +22,11 @@
 #define RF_CLONES
 #endif
 
-/* The same of what only the library of loops has. */
-#if !defined(RF_SUBSET) || RF_SUBSET == RF_ROTORFILM_LOOPS
-#define RF_CLONES_OF_LOOPS RF_CLONES
+/* The same of films that conserve their oil, which other grids do not have. */
+#if !defined(RF_SUBSET) || RF_SUBSET == RF_ROTORFILM_OIL || RF_SUBSET == RF_ROTORFILM_LOOPS
+#define RF_CLONES_OF_OIL RF_CLONES
 #else
-#define RF_CLONES_OF_LOOPS
+#define RF_CLONES_OF_OIL
 #endif
 
 #endif

@@ -38,7 +38,7 @@ typedef struct rf_sizes {
     size_t parameters, inputs, outputs, states, events;
 } rf_sizes;
 
-/* Time [s], states and inputs. */
+/* Time [s], states or memory, and inputs. */
 typedef struct rf_point {
     double t;
     const double *x;
@@ -71,7 +71,13 @@ typedef struct rf_kernel_type {
     void (*solve)(void *kernel, double *b);
     void (*drift)(const void *kernel, const rf_point *at, double *slope);
 
-    /* Advance x by dt under held inputs, where the kernel does that better than integrate.h. */
+    /* Of kernels that step by themselves, which have no states: how many numbers they remember, which only they read, and
+       these numbers of a model at rest under the inputs. Outputs follow from them; inputs act in the next step. */
+    size_t (*memory)(const void *kernel);
+    int (*rest)(const void *kernel, const rf_point *at, double *memory, rf_message *why);
+
+    /* Advance x by dt under held inputs, where the kernel does that better than integrate.h, or has a memory. What is
+       worse than RF_OUTSIDE leaves x as it was. */
     int (*step)(void *kernel, const rf_point *at, double dt, double *x, rf_message *why);
 
     /* The switching functions: the kernel is smooth while none of them changes its sign. */

@@ -2,8 +2,8 @@
 
    A library is a bit. It is compiled with RF_SUBSET set to its name, into a file of that name in lower case
    without RF_. Python calls the first of them, and the last two, whose loops no FMU needs: over films, and over
-   the macro steps of a co-simulation, with all kernels. Without RF_SUBSET, as from the sources in an FMU, a
-   library has all kernels too. */
+   the macro steps of a co-simulation, with all kernels but those that step by themselves. Without RF_SUBSET, as
+   from the sources in an FMU, a library has all kernels. */
 #define RF_ROTORFILM 1
 #define RF_ROTORFILM_STATES 2
 #define RF_ROTORFILM_SYSTEMS 4
@@ -12,6 +12,7 @@
 #define RF_ROTORFILM_HEAT 32
 #define RF_ROTORFILM_GRID_SYSTEMS 64
 #define RF_ROTORFILM_PADS 128
+#define RF_ROTORFILM_OIL 512
 #define RF_ROTORFILM_LOOPS 256
 #define RF_ROTORFILM_MASTER 511
 
@@ -22,8 +23,10 @@
 RF_KERNEL(ball_bearing, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(bush_reaction, RF_ROTORFILM_BUSHES, worn_bush)
 RF_KERNEL(bush_wear, RF_ROTORFILM_BUSHES, bush)
+RF_KERNEL(conserved_film, RF_ROTORFILM_OIL, grooved_journal)
 RF_KERNEL(contact, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(damper, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, damper)
+RF_KERNEL(five_degree_balls, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(heated_grooved_journal, RF_ROTORFILM_HEAT, grooved_journal)
 RF_KERNEL(heated_journal, RF_ROTORFILM_HEAT, journal)

@@ -27,6 +27,10 @@ ROW = (
 """The numbers of rf_ball_row, the columns of the table `rows`."""
 
 
+WAVE = ("turns", "lobes", "radial", "axial", "phase")
+"""The numbers of rf_ball_wave, the columns of the table `waves`."""
+
+
 class BallRowStruct(ctypes.Structure):
     """rf_ball_row of ball.h."""
 
@@ -42,7 +46,7 @@ class BallStruct(ctypes.Structure):
         ("by_speed", c_double * 2),
         ("load", c_double * 2),
         ("angle", c_double * 2),
-        *((name, c_double) for name in ("centrifugal", "gyroscopic", "orbit", "traction")),
+        *((name, c_double) for name in ("centrifugal", "gyroscopic", "orbit", "gap", "traction")),
     ]
 
 
@@ -54,6 +58,10 @@ class BallsStruct(ctypes.Structure):
         ("count", c_size_t),
         ("growth", c_double),
         ("inertia", c_int32),
+        ("cage", c_double),
+        ("shaft", c_double),
+        ("waves", c_void_p),
+        ("wave_count", c_size_t),
     ]
 
 

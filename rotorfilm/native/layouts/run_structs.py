@@ -1,4 +1,4 @@
-"""What a run over time may have besides rotor and films, as the C library reads it: march.h."""
+"""What a run over time may have besides rotor and films, as the C library reads it: march.h, rub.h."""
 
 from __future__ import annotations
 
@@ -26,4 +26,15 @@ class GroundStruct(ctypes.Structure):
         ("times", c_void_p),
         ("x", c_void_p),
         ("y", c_void_p),
+    ]
+
+
+class BothStruct(ctypes.Structure):
+    """rf_both of rub.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("first", c_void_p),
+        ("of_first", c_void_p),
+        ("second", c_void_p),
+        ("of_second", c_void_p),
     ]

@@ -51,7 +51,7 @@ static void balance_at(const rf_ball_row *row, int inertia, const double *a, con
     const contact *in = &at->in, *out = &at->out;
     rf_ball_inertia_at(row, inertia, in->e, out->e, speed, &at->inertia);
     const double *fc = at->inertia.force, *m = at->inertia.moment;
-    at->share[0] = inertia == RF_BALLS_OUTER_CONTROL ? 0.0 : 1.0;
+    at->share[0] = inertia == RF_BALLS_INNER_CONTROL ? 1.0 : 0.0;
     at->share[1] = 2.0 - at->share[0];
     for (int i = 0; i < 2; ++i) {
         const double lever = at->share[0] * in->t[i] - at->share[1] * out->t[i], up = (double)i;
@@ -182,6 +182,7 @@ static void tell(const rf_ball_row *row, const balance *at, double speed, rf_bal
     ball->centrifugal = at->inertia.force[0];
     ball->gyroscopic = at->inertia.moment[0] * row->diameter;
     ball->orbit = at->inertia.orbit * speed;
+    ball->gap = at->in.length - row->inner;
     const double inner = at->share[0] * m, outer = at->share[1] * m;
     ball->traction = outer > 0.0 ? outer / at->out.load : 0.0;
     if (inner > 0.0)
@@ -201,6 +202,7 @@ static void stand(const rf_ball_row *row, const double *a, double speed, rf_ball
     for (int k = 0; k < 4; ++k)
         ball->by_place[k] = -c.by[k];
     ball->orbit = 0.5 * speed * (1.0 - row->ratio * c.e[1]);
+    ball->gap = (a[1] > 0.0 ? c.length : 0.0) - row->inner - row->outer;
 }
 
 static int run(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
@@ -239,6 +241,9 @@ int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double spee
     /* An inner contact with next to no load holds no moment: then the outer race controls. */
     if (status == RF_STUCK && inertia == RF_BALLS_INNER_CONTROL)
         status = run(row, RF_BALLS_OUTER_CONTROL, a, speed, ball);
+    /* Nor does the outer one of a ball that the moment would carry away from the inner race, which then holds none. */
+    if (status == RF_STUCK && inertia != RF_BALLS_STATIC)
+        status = run(row, RF_BALLS_LOOSE, a, speed, ball);
     if (status == RF_OK && (ball->traction > RF_MOST_TRACTION || !(fmax(ball->load[0], ball->load[1]) <= row->largest)))
         return RF_OUTSIDE;
     return status;

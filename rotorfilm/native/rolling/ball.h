@@ -31,8 +31,8 @@ typedef struct rf_ball_row {
 #define RF_MOST_TRACTION 0.06
 
 /* Which inertia the balls have: none, or centrifugal force and gyroscopic moment, of balls that spin relative to the
-   inner ring only (no spin at the outer one), or to the outer one only. */
-enum { RF_BALLS_STATIC, RF_BALLS_OUTER_CONTROL, RF_BALLS_INNER_CONTROL };
+   inner ring only (no spin at the outer one), or to the outer one only; the last is for balls that hold no moment. */
+enum { RF_BALLS_STATIC, RF_BALLS_OUTER_CONTROL, RF_BALLS_INNER_CONTROL, RF_BALLS_LOOSE };
 
 typedef struct rf_ball {
     double force[2];     /* on the inner ring [N] */
@@ -43,6 +43,7 @@ typedef struct rf_ball {
     double centrifugal;  /* force [N] */
     double gyroscopic;   /* moment, negative for positive angles [N m] */
     double orbit;        /* angular speed about the shaft [rad/s] */
+    double gap;          /* approach of the inner contact, of static balls of both; negative where it is open [m] */
     double traction;     /* friction over load that the gyroscopic moment asks for, the larger of both contacts */
 } rf_ball;
 

@@ -16,7 +16,7 @@ static number product(number a, number b)
 static number orbit_of(double g, int inertia, const double *ei, const double *eo)
 {
     const double p = ei[0] * eo[1] - ei[1] * eo[0], q = ei[1] * eo[1] + ei[0] * eo[0], d = 1.0 + q;
-    const int outer = inertia == RF_BALLS_OUTER_CONTROL;
+    const int outer = inertia != RF_BALLS_INNER_CONTROL;
     const double n = outer ? 1.0 - g * ei[1] : q - g * eo[1], c = n / d;
     const number found = {c, ((outer ? g * ei[0] : -p) + c * p) / d, ((outer ? 0.0 : p + g * eo[0]) - c * p) / d};
     return found;
@@ -27,7 +27,7 @@ static number spin_of(double g, int inertia, const double *ei, const double *eo,
 {
     const number out = {eo[0] / g, 0.0, eo[1] / g}, in = {ei[0] / g, ei[1] / g, 0.0};
     const number left = {1.0 - c.value, -c.inner, -c.outer};
-    return inertia == RF_BALLS_OUTER_CONTROL ? product(c, out) : product(left, in);
+    return inertia != RF_BALLS_INNER_CONTROL ? product(c, out) : product(left, in);
 }
 
 static void scale(double factor, number from, double *to)
@@ -45,5 +45,5 @@ void rf_ball_inertia_at(const rf_ball_row *row, int inertia, const double *ei, c
     answer->orbit = c.value;
     const double unit = row->mass * row->diameter * speed * speed;
     scale(0.5 * unit / row->ratio, product(c, c), answer->force);
-    scale(-0.1 * unit, product(c, s), answer->moment);
+    scale(inertia == RF_BALLS_LOOSE ? 0.0 : -0.1 * unit, product(c, s), answer->moment);
 }

@@ -14,7 +14,7 @@ static int rest_axially(const rf_balls *balls, double thrust, double speed, doub
     double low = -HUGE_VAL, high = HUGE_VAL, reach = FIRST_WAY * unit;
     for (int k = 0, last = 0; k < MOST_STEPS; ++k) {
         const int status = rf_balls_at(balls, motion, speed, wrench, by, NULL);
-        const double rest = wrench[2] + thrust, slope = by[2 * (N + 1) + 2];
+        const double rest = wrench[2] + thrust, slope = by[2 * RF_BALL_SLOPES + 2];
         if (status > RF_OUTSIDE || last || rest == 0.0)
             return status;
         *(rest > 0.0 ? &low : &high) = motion[2];
@@ -33,16 +33,16 @@ static int rest_axially(const rf_balls *balls, double thrust, double speed, doub
 int rf_ball_journal_at(const rf_ball_journal *journal, const double *state, double *f, double *jacobian, double *z)
 {
     const double *fixed = journal->place;
-    double motion[N] = {state[0], state[1], fixed[0], fixed[1], fixed[2]}, wrench[N], by[N * (N + 1)];
+    double motion[N] = {state[0], state[1], fixed[0], fixed[1], fixed[2]}, wrench[N], by[N * RF_BALL_SLOPES];
     const int status = journal->is_free
                            ? rest_axially(&journal->balls, journal->thrust, state[4], motion, wrench, by)
                            : rf_balls_at(&journal->balls, motion, state[4], wrench, by, NULL);
     if (z)
         *z = motion[2];
-    const double *along = by + 2 * (N + 1);
+    const double *along = by + 2 * RF_BALL_SLOPES;
     for (int i = 0; i < 2; ++i) {
         f[i] = wrench[i] - journal->damping * state[2 + i];
-        const double *own = by + i * (N + 1);
+        const double *own = by + i * RF_BALL_SLOPES;
         const double yields = jacobian && journal->is_free && along[2] != 0.0 ? own[2] / along[2] : 0.0;
         for (int j = 0; jacobian && j < 2; ++j) {
             jacobian[5 * i + j] = own[j] - yields * along[j];

@@ -6,57 +6,86 @@
 #define N RF_BALL_DEGREES
 #define TURN 6.28318530717958647692
 
-/* The distance a of the centers of curvature at a ball and, row by row, its derivatives by the motion: they are linear. */
-static void place(const rf_balls *balls, const rf_ball_row *row, const double *motion, double angle, double *a, double *by)
+/* Where a ball is: the distance a of the centers of curvature there, its derivatives by the motion, row by row (they are
+   linear), those turned on by the cage, and the derivatives of a by the angles of cage and shaft. */
+typedef struct spot {
+    double a[2], move[2 * N], turned[2 * N], by_cage[2], by_shaft[2];
+} spot;
+
+static void place(const rf_balls *balls, const rf_ball_row *row, const double *motion, double angle, spot *at)
 {
-    const double c = cos(angle), s = sin(angle), side = row->direction;
-    const double axial[N] = {0.0, 0.0, side, side * row->arm * s, -side * row->arm * c};
-    const double radial[N] = {c, s, 0.0, -row->place * s, row->place * c};
-    a[0] = row->axial;
-    a[1] = row->radial + balls->growth;
-    for (int k = 0; k < N; ++k) {
-        a[0] += axial[k] * motion[k];
-        a[1] += radial[k] * motion[k];
-        by[k] = axial[k];
-        by[N + k] = radial[k];
+    const double c = cos(angle), s = sin(angle), side = row->direction, arm = side * row->arm, far = row->place;
+    const double move[2 * N] = {0.0, 0.0, side, arm * s, -arm * c, c, s, 0.0, -far * s, far * c};
+    const double turned[2 * N] = {0.0, 0.0, 0.0, arm * c, arm * s, -s, c, 0.0, -far * c, -far * s};
+    memcpy(at->move, move, sizeof move);
+    memcpy(at->turned, turned, sizeof turned);
+    at->a[0] = row->axial;
+    at->a[1] = row->radial + balls->growth;
+    for (int i = 0; i < 2; ++i) {
+        at->by_cage[i] = at->by_shaft[i] = 0.0;
+        for (int k = 0; k < N; ++k) {
+            at->a[i] += move[N * i + k] * motion[k];
+            at->by_cage[i] += turned[N * i + k] * motion[k];
+        }
+    }
+}
+
+/* Add the waves of both rings at a ball. */
+static void wave(const rf_balls *balls, double angle, spot *at)
+{
+    for (const rf_ball_wave *one = balls->waves; one != balls->waves + balls->wave_count; ++one) {
+        const double along = one->lobes * (angle - one->turns * balls->shaft) + one->phase;
+        const double height[2] = {one->axial, one->radial};
+        for (int i = 0; i < 2; ++i) {
+            const double slope = -one->lobes * height[i] * sin(along);
+            at->a[i] += height[i] * cos(along);
+            at->by_cage[i] += slope;
+            at->by_shaft[i] -= one->turns * slope;
+        }
     }
 }
 
 /* Add what one ball does: the force moves with the center of curvature. */
-static void add(const rf_ball *ball, const double *move, double *wrench, double *by)
+static void add(const rf_ball *ball, const spot *at, double *wrench, double *by)
 {
     for (int i = 0; i < N; ++i) {
-        const double axial = move[i], radial = move[N + i];
+        const double axial = at->move[i], radial = at->move[N + i];
         wrench[i] += axial * ball->force[0] + radial * ball->force[1];
         if (!by)
             continue;
+        double *own = by + RF_BALL_SLOPES * i;
         const double a = axial * ball->by_place[0] + radial * ball->by_place[2];
         const double r = axial * ball->by_place[1] + radial * ball->by_place[3];
         for (int j = 0; j < N; ++j)
-            by[(N + 1) * i + j] += a * move[j] + r * move[N + j];
-        by[(N + 1) * i + N] += axial * ball->by_speed[0] + radial * ball->by_speed[1];
+            own[j] += a * at->move[j] + r * at->move[N + j];
+        own[N] += axial * ball->by_speed[0] + radial * ball->by_speed[1];
+        own[N + 1] += a * at->by_cage[0] + r * at->by_cage[1];
+        own[N + 1] += at->turned[i] * ball->force[0] + at->turned[N + i] * ball->force[1];
+        own[N + 2] += a * at->by_shaft[0] + r * at->by_shaft[1];
     }
 }
 
 int rf_balls_at(const rf_balls *balls, const double *motion, double speed, double *wrench, double *by, rf_ball *each)
 {
     int worst = RF_OK;
-    double sum = speed;
+    double sum = speed + balls->cage + balls->shaft;
     memset(wrench, 0, N * sizeof *wrench);
     if (by)
-        memset(by, 0, N * (N + 1) * sizeof *by);
+        memset(by, 0, N * RF_BALL_SLOPES * sizeof *by);
     for (int k = 0; k < N; ++k)
         sum += motion[k];
     if (!isfinite(sum))
         return RF_NOT_FINITE;
     for (const rf_ball_row *row = balls->rows; row != balls->rows + balls->count; ++row)
         for (int k = 0; k < (int)row->count; ++k) {
-            double a[2], move[2 * N];
+            const double angle = row->turn + balls->cage + TURN * k / row->count;
+            spot at;
             rf_ball ball;
-            place(balls, row, motion, row->turn + TURN * k / row->count, a, move);
-            const int status = rf_ball_at(row, balls->inertia, a, speed, &ball);
+            place(balls, row, motion, angle, &at);
+            wave(balls, angle, &at);
+            const int status = rf_ball_at(row, balls->inertia, at.a, speed, &ball);
             worst = status > worst ? status : worst;
-            add(&ball, move, wrench, by);
+            add(&ball, &at, wrench, by);
             if (each)
                 *each++ = ball;
         }

@@ -13,15 +13,33 @@
 
 #define RF_BALL_DEGREES 5
 
+/* What a wrench is differentiated by: the motion, the speed, the angles of cage and shaft. */
+#define RF_BALL_SLOPES 8
+
+/* Waviness of the races of one ring, of all rows: cos(lobes (angle - that of the ring) + phase) times these amplitudes is
+   added to the distance of the centers of curvature. */
+typedef struct rf_ball_wave {
+    double turns;  /* 1 of the inner ring, 0 of the outer one, which stands */
+    double lobes;
+    double radial; /* amplitude, positive where it takes clearance [m] */
+    double axial;  /* [m] */
+    double phase;  /* [rad] */
+} rf_ball_wave;
+
+#define RF_WAVE_COLUMNS 5
+
 typedef struct rf_balls {
     const rf_ball_row *rows;
     size_t count;
     double growth;   /* of the inner rings, radially against the outer ones [m] */
     int32_t inertia; /* one of those of ball.h */
+    double cage;     /* angle by which the cages are turned further [rad] */
+    double shaft;    /* angle of the inner rings, where they have waves [rad] */
+    const rf_ball_wave *waves;
+    size_t wave_count;
 } rf_balls;
 
-/* Wrench[5] and, unless NULL, its derivatives by[5][6] by the motion and the speed, and each ball, row by row. The worst
-   status of a ball. */
+/* Wrench[5] and, unless NULL, its derivatives by[5][8], and each ball, row by row. The worst status of a ball. */
 RF_EXPORT_LOOP int rf_balls_at(const rf_balls *balls, const double *motion, double speed, double *wrench, double *by,
                                rf_ball *each);
 

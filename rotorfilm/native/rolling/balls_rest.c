@@ -15,7 +15,7 @@
 
 /* A trial motion: wrench + load, scaled, its derivatives, scaled, and the size of the residual. */
 typedef struct trial {
-    double motion[N], by[N * (N + 1)], rest[N], size;
+    double motion[N], by[N * RF_BALL_SLOPES], rest[N], size;
     int status;
 } trial;
 
@@ -44,7 +44,7 @@ static void step(const rf_balls *balls, const trial *from, double spring, double
     for (int i = 0; i < N; ++i) {
         way[i] = from->rest[i];
         for (int j = 0; j < N; ++j)
-            q[N * i + j] = -scale(balls, i) * from->by[(N + 1) * i + j] * scale(balls, j) + (i == j ? spring : 0.0);
+            q[N * i + j] = -scale(balls, i) * from->by[RF_BALL_SLOPES * i + j] * scale(balls, j) + (i == j ? spring : 0.0);
     }
     rf_eliminate(N, q, 1, way);
     for (int k = 0; k < N; ++k)
@@ -63,7 +63,7 @@ static double noise(const rf_balls *balls, const trial *at)
 {
     double stiffest = 0.0;
     for (int k = 0; k < N; ++k)
-        stiffest = fmax(stiffest, -at->by[(N + 2) * k] * pow(scale(balls, k), 2.0));
+        stiffest = fmax(stiffest, -at->by[(RF_BALL_SLOPES + 1) * k] * pow(scale(balls, k), 2.0));
     return ROUNDOFF * (balls->rows->inner + balls->rows->outer) * stiffest;
 }
 

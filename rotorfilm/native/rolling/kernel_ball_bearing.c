@@ -1,7 +1,7 @@
 /* Kernel "ball_bearing": a shaft in ball bearings that moves along x and y.
 
-   Tables: rows (n x 15: the numbers of an rf_ball_row of ball.h, in its order), law (2: the inertia of the balls, one of
-   those of ball.h, and whether the second parameter is a thrust). Parameters: growth [m]; z [m] or the thrust [N]; tilt_x,
+   Tables: rows, waves and law of ball_tables.h, law of 2: the inertia of the balls, and whether the second parameter is a
+   thrust. Parameters: growth [m]; z [m] or the thrust [N]; tilt_x,
    tilt_y [rad]; angle of the cage [rad], added to that of the rows; damping [N s/m]. Inputs and outputs of a reaction. */
 
 /* Documentation of the FMU
@@ -24,50 +24,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../kernels/kernel.h"
-#include "balls.h"
-
-#define MOST_ROWS 16u
-#define MOST_BALLS 1000.0
+#include "ball_tables.h"
 
 enum { GROWTH, AXIAL, TILT_X, TILT_Y, CAGE, DAMPING, PARAMETERS };
 
 typedef struct model {
     rf_ball_journal journal;
-    rf_ball_row rows[MOST_ROWS];
-    const double *given; /* of the table rows */
+    rf_ball_tables tables;
 } model;
-
-static int is_row(const double *row)
-{
-    int good = fabs(row[1]) == 1.0 && row[5] >= 1.0 && row[5] <= MOST_BALLS && row[5] == floor(row[5]);
-    for (unsigned k = 7; k < RF_BALL_COLUMNS; ++k)
-        good = good && row[k] > 0.0;
-    return good && row[11] < 1.0;
-}
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
     model *self = kernel;
-    const rf_table *rows = rf_find_table(tables, "rows", 2, why);
-    const rf_table *law = rows ? rf_find_table(tables, "law", 1, why) : NULL;
-    if (!law)
+    const double *law;
+    if (rf_take_balls(tables, 2, &self->tables, &self->journal.balls, &law, why))
         return RF_INVALID;
-    const uint32_t count = rows->extent[0];
-    if (count < 1 || count > MOST_ROWS || rows->extent[1] != RF_BALL_COLUMNS || law->extent[0] != 2)
-        return rf_say(why, RF_INVALID, "table rows must be 1 to %u x %d, got %u x %u", MOST_ROWS, RF_BALL_COLUMNS,
-                      (unsigned)count, (unsigned)rows->extent[1]);
-    for (uint32_t k = 0; k < count; ++k)
-        if (!is_row(rows->numbers + k * RF_BALL_COLUMNS))
-            return rf_say(why, RF_INVALID, "row %u must be that of a ball bearing", (unsigned)k);
-    const double inertia = law->numbers[0];
-    if (inertia != RF_BALLS_STATIC && inertia != RF_BALLS_OUTER_CONTROL && inertia != RF_BALLS_INNER_CONTROL)
-        return rf_say(why, RF_INVALID, "inertia must be 0, 1 or 2, got %.9g", inertia);
-    self->given = rows->numbers;
-    memcpy(self->rows, rows->numbers, count * sizeof *self->rows);
-    const rf_balls balls = {self->rows, count, 0.0, (int32_t)inertia};
-    self->journal.balls = balls;
-    self->journal.is_free = law->numbers[1] != 0.0;
+    self->journal.is_free = law[1] != 0.0;
     return RF_OK;
 }
 
@@ -95,19 +67,15 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     journal->place[1] = p[TILT_X];
     journal->place[2] = p[TILT_Y];
     journal->damping = p[DAMPING];
-    for (size_t k = 0; k < journal->balls.count; ++k)
-        self->rows[k].turn = self->given[k * RF_BALL_COLUMNS + 6] + p[CAGE];
+    journal->balls.cage = p[CAGE];
     return RF_OK;
 }
 
 static int explain(int status, const double *u, rf_message *why)
 {
-    static const char *const said[] = {
-        "", "a ball must be pressed to 4200 MPa at most and need a traction coefficient of at most 0.06", "", "",
-        "the force is not finite", "", "the balls must find a balance, and the search found none"};
     return status == RF_OK ? RF_OK
-                           : rf_say(why, status, "%s, at x = %.9g, y = %.9g m, speed = %.9g rad/s", said[status], u[0],
-                                    u[1], u[4]);
+                           : rf_say(why, status, "%s, at x = %.9g, y = %.9g m, speed = %.9g rad/s", rf_ball_text(status),
+                                    u[0], u[1], u[4]);
 }
 
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)

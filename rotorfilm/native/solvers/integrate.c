@@ -123,6 +123,19 @@ static double fitted(double h, double rest, int costly)
     return costly && parts < 1e6 ? rest / ceil(parts * (1.0 - 1e-9)) : h;
 }
 
+/* Tell the watch of a step, which may bring the end nearer. */
+static void pass(rf_piece *p, double t)
+{
+    const rf_watch *watch = &p->job->watch;
+    if (!watch->passed)
+        return;
+    const double end = watch->passed(watch->host, t, p->goal);
+    if (end < p->goal)
+        p->goal = end > t ? end : t;
+    if (p->goal < p->end)
+        p->end = p->goal;
+}
+
 static int run_piece(rf_piece *p, double *t, double *x, rf_message *why)
 {
     const rf_method *method = method_of(p->job->type);
@@ -144,6 +157,9 @@ static int run_piece(rf_piece *p, double *t, double *x, rf_message *why)
                     *p->job->stride = h * adapt(error, method, before == RF_REJECTED);
                 return RF_OK;
             }
+            pass(p, *t);
+            if (*t >= p->end)
+                return RF_OK;
         }
         p->last = accepted ? RF_ACCEPTED : before == RF_FIRST && status > RF_OUTSIDE ? RF_FIRST : RF_REJECTED;
         h *= adapt(error, method, before == RF_REJECTED || !accepted);
@@ -157,15 +173,17 @@ int rf_integrate(const rf_integration *job, double *t, double *x, const double *
                  rf_message *why)
 {
     const size_t n = job->states;
-    rf_piece p = {job, u, end, RF_FIRST, job->work, job->work + n, {NULL}, job->work + 2 * n};
+    rf_piece p = {job, u, end, end, RF_FIRST, job->work, job->work + n, {NULL}, job->work + 2 * n};
     for (size_t s = 0; s < STAGES; ++s)
         p.stages[s] = p.slope + (s + 1) * n;
-    while (*t < end) {
+    while (*t < p.goal) {
         const double kink = job->type->next_event ? job->type->next_event(job->kernel, *t) : HUGE_VAL;
-        p.end = kink < end ? kink : end;
+        p.end = kink < p.goal ? kink : p.goal;
         const int status = run_piece(&p, t, x, why);
         if (status != RF_OK)
             return status;
+        if (*t < p.goal)
+            pass(&p, *t);
     }
     return RF_OK;
 }

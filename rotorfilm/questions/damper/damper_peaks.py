@@ -25,6 +25,7 @@ from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.damper.damper_table import DamperTable
 from ...scenes.excitation_table import BladeLossTable, RunUpTable
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .conserved_peaks import conserved_peak_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -203,10 +204,12 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
     assert scene.damper is not None  # or the ladder is another one
     if scene.damper.supply is not None:
-        raise InputError(
-            f"damper.supply must be left out for {quantity}, whose films make the oil that they take; a run "
-            f"of the scene conserves it, got {scene.damper.supply!r}"
-        )
+        if scene.damper.film is not None:
+            raise InputError(
+                f"damper.film must be left out beside supply for {quantity}, as only the film that conserves "
+                f"its oil knows the supply in time, got {scene.damper.film!r}"
+            )
+        return conserved_peak_ladder(scene)
     models = damper_models(scene)
     rungs = tuple(
         DamperPeakRung(

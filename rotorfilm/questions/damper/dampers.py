@@ -41,6 +41,7 @@ from ...scenes.damper.damper_films import (
 from ...scenes.damper.damper_models import damper_models
 from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.journal.film_rung import MAP_MADE
+from .conserved_peaks import passing_holes_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -239,7 +240,9 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
     elif rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
-    stiffness = scene.damper.stiffness
+    stiffness, supply = scene.damper.stiffness, scene.damper.supply
+    if supply is not None and not supply.turns_alike and quantity not in (UP, DOWN):
+        return passing_holes_ladder(scene, quantity, UNITS[quantity])
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
         for film in orbit_films(scene.damper, rotor)

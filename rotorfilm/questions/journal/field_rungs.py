@@ -12,7 +12,7 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from ...answers import ErrorEstimate, Found, WorkUnit
-from ...bearings.journal import JournalBearing
+from ...bearings.journal import JFOFilm, JournalBearing
 from ...ladders import BaseRung, Rung
 from ...scenes.journal.field_levels import FIELD_LEVELS, REFERENCE, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
@@ -61,19 +61,19 @@ class FieldRung(BaseRung):
     ----------
     level : FieldLevel
         T2 or T3.
-    bearing : JournalBearing
+    bearing : JournalBearing or JFOFilm
         On its oil.
     question : HeatedQuestion
     """
 
     level: FieldLevel
-    bearing: JournalBearing
+    bearing: JournalBearing | JFOFilm
     question: HeatedQuestion
 
     @property
     def name(self) -> str:
         """Level, cells and layers."""
-        return self.level.name
+        return f"{self.level.name}, JFO" if isinstance(self.bearing, JFOFilm) else self.level.name
 
     @property
     def unit(self) -> WorkUnit:
@@ -105,7 +105,7 @@ class FieldRung(BaseRung):
         return own
 
 
-def field_rungs(bearing: JournalBearing, question: HeatedQuestion) -> tuple[Rung, ...]:
+def field_rungs(bearing: JournalBearing | JFOFilm, question: HeatedQuestion) -> tuple[Rung, ...]:
     """Return T2 and T3, the latter on two grids."""
     return tuple(FieldRung(level=level, bearing=bearing, question=question) for level in FIELD_LEVELS)
 

@@ -22,7 +22,7 @@ from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.heat_steps import HeatError, HeatSteps
-from ...scenes.journal.warm_rest import WarmRest, uniform_rest
+from ...scenes.journal.warm_rest import WarmRest, ends_within, uniform_rest
 from .field_rungs import HeatedQuestion, field_rungs, motion_rungs
 
 if TYPE_CHECKING:
@@ -217,7 +217,9 @@ def thermal_ladder(
         for film in known
         for one in questions
     )
-    fields = motion_rungs(known[0], questions[:2]) if question.moves else field_rungs(quick, question)
+    fields: tuple[Rung, ...] = ()  # beside openings within the length only conserved oil is known
+    if not ends_within(quick):
+        fields = motion_rungs(known[0], questions[:2]) if question.moves else field_rungs(quick, question)
 
     def assumptions() -> tuple[str, ...]:
         own = uniform_rest(quick, question.load, question.speed)

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 from ...answers import ErrorEstimate, Found
 from ...bearings.journal import JFOFilm, film_name, has_losses
 from ...errors import InputError, RotorfilmError
-from ...ladders import Ladder
+from ...ladders import Ladder, Rung
 from ...model import Array
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
+from ...scenes.journal.heat_steps import HeatSteps
 from ...scenes.journal.warm_rest import uniform_rest
 from .conserved_rungs import ConservedRung, conserved_films
-from .field_rungs import HeatedQuestion
-from .heat_rungs import BALANCED, UniformRung, known_films, thermal_ladder
+from .field_rungs import HeatedQuestion, field_rungs
+from .heat_rungs import thermal_ladder
 from .ruptured_rungs import (
     UNFED,
     Change,
@@ -104,32 +105,31 @@ def conserved_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def above_rupture(scene: Scene, quantity: str) -> tuple[ConservedRung, ...]:
-    """Return the rungs of a static quantity that conserve their oil."""
+def above_rupture(scene: Scene, quantity: str) -> tuple[Rung, ...]:
+    """Return the rungs of a static quantity that conserve their oil, on an oil with those of its heat."""
 
     def value(film: JFOFilm, before: Found | None) -> Array | float:
         return conserved_value(quantity, rest_on(film, scene.static_load, scene.speed), scene)
 
-    heat = heat_of_balance(scene, quantity) if scene.journal_bearing.is_warming else None
+    films, warm = conserved_films(scene), scene.journal_bearing.is_warming
+    heat = heat_of_balance(scene, quantity) if warm else None
     distance = distance_of(scene, quantity)
-    return tuple(
-        ConservedRung(film=film, value=value, distance=distance, heat=heat) for film in conserved_films(scene)
-    )
+    uniform = tuple(ConservedRung(film=film, value=value, distance=distance, heat=heat) for film in films)
+    return (*uniform, *field_rungs(films[0], heated_question(scene, quantity))) if warm else uniform
 
 
 def heat_of_balance(scene: Scene, quantity: str) -> Callable[[float], ErrorEstimate]:
-    """Return a call for the error by heat of a film of one temperature, that of Reynolds rupture."""
-    question = heated_question(scene, quantity)
-    film = known_films(point_films(scene.journal_bearing, fixed=False))[0]
-    rung = UniformRung(level=BALANCED, film=film, question=question)
+    """Return a call for the error by heat of a film of one temperature that conserves its oil."""
+    question, film = heated_question(scene, quantity), conserved_films(scene)[0]
 
     def heat(tolerance: float) -> ErrorEstimate:
         try:
-            own = uniform_rest(film.reaction, scene.static_load, scene.speed)
-            found, how, doubt = rung.heat(own, tolerance)
+            own = uniform_rest(film, scene.static_load, scene.speed)
+            steps = HeatSteps(film, own)
+            found = question.error(own, steps)
         except RotorfilmError as error:
             return ErrorEstimate(math.inf, "not known", doubt=f"its error by heat is not known: {error}")
-        return ErrorEstimate(found.error, how, bound=found.bound, doubt=doubt)
+        return ErrorEstimate(found.error, "steps towards T3", bound=found.bound, doubt=steps.doubt)
 
     return heat
 

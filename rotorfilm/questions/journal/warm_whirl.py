@@ -21,7 +21,7 @@ from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.heat_steps import HeatError, HeatSteps, JudgedRest
-from ...scenes.journal.warm_rest import WarmRest, uniform_rest
+from ...scenes.journal.warm_rest import WarmRest, ends_within, uniform_rest
 from .conserved_whirl import with_conserved_whirl
 from .heat_rungs import BALANCE, BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
@@ -265,7 +265,8 @@ def _ruptured_ladder(scene: Scene, quantity: str) -> Ladder:
                 film=film, load=scene.static_load, mass=mass, level=level, bearing=warm.reaction
             )
     quick = uniform[BALANCED, known[0].name]
-    fields = (FieldWhirlRung(level=level, uniform=quick) for level in FIELD_LEVELS[:2])
+    levels = () if ends_within(quick.bearing) else FIELD_LEVELS[:2]  # without the oil's memory they are none
+    fields = (FieldWhirlRung(level=level, uniform=quick) for level in levels)
 
     def assumptions() -> tuple[str, ...]:
         found = quick.answer(None)

@@ -36,6 +36,8 @@ def assemble(
     probes: Sequence[Probe],
     unbalances: Sequence[Unbalance],
     internal_damping: float,
+    mass_damping: float,
+    stiffness_damping: float,
     loss_factor: float,
     gravity: tuple[float, float],
     beam: Beam,
@@ -51,9 +53,11 @@ def assemble(
         *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
     ]
     size, supported = len(coordinates), [s for s in stations if s.support]
-    mass, polar, stiffness, geometric, twist = _chain(elements, disks, beam, size)
+    mass, polar, stiffness, geometric, twist = chain_matrices(elements, disks, beam, size)
     bending = both_planes(stiffness)
     held, damping = _ground(tilt_springs, supported, size)
+    if mass_damping or stiffness_damping:
+        damping = damping + both_planes(mass_damping * mass + stiffness_damping * stiffness)
     first, housings = size - len(supported), _housings(stations, size)
     masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
     mass = both_planes(mass + summed(size, masses))
@@ -66,7 +70,7 @@ def assemble(
         stations=checked_stations([station.name for station in stations]),
         journals=_journals(stations, size) - housings,
         weight=mass @ _translation(elements, len(supported), size, gravity),
-        unbalance=_unbalance(unbalances, size),
+        unbalance=_unbalance(unbalances, disks, size),
         coordinates=tuple(coordinates),
         readouts=(
             *(r for p in probes for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)),
@@ -97,7 +101,7 @@ def _inner(element: ShaftPiece, beam: Beam) -> int:
     return 0 if isinstance(element, Coupling) else beam.internal
 
 
-def _chain(elements: Sequence[ShaftPiece], disks: Sequence[Disk], beam: Beam, size: int) -> list[Any]:
+def chain_matrices(elements: Sequence[ShaftPiece], disks: Sequence[Disk], beam: Beam, size: int) -> list[Any]:
     """Return mass, polar, stiffness, geometric stiffness and twist of one plane, disks included."""
     known: dict[ShaftPiece, list[Array]] = {}
     parts: list[tuple[list[int], list[Array]]] = []
@@ -165,11 +169,20 @@ def _translation(elements: Sequence[ShaftPiece], supports: int, size: int, by: t
     return np.concatenate([by[0] * plane, by[1] * plane])
 
 
-def _unbalance(unbalances: Sequence[Unbalance], size: int) -> Array:
+def _unbalance(unbalances: Sequence[Unbalance], disks: Sequence[Disk], size: int) -> Array:
+    """Return forces of unbalances, and moments of disks that are skewed, as `Structure` has them.
+
+    A disk whose axis leans by a turning angle has the moment (I_d - I_p) (w^2 - i a) skew, in the pattern of
+    an unbalance: its inertia acts on tilt + skew, its springs on the tilt.
+    """
     columns = np.zeros((2 * size, 2))
     for item in unbalances:
         rows = [2 * item.node, 2 * item.node + size]
         columns[rows] += unbalance_columns(item.unbalance, item.unbalance_angle)
+    for disk in disks:
+        rows = [2 * disk.node + 1, 2 * disk.node + 1 + size]
+        moment = (disk.diametral_inertia - disk.polar_inertia) * disk.skew
+        columns[rows] += unbalance_columns(moment, disk.skew_angle)
     return columns
 
 

@@ -23,6 +23,9 @@ _NODES, _WEIGHTS = leggauss(7)
 POINTS = 0.5 * (_NODES + 1.0)
 """Places z / length at which a section that varies along an element is given."""
 
+WEIGHTS = 0.5 * _WEIGHTS
+"""Weights of these places, with the sum 1."""
+
 
 class BeamMatrices(NamedTuple):
     """Matrices of one plane, shape (n, n) each.
@@ -181,7 +184,7 @@ def beam_matrices(beam: Beam, section: Section, length: float) -> BeamMatrices:
     if beam.internal and not sheared:
         raise InputError(f"shear_coefficient must be finite for {beam!r}, got inf; ClassicalBeam() allows it")
     shapes = beam.shapes(length, float(12.0 * bending[middle] / (shear[middle] * length**2)))
-    weights = 0.5 * length * _WEIGHTS
+    weights = length * WEIGHTS
     w, slope, theta, curvature = (
         np.array(rows)
         for rows in (

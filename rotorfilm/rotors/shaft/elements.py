@@ -193,10 +193,16 @@ class Coupling:
         Against deflection of one side from the other.
     tilt_stiffness : float [N m/rad]
         Against tilt of one side from the other.
+    axial_stiffness : float or None [N/m]
+        Along the shaft; for its axial modes.
+    twist_stiffness : float or None [N m/rad]
+        About the shaft; for its torsional modes.
     """
 
     stiffness: float
     tilt_stiffness: float
+    axial_stiffness: float | None = None
+    twist_stiffness: float | None = None
 
     length = 0.0
     axial_force = 0.0
@@ -205,6 +211,9 @@ class Coupling:
     def __post_init__(self) -> None:
         require_positive("stiffness", self.stiffness)
         require_non_negative("tilt_stiffness", self.tilt_stiffness)
+        for name in ("axial_stiffness", "twist_stiffness"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
 
     def matrices(self, beam: Beam) -> BeamMatrices:
         """Return the matrices of one plane."""

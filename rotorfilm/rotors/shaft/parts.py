@@ -26,14 +26,23 @@ class Disk:
     mass : float [kg]
     diametral_inertia, polar_inertia : float [kg m2]
         Moments of inertia about a diameter and about the axis.
+    skew : float [rad]
+        By which its axis is out of that of the shaft; it excites as an unbalance does.
+    skew_angle : float [rad]
+        Angle from +x at t = 0, positive about +z, of the plane in which its axis leans: where it leans
+        towards in the direction of +z.
     """
 
     node: int
     mass: float
     diametral_inertia: float = 0.0
     polar_inertia: float = 0.0
+    skew: float = 0.0
+    skew_angle: float = 0.0
 
     def __post_init__(self) -> None:
+        require_number("skew", self.skew)
+        require_number("skew_angle", self.skew_angle)
         for name in ("mass", "diametral_inertia", "polar_inertia"):
             require_non_negative(name, getattr(self, name))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ...model import Array
 from ...units import STANDARD_GRAVITY
 from ..profile import SpeedProfile
 from ..structure import FlexibleRotor, Structure, check_motion
-from .assembly import assemble, check_nodes
+from .assembly import assemble, chain_matrices, check_nodes
 from .beam import Beam, FourthOrderBeam
 from .elements import Coupling, ShaftPiece
 from .parts import Disk, Probe, Station, TiltSpring, Unbalance
@@ -43,6 +44,9 @@ class ShaftRotor(FlexibleRotor):
     internal_damping : float [s]
         Damping of the rotating shaft: stress = E (strain + internal_damping * strain rate). It acts on
         elements and couplings and drives forward whirl slower than the shaft.
+    mass_damping, stiffness_damping : float [1/s, s]
+        Proportional damping alpha M + beta K of shaft and disks against the ground: it does not turn with the
+        shaft. A mode w of a free shaft has the damping ratio alpha / (2 w) + beta w / 2.
     loss_factor : float [1]
         Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
         strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
@@ -77,6 +81,8 @@ class ShaftRotor(FlexibleRotor):
     unbalances: tuple[Unbalance, ...] = ()
     probes: tuple[Probe, ...] = ()
     internal_damping: float = 0.0
+    mass_damping: float = 0.0
+    stiffness_damping: float = 0.0
     loss_factor: float = 0.0
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     beam: Beam = field(default_factory=FourthOrderBeam)
@@ -85,8 +91,8 @@ class ShaftRotor(FlexibleRotor):
     def __post_init__(self) -> None:
         if all(isinstance(element, Coupling) for element in self.elements):
             raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
-        require_non_negative("internal_damping", self.internal_damping)
-        require_non_negative("loss_factor", self.loss_factor)
+        for name in ("internal_damping", "mass_damping", "stiffness_damping", "loss_factor"):
+            require_non_negative(name, getattr(self, name))
         check_nodes(
             len(self.elements) + 1,
             {
@@ -112,6 +118,11 @@ class ShaftRotor(FlexibleRotor):
         shift[0 : 2 * (len(self.elements) + 1) : 2] = 1.0
         return float(shift @ (self.assembly.mass @ shift))
 
+    @property
+    def bending(self) -> Any:
+        """Stiffness of bending and shear in one plane, without bearings and loads, sparse, (N / 2, N / 2)."""
+        return chain_matrices(self.elements, self.disks, self.beam, len(self.assembly.coordinates))[2]
+
     def assembled(self) -> Structure:
         """Return the matrices of the rotor."""
         return assemble(
@@ -122,6 +133,8 @@ class ShaftRotor(FlexibleRotor):
             probes=self.probes,
             unbalances=self.unbalances,
             internal_damping=self.internal_damping,
+            mass_damping=self.mass_damping,
+            stiffness_damping=self.stiffness_damping,
             loss_factor=self.loss_factor,
             gravity=self.gravity,
             beam=self.beam,

@@ -192,8 +192,8 @@ def damper_films(table: DamperTable) -> tuple[AnyDamperFilm, ...]:
         return plain
     if not table.supply.turns_alike:
         raise InputError(
-            "supply.feed_holes must be left out for a question about orbits, which they make unsteady: run "
-            f"the scene, or take damper_turn, got {table.supply.feed_holes!r}"
+            "supply.feed_holes must be left out for a question about jumps, as they make orbits unsteady: "
+            f"ask for unbalance_amplitude, or run the scene, got {table.supply.feed_holes!r}"
         )
     damper = replace(table.conserved(table.supply), stiffness=0.0)
     judged = [replace(film, conserved=damper) for film in plain]

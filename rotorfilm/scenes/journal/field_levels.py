@@ -8,8 +8,8 @@ from typing import TypeVar
 
 from numpy.typing import ArrayLike
 
-from ...bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature, MeanTemperature
-from .warm_rest import WarmRest, bush_of, field_rest
+from ...bearings.journal import JFOFilm, JournalBearing, LayeredTemperature, MeanTemperature
+from .warm_rest import WarmRest, field_rest, warm_field
 
 Rest = TypeVar("Rest")
 
@@ -61,11 +61,10 @@ class FieldLevel:
         """That of one mean across the film, on these cells."""
         return replace(self, level="T2", layers=0, seconds=0.25 * self.seconds)
 
-    def rest(self, bearing: JournalBearing, load: ArrayLike, speed: float) -> WarmRest:
+    def rest(self, bearing: JournalBearing | JFOFilm, load: ArrayLike, speed: float) -> WarmRest:
         """Return where a journal rests on this film of a bearing on an oil."""
         profile = LayeredTemperature(self.layers) if self.layers else MeanTemperature()
-        film = HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=self.cells, profile=profile)
-        return field_rest(film, load, speed)
+        return field_rest(warm_field(bearing, self.cells, profile), load, speed)
 
 
 MEAN = FieldLevel(level="T2", cells=(80, 8), seconds=0.5)

@@ -16,10 +16,10 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ...bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature
+from ...bearings.journal import HeatedFilm, HeatedJFOFilm, JFOFilm, JournalBearing, LayeredTemperature
 from ...linear import equilibrium
 from ...results import Equilibrium
-from .warm_rest import WarmRest, bush_of, rest_of_state
+from .warm_rest import WarmRest, rest_of_state, warm_field
 
 PROFILE, CELLS = LayeredTemperature(8), (80, 8)
 """Layers and cells of a step; the cells are those of the rungs with a temperature field."""
@@ -58,13 +58,13 @@ class HeatSteps:
 
     Attributes
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or JFOFilm
         On its oil.
     own : WarmRest
         By T1 or T2.
     """
 
-    bearing: JournalBearing
+    bearing: JournalBearing | JFOFilm
     own: WarmRest
 
     @cached_property
@@ -95,7 +95,7 @@ class HeatSteps:
 
     def _steps(self, cells: tuple[int, int]) -> tuple[WarmRest, ...]:
         own, bearing = self.own, self.bearing
-        film = self._film(cells)
+        film: Any = self._film(cells)  # its own films have a force at rest, which is what is asked
         state = film.warmed_from(own.rest.position, own.rest.speed, self._start(cells))
         found: list[WarmRest] = []
         at = own.rest
@@ -107,22 +107,20 @@ class HeatSteps:
             found.append(self._moved(rest_of_state(bearing, at, after, state), here))
         return tuple(found)
 
-    def _film(self, cells: tuple[int, int]) -> HeatedFilm:
-        bearing = self.bearing
-        return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=PROFILE)
+    def _film(self, cells: tuple[int, int]) -> HeatedFilm | HeatedJFOFilm:
+        return warm_field(self.bearing, cells, PROFILE)
 
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
         """Return the start by one temperature on these cells, whose own error is none of the heat.
 
-        A field is on the cells of the steps, whose error is its own; and films that openings feed start only
-        where there is oil, which is not the film of one temperature.
+        A field is on the cells of the steps, whose error is its own; and films by Reynolds rupture that
+        openings feed start only where there is oil, which is not the film of one temperature.
         """
-        own = self.own
-        if own.field is not None or self.bearing.geometry.openings():
+        own, film = self.own, self._film(cells)
+        fed = isinstance(film, HeatedFilm) and film.bearing.geometry.openings()
+        if own.field is not None or fed:
             return own
-        state = self._film(cells).warmed_from(
-            own.rest.position, own.rest.speed, own.temperature, closing=True
-        )
+        state = film.warmed_from(own.rest.position, own.rest.speed, own.temperature, closing=True)
         at = equilibrium(state.film, own.rest.load, own.rest.speed)
         moved = self._moved(rest_of_state(self.bearing, at, state.film, state), own.rest)
         return replace(moved, temperature=own.temperature, maximum_temperature=own.maximum_temperature)

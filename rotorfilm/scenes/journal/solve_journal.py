@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
 
 from ...bearings.journal import JFOFilm, JournalBearing, film_name
-from ...errors import AbsentError
-from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
-from ...model import Array, Reaction
+from ...errors import ConvergenceError
+from ...linear import (
+    CriticalMass,
+    coefficients,
+    critical_mass,
+    equilibrium,
+    threshold_near,
+    whirl_threshold,
+)
+from ...model import Reaction
 from ...readable.result import Readable
 from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
-from ...warming import settled
 from .echo import bearing_data
-
-WHIRLS, SAME = 60, 1e-6
-"""Most frequencies at which K and C are taken, and the relative change at which the whirl has that one."""
-
-STEP, NEAR, MOST = 1.1, 1e-4, 30
-"""Factor of the speed between two that are looked at for a border, relative change at which it is found, and
-most looks. K and C jump a little with the cells of the cavity: a border between two speeds always ends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +105,7 @@ def film_answer(
             equilibrium=at,
             coefficients=derivatives,
             losses=at.losses,
-            critical_mass=_whirling_mass(settled(bearing, at.position, speed), at),
+            critical_mass=_whirling_mass(derivatives),
             whirl_threshold=None,
         )
     return Answer(
@@ -123,35 +119,12 @@ def film_answer(
     )
 
 
-def _whirling_mass(film: JFOFilm, at: Equilibrium) -> CriticalMass:
-    """Return the critical mass with K and C at the frequency of the whirl itself."""
-    frequency = 0.5 * abs(at.speed)
-    for _ in range(WHIRLS):
-        found = critical_mass(film.coefficients(at.position, at.speed, frequency))
-        own = found.whirl_frequency
-        if own is None or abs(own - frequency) <= 1e-9 * frequency:
-            return found
-        frequency = 0.5 * (frequency + own)  # own alone may go round in a circle
-    reason = "no frequency found at which the whirl has the stiffness and damping of that frequency"
-    return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)
-
-
-def whirl_growth(film: JFOFilm, position: Array, speed: float, mass: float) -> float:
-    """Return the growth rate [1/s] of the least stable whirl of a rigid rotor, K and C at its frequency.
-
-    Exact where it vanishes: then K(s) is that of the whirl itself.
-    """
-    frequency, value = 0.5 * abs(speed), 0j
-    for _ in range(WHIRLS):
-        found = film.coefficients(position, speed, frequency)
-        zero, one = np.zeros((2, 2)), np.eye(2)
-        values = np.linalg.eigvals(np.block([[zero, one], [-found.stiffness / mass, -found.damping / mass]]))
-        value = values[np.argmax(values.real + 1e-12 * np.abs(values.imag))]
-        own = max(abs(value.imag), 1e-3 * abs(speed))
-        if abs(own - frequency) <= SAME * frequency:
-            break
-        frequency = 0.5 * (frequency + own)  # own alone may go round in a circle
-    return float(value.real)
+def _whirling_mass(film: Coefficients) -> CriticalMass:
+    """Return the critical mass on a film that remembers, by K(s); the reason where the count refutes it."""
+    try:
+        return critical_mass(film)
+    except ConvergenceError as error:
+        return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=str(error))
 
 
 def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, start: float) -> float:
@@ -159,24 +132,9 @@ def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, s
 
     Raises
     ------
-    AbsentError
-        If there is none within some 17 times that one.
+    AbsentError, ConvergenceError
+        As `threshold_near`.
     """
-    # Imported here: nothing else of an answer takes it.
-    from scipy.optimize import brentq
-
-    whole: Any = film  # a force at rest, which is what these take
-
-    def growth(speed: float) -> float:
-        position = equilibrium(whole, load, speed).position
-        return whirl_growth(settled(whole, position, speed), position, speed, mass)
-
-    speed, own = start, growth(start)
-    factor = STEP if own < 0.0 else 1.0 / STEP
-    for _ in range(MOST):
-        last, speed = speed, speed * factor
-        if (growth(speed) < 0.0) is not (own < 0.0):
-            return float(brentq(growth, min(last, speed), max(last, speed), rtol=NEAR))
-    raise AbsentError(
-        f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
-    )
+    found = threshold_near(film, load, mass, start).speed
+    assert found is not None  # or there is an error
+    return found

@@ -7,11 +7,22 @@ and across it.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, cast
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from ...bearings.journal import BushRing, HeatedFilm, HeatedState, JournalBearing, Walls
+from ...bearings.journal import (
+    BushRing,
+    FilmProfile,
+    HeatedFilm,
+    HeatedJFOFilm,
+    HeatedState,
+    JFOFilm,
+    JournalBearing,
+    Walls,
+)
 from ...bearings.oil.cooling import RING
 from ...linear import coefficients, equilibrium, heated_equilibrium
 from ...model import Reaction
@@ -77,18 +88,21 @@ def bush_of(bearing: JournalBearing) -> Walls:
 
 
 def uniform_rest(
-    bearing: JournalBearing, load: ArrayLike, speed: float, temperature: float | None = None
+    bearing: JournalBearing | JFOFilm, load: ArrayLike, speed: float, temperature: float | None = None
 ) -> WarmRest:
     """Return the rest on a film of one temperature [K], that of its balance if none is given (T1)."""
     _, cooling = bearing.cooled
-    at = equilibrium(bearing if temperature is None else bearing.at_temperature(temperature), load, speed)
+    warm: Any = bearing if temperature is None else bearing.at_temperature(temperature)
+    at = equilibrium(warm, load, speed)
     film = at.temperature if temperature is None else temperature
     assert film is not None  # of a film that warms
-    losses = at.losses
+    losses, frozen = at.losses, bearing.at_temperature(film)
+    if losses is None:  # a JFOFilm at a stated temperature
+        losses = frozen.losses(at.position, np.zeros(2), speed)
     assert losses is not None  # a balance has them
     return WarmRest(
         rest=at,
-        reaction=bearing.at_temperature(film),
+        reaction=cast(Reaction, frozen),
         power_loss=float(losses.power_loss),
         side_flow=float(losses.side_flow),
         temperature=film,
@@ -97,13 +111,35 @@ def uniform_rest(
     )
 
 
-def field_rest(film: HeatedFilm, load: ArrayLike, speed: float) -> WarmRest:
+def warm_field(
+    bearing: JournalBearing | JFOFilm, cells: tuple[int, int], profile: FilmProfile
+) -> HeatedFilm | HeatedJFOFilm:
+    """Return a film with a temperature field; one that conserves its oil where openings end within it."""
+    if ends_within(bearing):
+        bearing = JFOFilm(bearing=bearing)  # type: ignore[arg-type]  # no JFOFilm
+    if isinstance(bearing, JFOFilm):
+        film = replace(bearing, cells=cells)
+        return HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
+    return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=profile)
+
+
+def ends_within(bearing: JournalBearing | JFOFilm) -> bool:
+    """Return whether a bearing has openings that end within it, beside which only conserved oil is known."""
+    if isinstance(bearing, JFOFilm):
+        return False
+    return bool(bearing.geometry.pockets) or bearing.geometry.circumferential
+
+
+def field_rest(film: HeatedFilm | HeatedJFOFilm, load: ArrayLike, speed: float) -> WarmRest:
     """Return the rest on a film with a temperature field (T2, T3)."""
-    found = heated_equilibrium(film, load, speed)
+    whole: Any = film  # a force at rest, of a film that conserves its oil, is what these take
+    found = heated_equilibrium(whole, load, speed)
     return rest_of_state(film.bearing, found.rest, found.state.film, found.state)
 
 
-def rest_of_state(bearing: JournalBearing, at: Equilibrium, film: Reaction, state: HeatedState) -> WarmRest:
+def rest_of_state(
+    bearing: JournalBearing | JFOFilm, at: Equilibrium, film: Reaction, state: HeatedState
+) -> WarmRest:
     """Return a rest on a film whose temperature is that of a state."""
     (oil, cooling), flow = bearing.cooled, state.side_flow
     supply = cooling.supply_temperature

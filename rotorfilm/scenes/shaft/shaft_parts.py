@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
+from ...bearings.seal import AnnularSeal
 from ...errors import InputError, SceneError, brief
 from ...limits import SHAFT_ELEMENTS
 from ...rotors import (
@@ -69,6 +70,18 @@ TILT_SPRING = Keyed(
 
 PROBE = Keyed(Probe, {"node": NODE, "name": text})
 """An entry of `shaft.probes`: a node whose displacement is shown."""
+
+SEAL = Keyed(
+    AnnularSeal,
+    {
+        **dict.fromkeys(("radius", "length", "clearance"), Quantity("m")),
+        "pressure_drop": Quantity("Pa"),
+        "viscosity": Quantity("Pa.s"),
+        "density": Quantity("kg/m3"),
+        **dict.fromkeys(("inlet_loss", "inlet_swirl"), Quantity("1")),
+    },
+)
+"""`seal` of a bearing: an annular seal, whose added mass linear analyses of a shaft do not take."""
 
 ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
 """With it the parts of a shaft check their own keys, before the shaft has its material."""
@@ -135,6 +148,8 @@ class DiskTable:
         Of a disk of given size; that of the shaft unless given.
     mass : float or None [kg]
     diametral_inertia, polar_inertia : float [kg m2]
+    skew, skew_angle : float [rad]
+        By which its axis leans, and where to.
     """
 
     node: Annotated[int, NODE]
@@ -145,6 +160,8 @@ class DiskTable:
     mass: Annotated[float | None, Quantity("kg")] = None
     diametral_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
     polar_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
+    skew: Annotated[float, Quantity("rad")] = 0.0
+    skew_angle: Annotated[float, Quantity("rad")] = 0.0
 
     def __post_init__(self) -> None:
         sized = self.width is not None and self.outer_diameter is not None
@@ -158,18 +175,19 @@ class DiskTable:
             return made_from(Disk, self)
         assert self.width is not None  # checked in __post_init__, as the next
         assert self.outer_diameter is not None
-        return Disk.solid(
+        solid = Disk.solid(
             self.node,
             density=material.density if self.density is None else self.density,
             width=self.width,
             outer_diameter=self.outer_diameter,
             inner_diameter=self.inner_diameter,
         )
+        return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
 
 
 @dataclass(frozen=True, kw_only=True)
 class BearingTable:
-    """An entry of `shaft.bearings`: a journal bearing, or springs and dampers, at a node.
+    """An entry of `shaft.bearings`: a journal bearing, an annular seal, or springs and dampers, at a node.
 
     Parameters
     ----------
@@ -179,6 +197,8 @@ class BearingTable:
     journal : JournalTable or None
     stiffness : float [N/m] or 2 x 2 numbers, or None
     damping : float [N s/m] or 2 x 2 numbers
+    seal : AnnularSeal or None
+        Without its added mass.
     support : Support or None
         Its housing; rigid unless given.
     """
@@ -188,11 +208,12 @@ class BearingTable:
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     stiffness: Annotated[float | Pair | None, matrix("N/m")] = None
     damping: Annotated[float | Pair, matrix("N.s/m")] = 0.0
+    seal: Annotated[AnnularSeal | None, Table(SEAL)] = None
     support: Annotated[Support | None, Table(SUPPORT)] = None
 
     def __post_init__(self) -> None:
-        if (self.journal is None) is (self.stiffness is None):
-            raise InputError("journal, or else stiffness, is required, got both or neither")
+        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
+            raise InputError("journal, or else stiffness or seal, is required, got several or none")
         if self.journal is None or self.journal.has_lubricant:
             self.build()
         self.station()
@@ -205,8 +226,10 @@ class BearingTable:
             else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
         )
 
-    def build(self) -> JournalBearing | LinearBearing:
+    def build(self) -> JournalBearing | LinearBearing | AnnularSeal:
         """Return the bearing."""
+        if self.seal is not None:
+            return replace(self.seal, added_mass=False)
         if self.journal is not None:
             self.journal.require_law("a shaft")
             return self.journal.bearing()

@@ -10,6 +10,7 @@ import numpy as np
 from ...answers import ISOTHERMAL
 from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
+from ...bearings.seal import AnnularSeal
 from ...errors import RotorfilmError
 from ...linear import rotor_equilibrium, rotor_modes
 from ...model import Reaction
@@ -54,13 +55,26 @@ UNSTABLE = Remark(
 )
 
 
+SEAL_MASS = Remark(
+    "share",
+    0.0,
+    "at {speed:.4g} rad/s: added mass: {mass:.3g} kg of the fluid are left out, {share:.2g} % of the rotor",
+)
+"""What linear analyses of a shaft do not take."""
+
+
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, of a shaft in its bearings at a speed."""
-    stiff = {name: LinearBearing(stiffness=STIFF) for name in bearings}
+    seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
+    stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
     loads = rotor_equilibrium(rotor, stiff, speed).loads
     lines = list(beam_remarks(rotor))
+    for name, seal in seals.items():
+        mass = float(seal.matrices(speed).M)
+        numbers = {"mass": mass, "share": 100.0 * abs(mass) / rotor.mass, "speed": speed}
+        lines += [f"{name}, {line}" for line in said([SEAL_MASS], numbers)]
     for name, bearing in bearings.items():
         if isinstance(bearing, JournalBearing):
             x, y = loads[name].tolist()

@@ -28,6 +28,7 @@ from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Quantity, Table, TableList
+from .compressor_table import CompressorTable
 from .shaft_parts import MATERIAL, PROBE, TILT_SPRING, BearingTable, DiskTable, PieceTable, read_pieces
 
 BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
@@ -74,10 +75,13 @@ class ShaftTable:
     disks, unbalances, probes, tilt_springs : tuple
         Of DiskTable, UnbalanceTable, Probe, TiltSpring.
     internal_damping : float [s]
+    mass_damping, stiffness_damping : float [1/s, s]
     loss_factor : float [1]
     beam : Beam
     highest_frequency : float or None [rad/s]
         Of the modes shown; twice the last speed unless given.
+    compressor : CompressorTable or None
+        What API 617 asks.
     """
 
     material: Annotated[ElasticMaterial, Table(MATERIAL)]
@@ -89,9 +93,12 @@ class ShaftTable:
     probes: Annotated[tuple[Probe, ...], TableList(PROBE)] = ()
     tilt_springs: Annotated[tuple[TiltSpring, ...], TableList(TILT_SPRING)] = ()
     internal_damping: Annotated[float, Quantity("s")] = 0.0
+    mass_damping: Annotated[float, Quantity("1/s")] = 0.0
+    stiffness_damping: Annotated[float, Quantity("s")] = 0.0
     loss_factor: Annotated[float, Quantity("1")] = 0.0
     beam: Annotated[Beam, Named(BEAMS)] = field(default_factory=FourthOrderBeam)
     highest_frequency: Annotated[float | None, Quantity("rad/s")] = None
+    compressor: Annotated[CompressorTable | None, Table(CompressorTable)] = None
 
     def __post_init__(self) -> None:
         if not self.bearings:
@@ -102,6 +109,8 @@ class ShaftTable:
         for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
             for k, part in enumerate(getattr(self, name)):
                 require_node(f"{name}[{k}].node", part.node, self)
+        for k, share in enumerate(self.compressor.nodes if self.compressor else ()):
+            require_node(f"compressor.nodes[{k}].node", share.node, self)
         self.build()
 
     def on(self, lubricant: LubricantTable) -> ShaftTable:

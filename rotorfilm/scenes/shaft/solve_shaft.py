@@ -22,9 +22,9 @@ from ...linear import (
     unbalance_response,
 )
 from ...model import Array
-from ...progress import Report, silent
+from ...progress import Report, part_of, silent
 from ...readable.result import Drawable
-from ..excitation_table import UnbalanceTable
+from ..excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable
 from ..film_table import oil_remarks
 from .shaft_remarks import shaft_remarks
 
@@ -108,7 +108,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     report(0.35, "critical speeds")
     critical = critical_speeds(rotor, bearings, speeds)
     report(0.65, "threshold of stability")
-    threshold = rotor_threshold(rotor, bearings, speeds)
+    threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
     report(0.85, "unbalance response")
     turned = resonant_speeds(speeds, critical)
     response = unbalance_response(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
@@ -171,9 +171,14 @@ def _unit(name: str) -> str:
 
 
 def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
-    """Return the unbalance that excites a shaft; raise InputError for an excitation of another kind."""
-    if scene.excitation is None:
+    """Return the unbalance that excites a shaft; raise InputError for an excitation of another kind.
+
+    Ground that shakes has none; that of a run-up or of a rotor on a motor acts at any speed.
+    """
+    found = scene.excitation
+    if found is None or isinstance(found, GroundTable):
         return ()
-    if type(scene.excitation) is not UnbalanceTable:
-        raise InputError(f"excitation.kind must be 'unbalance' for a shaft, got {scene.excitation!r}")
-    return (scene.excitation,)
+    if type(found) not in (UnbalanceTable, RunUpTable, MotorTable):
+        raise InputError(f"excitation.kind must be 'unbalance' for a shaft, got {found!r}")
+    assert isinstance(found, UnbalanceTable)
+    return (found,)

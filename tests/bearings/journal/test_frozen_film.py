@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from rotorfilm.bearings.films.conserved.fluidity import Fluidity
 from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.bearings.journal.heat.field.film_cells import film_cells
-from rotorfilm.bearings.journal.heat.field.frozen_film import Fluidity, FrozenFilm
+from rotorfilm.bearings.journal.heat.field.frozen_film import FrozenFilm
 
 CELLS = (48, 8)
 OPENINGS = {
@@ -29,7 +30,7 @@ def frozen(bearing, eccentricity, fluidity=None):
     lines, along = cells.shape
     return FrozenFilm(
         cells=cells,
-        fluidity=fluidity or Fluidity(np.ones(cells.shape), np.full(cells.shape, 0.5)),
+        fluidity=fluidity or Fluidity(np.ones(cells.shape), np.full(cells.shape, 0.5), np.ones(cells.shape)),
         empty=np.zeros((lines, along - 1), dtype=bool),
         clearance=bearing.clearance,
         force_per_rate=bearing.force_scale,
@@ -57,7 +58,9 @@ def test_uniform_viscosity_is_the_reynolds_film(openings, eccentricity):
 def test_derivatives_of_any_field_are_exact(openings):
     bearing, e, rng = bearing_of(OPENINGS[openings]), np.array([0.1, -0.5]), np.random.default_rng(1)
     shape = frozen(bearing, e).cells.shape
-    fluidity = Fluidity(np.exp(0.3 * rng.standard_normal(shape)), 0.5 + 0.05 * rng.standard_normal(shape))
+    fluidity = Fluidity(
+        np.exp(0.3 * rng.standard_normal(shape)), 0.5 + 0.05 * rng.standard_normal(shape), np.ones(shape)
+    )
     film, (velocity, speed) = frozen(bearing, e, fluidity), STATE
     state = np.array([*(e * bearing.clearance), *velocity, speed])
     jacobian = film.jacobian(state[:2], state[2:4], state[4])
@@ -74,7 +77,7 @@ def test_derivatives_of_any_field_are_exact(openings):
 def test_thicker_oil_carries_more_in_proportion():
     bearing, e = bearing_of(OPENINGS["grooves"]), np.array([0.1, -0.5])
     film = frozen(bearing, e)
-    thick = frozen(bearing, e, Fluidity(film.fluidity.pressed / 3.0, film.fluidity.dragged))
+    thick = frozen(bearing, e, film.fluidity._replace(pressed=film.fluidity.pressed / 3.0))
     at = e * bearing.clearance, *STATE
     np.testing.assert_allclose(thick.force(*at), 3.0 * film.force(*at), rtol=1e-12)
 

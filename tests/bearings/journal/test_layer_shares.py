@@ -57,7 +57,7 @@ def test_layers_make_the_heat_of_their_velocity():
     cells = film.cells
     shape = (*cells.shape, LAYERS)
     heating = Heating(
-        cells=cells,
+        opening=np.full(cells.shape, -1),
         flow=flow,
         speed=speed,
         viscosity=np.ones(shape),

@@ -256,3 +256,24 @@ def test_the_work_of_an_equilibrium_is_small():
         assert found.residual < 1e-12
         most = max(most, found.evaluations)
     assert most <= 25
+
+
+def test_a_ball_that_is_about_to_leave_the_inner_race_has_an_answer():
+    """There the gyroscopic moment would carry the ball away, and there was no balance with and without it."""
+    bearing = BallBearing(
+        balls=16,
+        ball_diameter=7.938e-3,
+        pitch_diameter=46.5e-3,
+        contact_angle=np.radians(25.0),
+        ball_material=RollingMaterial.silicon_nitride(),
+    )
+    grazing = bearing.loads([1.974382321516215e-05, -1.139910164810625e-05, -1.5e-5, 0.0, 0.0], 261.8)
+    neighbors = grazing.inner_load[[6, 8]]
+    assert 0.0 < grazing.inner_load[7] < neighbors.min()
+    assert grazing.gyroscopic_moment[7] == 0.0
+    rng = np.random.default_rng(0)
+    for law in (RunningBalls(), RunningBalls(outer_control=False)):
+        one = replace(bearing, law=law)
+        for _ in range(300):
+            motion = rng.uniform(-1.0, 1.0, 5) * [3e-5, 3e-5, 6e-5, 5e-4, 5e-4]
+            assert one.kernel.at(motion, 10.0 ** rng.uniform(1.0, 3.5)).status <= 1

@@ -2,6 +2,7 @@
 
 import dataclasses
 import itertools
+import types
 
 import numpy as np
 import pytest
@@ -22,6 +23,8 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.errors import ContactError, ConvergenceError, InputError
+from rotorfilm.motion.transient.step_error import StepError
+from rotorfilm.motion.transient.stepped_loop import Moment
 
 R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
@@ -210,3 +213,41 @@ def test_arguments_break_a_rule(rest):
     with pytest.raises(InputError, match="max_step must be given"):
         simulate(still, FILM, duration=1e-4, samples=2)
     assert simulate(still, FILM, duration=1e-4, samples=2, max_step=2e-5).work["steps"] == 5
+
+
+class Circle:
+    """Moments of a journal on a circle, for what only reads them."""
+
+    def __init__(self, nu):
+        self.nu = nu
+        self.stations = [types.SimpleNamespace(motion=[0, 1, 2, 3, 4], film=FILM)]
+
+    def motion(self, t, state):
+        return np.append(state, omega)
+
+    def moment(self, t):
+        z, a = 0.3 * c * np.exp(1j * self.nu * t), 1j * self.nu
+        state = [z.real, z.imag, (a * z).real, (a * z).imag]
+        rate = [(a * z).real, (a * z).imag, (a * a * z).real, (a * a * z).imag]
+        return Moment(t, np.array(state), np.array(rate), (), np.zeros(0))
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_the_error_of_steps_is_that_of_their_differences(ratio):
+    # Steps h after k of second order leave (h + k)^2 h^2/(6 (2 h + k)) of the third derivative.
+    circle, h = Circle(3.0 * omega), 1e-3 / omega
+    error, k = StepError(circle), h / ratio
+    error.add(*(circle.moment(t) for t in np.cumsum([0.0, k, h])))
+    expected = (h + k) ** 2 * h**2 / (6.0 * (2.0 * h + k)) * 0.3 * circle.nu**3
+    assert error.largest == pytest.approx(expected, rel=5e-3)
+
+
+def test_a_run_tells_the_error_of_its_steps(rest):
+    times = np.linspace(0.0, TURN, 13)
+    runs = [simulate(rotor(rest), FILM, duration=TURN, times=times, max_step=TURN / n) for n in (48, 96, 192)]
+    off = [np.abs(run.position - runs[-1].position).max() / c for run in runs[:-1]]
+    # What it adds up is more than the orbit is off, and falls as that does.
+    assert [run.step_error / one > 1.0 for run, one in zip(runs, off, strict=False)] == [True, True]
+    assert runs[1].step_error < 10.0 * off[1]
+    assert 1.7 < np.log2(runs[1].step_error / runs[2].step_error) < 2.3

@@ -15,10 +15,12 @@ SMALLEST = 8
 
 @dataclass(frozen=True, kw_only=True)
 class ContactGrid:
-    """Equal cells on the rectangle inlet < x < outlet, |y| < half_width, lengths in Hertzian radii.
+    """Equal cells on the rectangle inlet < x < outlet, |y| < half_width, lengths in Hertzian half-axes.
 
-    The lubricant enters at `inlet` and the surfaces move along +x. Only the half y > 0 is solved for, as
-    the contact is symmetric about y = 0; arrays over the cells have the shape (cells[0], cells[1] // 2).
+    Lengths along x are in the half-axis of the dry contact along x, lengths across in that across, so that a
+    grid suits contacts of any ellipticity. The lubricant enters at `inlet` and the surfaces move along +x.
+    Only the half y > 0 is solved for, as the contact is symmetric about y = 0; arrays over the cells have the
+    shape (cells[0], cells[1] // 2).
 
     Parameters
     ----------

@@ -7,12 +7,14 @@ reaches the faces. Both are written as sparse matrices from the samples to faces
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from scipy import sparse
 
 from ....model import Array
+from ...ellipse import CIRCLE, Ellipse
 from .contact_grid import ContactGrid
 from .deflection import Deflection, cell_deflection, center_weights, smooth_cell_deflection
 
@@ -26,7 +28,7 @@ class Sampling(NamedTuple):
     Attributes
     ----------
     gap : ndarray, shape (samples,)
-        x^2 + y^2 at the samples.
+        x^2 + (rho_y/rho_x) y^2 at the samples.
     deflection : Deflection
         From pressures on the cells to the samples.
     center : ndarray, shape (n,)
@@ -62,8 +64,8 @@ class ContactScheme(Protocol):
     order: ClassVar[int]
     """Order of convergence in the size of the cells."""
 
-    def sampling(self, grid: ContactGrid) -> Sampling:
-        """Return sample points and matrices for a grid."""
+    def sampling(self, grid: ContactGrid, ellipse: Ellipse = CIRCLE) -> Sampling:
+        """Return sample points and matrices for a grid, both lengths in units of the axis along x."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,20 +80,19 @@ class StaggeredScheme:
     order: ClassVar[int] = 2
     """Order of convergence in the size of the cells."""
 
-    def sampling(self, grid: ContactGrid) -> Sampling:
-        """Return sample points and matrices for a grid."""
+    def sampling(self, grid: ContactGrid, ellipse: Ellipse = CIRCLE) -> Sampling:
+        """Return sample points and matrices for a grid, both lengths in units of the axis along x."""
         nx, m = grid.shape
+        kernel = partial(cell_deflection, strength=ellipse.strength)
         half_x, half_y = pair(nx, nx + 1, 0), pair(m, m + 1, 0)
         x = grid.inlet + np.arange(nx + 1) * grid.spacing[0]
         y = np.arange(m + 1) * grid.spacing[1]
         along = product(sparse.identity(nx + 1), half_y)
         stored = product(half_x, half_y)
         return Sampling(
-            gap=_squares(x, y),
-            deflection=Deflection(
-                grid, first=0.0, shape=(nx + 1, m + 1), corners=True, kernel=cell_deflection
-            ),
-            center=center_weights(grid, cell_deflection),
+            gap=_gap(x, y, ellipse),
+            deflection=Deflection(grid, first=0.0, shape=(nx + 1, m + 1), corners=True, kernel=kernel),
+            center=center_weights(grid, kernel),
             along=along,
             across=product(half_x, sparse.identity(m + 1)),
             carried=along,
@@ -115,20 +116,18 @@ class UpwindScheme:
     order: ClassVar[int] = 2
     """Order of convergence in the size of the cells."""
 
-    def sampling(self, grid: ContactGrid) -> Sampling:
+    def sampling(self, grid: ContactGrid, ellipse: Ellipse = CIRCLE) -> Sampling:
         """Return sample points and matrices for a grid: two columns upstream, one downstream, one row out."""
         nx, m = grid.shape
-        shape = (nx + 3, m + 1)
+        shape, kernel = (nx + 3, m + 1), partial(smooth_cell_deflection, strength=ellipse.strength)
         x = grid.inlet + (np.arange(nx + 3) - 1.5) * grid.spacing[0]
         y = (np.arange(m + 1) + 0.5) * grid.spacing[1]
         row = sparse.eye(m, m + 1)
         column = sparse.diags([1.0], [2], shape=(nx, nx + 3))
         return Sampling(
-            gap=_squares(x, y),
-            deflection=Deflection(
-                grid, first=-1.5, shape=shape, corners=False, kernel=smooth_cell_deflection
-            ),
-            center=center_weights(grid, smooth_cell_deflection),
+            gap=_gap(x, y, ellipse),
+            deflection=Deflection(grid, first=-1.5, shape=shape, corners=False, kernel=kernel),
+            center=center_weights(grid, kernel),
             along=product(_fourth_order_faces(nx), row),
             across=product(column, _faces_across(m)),
             carried=product(_faces(nx, [-1 / 6, 5 / 6, 1 / 3]), row),
@@ -175,8 +174,8 @@ def product(along: Any, across: Any) -> Any:
     return sparse.kron(along, across).tocsr()
 
 
-def _squares(x: np.ndarray, y: np.ndarray) -> Array:
-    return np.asarray(x[:, None] ** 2 + y**2, dtype=float).ravel()
+def _gap(x: np.ndarray, y: np.ndarray, ellipse: Ellipse) -> Array:
+    return np.asarray(x[:, None] ** 2 + ellipse.across * y**2, dtype=float).ravel()
 
 
 def _fourth_order_faces(nx: int) -> Any:

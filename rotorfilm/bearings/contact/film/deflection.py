@@ -1,9 +1,10 @@
 """Elastic deflection of a half-space under a pressure that is constant on rectangles, exactly and by FFT.
 
-In units of the Hertzian contact the film thickness is deepened by (4/pi^2) integral of p/|r - r'| dS', so a
-cell of unit pressure contributes (4/pi^2) times the integral of 1/r over its rectangle, which is elementary
-(Love 1929). On equal cells the sum is a discrete convolution; zero padding makes it exact, and the symmetry
-about y = 0 turns the transform across into cosine transforms of half the length.
+In units of the Hertzian contact the film thickness is deepened by C times the integral of p/|r - r'| dS', so
+a cell of unit pressure contributes C times the integral of 1/r over its rectangle, which is elementary
+(Love 1929); a circular contact has C = 4/pi^2. On equal cells the sum is a discrete convolution; zero padding
+makes it exact, and the symmetry about y = 0 turns the transform across into cosine transforms of half the
+length.
 """
 
 from __future__ import annotations
@@ -14,16 +15,16 @@ import numpy as np
 from scipy import fft
 
 from ....model import Array
+from ...ellipse import CIRCLE
 from .contact_grid import ContactGrid
 
 Kernel = Callable[[Array, Array, tuple[float, float]], Array]
 """Deflection at (x, y) from the center of a cell of the given size."""
 
-STRENGTH = 4.0 / np.pi**2
-"""Factor of the elastic integral in Hertzian units: p = sqrt(1 - r^2) deflects its center by 2."""
 
-
-def cell_deflection(x: Array, y: Array, width: tuple[float, float]) -> Array:
+def cell_deflection(
+    x: Array, y: Array, width: tuple[float, float], strength: float = CIRCLE.strength
+) -> Array:
     """Return the deflection at (x, y) from the center of one cell of unit pressure.
 
     Parameters
@@ -31,23 +32,27 @@ def cell_deflection(x: Array, y: Array, width: tuple[float, float]) -> Array:
     x, y : ndarray, shapes that broadcast [1]
     width : tuple of float [1]
         Size of the cell along x and y.
+    strength : float [1]
+        C of `Ellipse`.
     """
     left, right = x - 0.5 * width[0], x + 0.5 * width[0]
     below, above = y - 0.5 * width[1], y + 0.5 * width[1]
     corners = _corner(right, above) - _corner(left, above) - _corner(right, below) + _corner(left, below)
-    return STRENGTH * corners
+    return strength * corners
 
 
-def smooth_cell_deflection(x: Array, y: Array, width: tuple[float, float]) -> Array:
+def smooth_cell_deflection(
+    x: Array, y: Array, width: tuple[float, float], strength: float = CIRCLE.strength
+) -> Array:
     """Return `cell_deflection` for pressures given at the centers of cells rather than averaged over them.
 
     The average of a smooth pressure over a cell is its value at the center plus 1/24 of its second
     differences, which makes the deflection accurate to the fourth order in the spacing away from edges.
     """
-    center = cell_deflection(x, y, width)
+    center = cell_deflection(x, y, width, strength)
     total = -4.0 * center
     for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        total = total + cell_deflection(x + i * width[0], y + j * width[1], width)
+        total = total + cell_deflection(x + i * width[0], y + j * width[1], width, strength)
     return center + total / 24.0
 
 
@@ -74,7 +79,7 @@ class Deflection:
     corners : bool
         Whether the sample points lie on the lines between cells across y, from y = 0, or on centers.
     kernel : callable
-        `cell_deflection` or `smooth_cell_deflection`.
+        `cell_deflection` or `smooth_cell_deflection`, of the strength of the contact.
     """
 
     def __init__(

@@ -55,7 +55,7 @@ def _bending(linear: LinearContact) -> float:
     """Return about the derivative of a cell's residual by its pressure through the film.
 
     A square cell of side h deflects itself by (4/pi^2) 4 ln(1 + sqrt 2) h = 1.43 h, and a face upwind of it
-    takes 3/2 of that per h at most.
+    takes 3/2 of that per h at most. Cells of an ellipse are longer and deflect less, to about the same.
     """
     width = linear.equations.grid.spacing[0]
     return float(linear.equations.V * (2.1 + 1.43 * linear.place.rate * width))

@@ -2,11 +2,12 @@
 
 In units of the Hertzian contact (Panovko 2011, equations 5-7, with the errata listed in `docs/contact.md`)
 
-    H = delta + x^2 + y^2 + (4/pi^2) integral of p/|r - r'| dS',
+    H = delta + x^2 + (rho_y/rho_x) y^2 + C integral of p/|r - r'| dS',
     div(rho H^3 grad Phi) - V (rho H)_x - V (rho H)_t = R,    p >= 0,  R <= 0,  p R = 0,
 
-with dPhi/dp = 1/mu(p). The rigid approach delta is the unknown beside the pressure, which keeps the singular
-kernel out of the equation of motion. In time, (rho H)_t = rate * (rho H) + history.
+with dPhi/dp = 1/mu(p), all lengths in the axis along x; a circle has rho_y = rho_x and C = 4/pi^2. The rigid
+approach delta is the unknown beside the pressure, which keeps the singular kernel out of the equation of
+motion. In time, (rho H)_t = rate * (rho H) + history.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import numpy as np
 from scipy import sparse
 
 from ....model import Array
+from ...ellipse import CIRCLE, Ellipse
 from .contact_grid import SMALLEST, ContactGrid
 from .contact_scheme import SLACK, ContactScheme, Sampling, opening, product
 from .film_assembly import Assembly
@@ -60,10 +62,13 @@ class ContactEquations:
     V, Q0 : float [1]
         Speed parameter and pressure-viscosity coefficient.
     grid : ContactGrid
+        Lengths across in the axis of the contact across.
     scheme : ContactScheme
     viscosity : Piezoviscosity
     density : DowsonHigginsonDensity or None
         None for an incompressible lubricant.
+    ellipse : Ellipse
+        The dry contact.
     """
 
     V: float
@@ -72,11 +77,17 @@ class ContactEquations:
     scheme: ContactScheme
     viscosity: Piezoviscosity
     density: DowsonHigginsonDensity | None
+    ellipse: Ellipse = CIRCLE
+
+    @cached_property
+    def plane(self) -> ContactGrid:
+        """The grid with both lengths in the axis along x, as the equations have them."""
+        return replace(self.grid, half_width=self.ellipse.ellipticity * self.grid.half_width)
 
     @cached_property
     def sampling(self) -> Sampling:
         """Samples of the film and their matrices."""
-        return self.scheme.sampling(self.grid)
+        return self.scheme.sampling(self.plane, self.ellipse)
 
     @cached_property
     def halved(self) -> ContactEquations | None:
@@ -97,7 +108,7 @@ class ContactEquations:
     @cached_property
     def area(self) -> float:
         """Area of a cell and its mirror image: the load is this times the sum of the pressures."""
-        return 2.0 * self.grid.spacing[0] * self.grid.spacing[1]
+        return 2.0 * self.plane.spacing[0] * self.plane.spacing[1]
 
     def film(self, pressure: Array, delta: float) -> Array:
         """Return the film thickness H at the samples."""
@@ -110,6 +121,10 @@ class ContactEquations:
     def load(self, pressure: Array) -> float:
         """Return the integral of the pressure over the plane."""
         return self.area * float(pressure.sum())
+
+    def carried_load(self, pressure: Array) -> float:
+        """Return the same over that of the dry contact: f."""
+        return self.load(pressure) / self.ellipse.load
 
     def stored(self, pressure: Array, film: Array) -> Array:
         """Return rho H in the cells."""
@@ -199,7 +214,7 @@ class ContactEquations:
 
     @cached_property
     def _flow(self) -> _Flow:
-        (nx, m), (dx, dy) = self.grid.shape, self.grid.spacing
+        (nx, m), (dx, dy) = self.grid.shape, self.plane.spacing
         on_x, on_y = sparse.identity(nx), sparse.identity(m)
         along = product(_differences(nx, wall=True) / dx, on_y)
         across = product(on_x, _differences(m, wall=False) / dy)

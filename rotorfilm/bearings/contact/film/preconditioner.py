@@ -188,7 +188,7 @@ def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -
 
 def stiff_cells(linear: LinearContact) -> np.ndarray:
     """Return which cells the elastic kernel governs, from the diagonal of the flow by pressure."""
-    dx, dy = linear.equations.grid.spacing
+    dx, dy = linear.equations.plane.spacing
     conductance = -linear.derivatives.by_pressure.diagonal() / (2.0 / dx**2 + 2.0 / dy**2)
     return np.asarray(conductance < STIFF * linear.equations.V * (1.0 + linear.place.rate / SLOW))
 

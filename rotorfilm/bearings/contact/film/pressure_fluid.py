@@ -7,6 +7,7 @@ it would drown in roundoff otherwise.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -19,6 +20,13 @@ from ....model import Array
 HIGGINSON_LIMIT = 1.34
 HIGGINSON_PRESSURE = 0.59e9
 """Density of mineral oil after Dowson and Higginson: (P + limit p)/(P + p), P in Pa."""
+
+
+ROELANDS_PRESSURE = 1.96e8
+"""Reference pressure of Roelands' law [Pa]."""
+
+ROELANDS_SHIFT = 9.67
+"""Shift in ln(mu_0) + shift of that law, mu_0 in Pa s."""
 
 
 @runtime_checkable
@@ -50,8 +58,8 @@ class RoelandsViscosity:
     """Roelands' law mu = exp(Q0/(s z) ((1 + s p)^z - 1)).
 
     In SI, ln(mu/mu_0) = (ln mu_0 + 9.67)((1 + p/p_r)^z - 1) with p_r = 196 MPa: s = p_H/p_r, and the factor
-    in front is fixed by the initial slope Q0. `RollingBall` does this conversion. Negative pressures, which
-    no solution has but a search may try, continue it by exp(Q0 p).
+    in front is fixed by the initial slope Q0. `roelands_viscosity` does this conversion. Negative
+    pressures, which no solution has but a search may try, continue it by exp(Q0 p).
 
     Parameters
     ----------
@@ -84,6 +92,35 @@ class RoelandsViscosity:
         scale = np.exp(factor) * factor ** (-1.0 / z) * gamma(1.0 / z) / (s * z)
         below = np.expm1(-coefficient * np.minimum(pressure, 0.0)) / coefficient
         return -scale * gammaincc(1.0 / z, u) - below
+
+
+def roelands_viscosity(
+    *, viscosity: float, pressure_coefficient: float, pressure: float
+) -> RoelandsViscosity:
+    """Return Roelands' law of an oil by its slope at ambient pressure, in units of a Hertzian pressure.
+
+    Parameters
+    ----------
+    viscosity : float [Pa s]
+        At ambient pressure.
+    pressure_coefficient : float [1/Pa]
+        d ln mu/dp at ambient pressure.
+    pressure : float [Pa]
+        Largest of the dry contact.
+
+    Raises
+    ------
+    InputError
+        If the law would have an exponent above 1.
+    """
+    level = math.log(viscosity) + ROELANDS_SHIFT
+    exponent = pressure_coefficient * ROELANDS_PRESSURE / level if level > 0.0 else math.inf
+    if exponent > 1.0:
+        raise InputError(
+            "pressure_coefficient must give Roelands' law an exponent of at most 1, "
+            f"got {pressure_coefficient!r} with {exponent:.3g}"
+        )
+    return RoelandsViscosity(exponent=exponent, pressure_ratio=pressure / ROELANDS_PRESSURE)
 
 
 @dataclass(frozen=True, kw_only=True)

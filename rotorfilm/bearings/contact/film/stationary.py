@@ -8,13 +8,14 @@ import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
+from ...ellipse import CIRCLE
 from .coarse_correction import prolonged
 from .contact_newton import Contact, NewtonKrylov
 from .film_equations import ContactEquations, TimeDerivative
 from .linear_contact import Closure
 
-HERTZ_LOAD = 2.0 * math.pi / 3.0
-"""Integral of the pressure of the dry contact, sqrt(1 - r^2): the unit of the load f."""
+HERTZ_LOAD = CIRCLE.load
+"""Integral of the pressure of a circular dry contact, sqrt(1 - r^2): the unit of its load f."""
 
 COARSEST = 32
 """Fewest cells along a side down to which grids are halved."""
@@ -42,7 +43,8 @@ def dry_contact(equations: ContactEquations, load: float) -> tuple[Array, float]
     """Return pressure, flat, and approach of the dry contact (Hertz) under `load` times the unit load."""
     x, y = equations.grid.x[:, None], equations.grid.y
     radius = load ** (1.0 / 3.0)
-    return np.sqrt(np.maximum(radius**2 - x**2 - y**2, 0.0)).ravel(), -2.0 * radius**2
+    pressure = np.sqrt(np.maximum(radius**2 - x**2 - y**2, 0.0)).ravel()
+    return pressure, -equations.ellipse.depth * radius**2
 
 
 def stationary(equations: ContactEquations, load: float, tolerance: float = 1e-7) -> Contact:
@@ -93,7 +95,8 @@ def stationary_at(equations: ContactEquations, delta: float, tolerance: float = 
     ConvergenceError
         If Newton's method fails.
     """
-    level = math.log(max((0.5 * (LIFTED - delta)) ** 1.5, LIGHTEST) if delta < LIFTED else LIGHTEST)
+    share = (LIFTED - delta) / equations.ellipse.depth
+    level = math.log(max(share**1.5, LIGHTEST) if delta < LIFTED else LIGHTEST)
     found = stationary(equations, math.exp(level), tolerance)
     slope = -(max(LIFTED - found.delta, 0.1)) / 1.5
     for _ in range(SEARCHES):
@@ -115,7 +118,8 @@ def _solved(
     equations: ContactEquations, pressure: Array, delta: float, load: float, tolerance: float
 ) -> Contact:
     solver = NewtonKrylov(equations, tolerance)
-    return solver.solve(pressure, delta, Closure(0.0, 1.0, HERTZ_LOAD * load), TimeDerivative())
+    closure = Closure(0.0, 1.0, equations.ellipse.load * load)
+    return solver.solve(pressure, delta, closure, TimeDerivative())
 
 
 def _reached(equations: ContactEquations, load: float, tolerance: float) -> tuple[Contact, float]:

@@ -11,7 +11,6 @@ import numpy as np
 
 from ....errors import ConvergenceError, InputError, shortened
 from ..film.film_equations import ContactEquations
-from ..film.stationary import HERTZ_LOAD
 from .contact_state import ContactRun, ContactState, state_of
 from .contact_steps import AdaptiveSteps, FixedSteps, Stepper
 from .levels import ContactMotion, Level
@@ -44,7 +43,7 @@ class _Recorder:
         equations, newest = self.stepper.equations, levels[0]
         film = equations.film(newest.pressure, newest.delta)
         central = equations.central_film(newest.pressure, newest.delta)
-        load = equations.load(newest.pressure) / HERTZ_LOAD
+        load = equations.carried_load(newest.pressure)
         drive = self.stepper.motion.drive(newest.t)
         row = (newest.t, newest.delta, newest.velocity, central, film.min(), load, drive)
         if any(abs(newest.t - t) < 1e-9 for t in self.wanted):

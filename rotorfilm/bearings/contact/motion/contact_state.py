@@ -8,7 +8,6 @@ from ....model import Array
 from ....readable.result import Drawable, Readable
 from ..film.checkerboard import checkerboard
 from ..film.film_equations import ContactEquations
-from ..film.stationary import HERTZ_LOAD
 from .contact_steps import Memory
 from .levels import Level
 
@@ -26,7 +25,7 @@ class ContactState(Readable):
     central_film, minimum_film : float [1]
         Film thickness H at the center, and the smallest.
     carried_load : float [1]
-        Integral of the pressure / (2 pi/3).
+        Integral of the pressure over that of the dry contact, 2 pi ellipticity/3.
     pressure, thickness : ndarray, shape (nx, m) [1]
         p and H over `grid.x` and `grid.y`, y > 0.
     checkerboard : float [1]
@@ -92,7 +91,7 @@ def state_of(equations: ContactEquations, levels: tuple[Level, ...]) -> ContactS
     """Return the state that the newest of some levels is."""
     newest, shape = levels[0], equations.grid.shape
     film = equations.film(newest.pressure, newest.delta)
-    load = equations.load(newest.pressure) / HERTZ_LOAD
+    load = equations.carried_load(newest.pressure)
     return ContactState(
         t=newest.t,
         delta=newest.delta,

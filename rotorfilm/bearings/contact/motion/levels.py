@@ -10,8 +10,8 @@ import numpy as np
 
 from ....errors import InputError, require_non_negative
 from ....model import Array, breakpoints
+from ...ellipse import CIRCLE
 from ..film.linear_contact import Closure
-from ..film.stationary import HERTZ_LOAD
 
 
 class Level(NamedTuple):
@@ -65,7 +65,7 @@ class ContactMotion(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class BallMotion:
-    """The ball's own motion W delta'' = integral of p - (2 pi/3) f(t).
+    """The ball's own motion W delta'' = integral of p - unit f(t).
 
     Parameters
     ----------
@@ -73,10 +73,13 @@ class BallMotion:
         Inertia, >= 0.
     load : callable
         f(t); its attribute `breakpoints`, if it has one, lists the times of its jumps.
+    unit : float [1]
+        Integral of the pressure of the dry contact.
     """
 
     W: float
     load: Callable[[float], float]
+    unit: float = CIRCLE.load
 
     def __post_init__(self) -> None:
         require_non_negative("W", self.W)
@@ -100,7 +103,7 @@ class BallMotion:
         """Return the equation of motion; the velocity is eliminated by its own difference formula."""
         rate = weights.history([level.delta for level in levels])
         push = weights.new * rate + weights.history([level.velocity for level in levels])
-        return Closure(-self.W * weights.new**2, 1.0, HERTZ_LOAD * self.drive(t) + self.W * float(push))
+        return Closure(-self.W * weights.new**2, 1.0, self.unit * self.drive(t) + self.W * float(push))
 
 
 @dataclass(frozen=True, kw_only=True)

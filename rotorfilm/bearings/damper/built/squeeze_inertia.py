@@ -45,7 +45,7 @@ class SqueezeInertia(InertialModel):
         """The inertia of the film in this damper's dimensions."""
         return options(self.film, SqueezeOptions).inertia(self.squeeze_case)
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike | None = None) -> Array:
+    def mass(self, position: ArrayLike, velocity: ArrayLike | None = None, speed: ArrayLike = 0.0) -> Array:
         """Return the mass that the oil adds to the rotor [kg], shape (2, 2, ...); 0 without density.
 
         Parameters
@@ -54,6 +54,8 @@ class SqueezeInertia(InertialModel):
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s], optional
             Of a ruptured film, whose mass depends on its direction; a full one takes none.
+        speed : array_like, shape (...) [rad/s]
+            Not used.
 
         Raises
         ------
@@ -64,19 +66,21 @@ class SqueezeInertia(InertialModel):
         """
         if velocity is None and self.has_inertia and self.squeeze_case.cavitated:
             raise InputError("velocity must be given for the mass of a ruptured film, got None")
-        q, v, _ = broadcast_state(position, np.zeros(2) if velocity is None else velocity, 0.0)
+        q, v, _ = broadcast_state(position, np.zeros(2) if velocity is None else velocity, speed)
         require_inside(q, self.clearance)
         if not self.has_inertia:
             return np.zeros((2, *q.shape))
         return self._inertia_scale / self.clearance * self.film_inertia.mass(*self._scaled(q, v))
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...); see `InertialReaction`."""
-        q, v, _ = broadcast_state(position, velocity, 0.0)
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...); see `InertialReaction`."""
+        q, v, _ = broadcast_state(position, velocity, speed)
         require_inside(q, self.clearance)
         if not self.has_inertia:
-            return np.zeros((2, 2, 4, *q.shape[1:]))
-        return self._inertia_scale / self.clearance**2 * self.film_inertia.mass_slopes(*self._scaled(q, v))
+            return np.zeros((2, 2, 5, *q.shape[1:]))
+        slopes = self.film_inertia.mass_slopes(*self._scaled(q, v))
+        by_motion = self._inertia_scale / self.clearance**2 * slopes
+        return np.concatenate([by_motion, np.zeros_like(by_motion[:, :, :1])], axis=2)
 
     def reynolds_number(self, frequency: float) -> float:
         """Return the squeeze Reynolds number |frequency| clearance^2 density/viscosity at [rad/s]."""

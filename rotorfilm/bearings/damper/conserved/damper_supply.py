@@ -15,7 +15,9 @@ from ....errors import (
     require_tuple,
 )
 from ....inputs.si_arguments import quantities
+from ...films.conserved.air_at_ends import warn_of_air
 from ...films.conserved.conserved_film import Supply
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.geometry import FeedHole, FilmGeometry, Pocket
 
 REMEDY = (
@@ -102,6 +104,10 @@ class DamperSupply:
         """Whether the supply is the same all round, so that a centered circular orbit is a steady state."""
         return not self.feed_holes
 
+    def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
+        """Warn where ends in air would draw in air."""
+        warn_of_air(self.submerged, drawn_in, side_flow)
+
 
 class SuppliedFilm(NamedTuple):
     """Supply and openings of a film, without dimensions, and the lengths that go with them.
@@ -154,6 +160,19 @@ def supplied_film(given: DamperSupply, radius: float, length: float, pressure_sc
     )
     return SuppliedFilm(
         geometry, supply, *((2.0 * length, 0.5) if given.end_groove else (length - width, 1.0))
+    )
+
+
+def damper_numbers(given: DamperSupply, radius: float, viscosity: float, stiffness: float) -> OilNumbers:
+    """Return what the kernel of a film has besides its shape."""
+    supplied = np.ones(len(given.feed_holes), dtype=bool)
+    return OilNumbers(
+        radius=radius,
+        viscosity=viscosity,
+        cavitation_pressure=given.cavitation_pressure,
+        supplied=supplied,
+        supply_pressure=given.supply_pressure if given.grooved or supplied.any() else None,
+        stiffness=stiffness,
     )
 
 

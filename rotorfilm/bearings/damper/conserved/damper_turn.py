@@ -142,7 +142,7 @@ def damper_turn(
         last, found, turns = found, next(going_on), turns + 1
         change = float(np.abs(found.force - last.force).max() / np.abs(found.force).max())
     result = _result(damper.scaled, found, q, speed, turns, change)
-    damper.warn_of_air(result.drawn_in, result.side_flow)
+    damper.supply.warn_of_air(result.drawn_in, result.side_flow)
     if change > tolerance:
         raise ConvergenceError(
             f"the film must repeat itself within most_turns {most_turns} to {tolerance:g} of the force, "

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import ClassVar
 
 from ....model import Array
+from ...differences import extrapolated_value
 from ...reaction import NOMINAL_SPEED, StaticReaction
 from .jfo_damper import JFODamper
 
@@ -54,5 +55,5 @@ class ExtrapolatedDamper(StaticReaction):
         return self._extrapolated(lambda damper: damper.jacobian(position, velocity, speed))
 
     def _extrapolated(self, ask: Callable[[JFODamper], Array]) -> Array:
-        fine, coarse = ask(self.damper), ask(self.coarser)
-        return fine + (fine - coarse) / (2.0**self.damper.order - 1.0)
+        found: Array = extrapolated_value(ask(self.coarser), ask(self.damper), self.damper.order)
+        return found

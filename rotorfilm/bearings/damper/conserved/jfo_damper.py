@@ -18,23 +18,21 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_positive,
-    warn_user,
 )
+from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.conserved.reynolds_oil import reynolds_state
 from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
 from ...stepped_reaction import StepTrial
-from .damper_supply import DamperSupply
+from .damper_supply import DamperSupply, damper_numbers
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
-
-AIR_SHARE = 0.01
-"""Of the side flow, what ends in air may draw in before a warning."""
 
 CIRCULAR = 1e-9
 """Radial velocity over the whole one, beyond which an orbit is no circle."""
@@ -74,7 +72,7 @@ class JFODamper(SteppedFilm):
     Warns
     -----
     ValidityWarning
-        If ends in air would draw in more than `AIR_SHARE` of the side flow.
+        If ends in air would draw in more than 1 % of the side flow.
 
     Examples
     --------
@@ -127,6 +125,11 @@ class JFODamper(SteppedFilm):
         """Units of the force [N s] and of the oil [m3]."""
         return self.scaled.force, self.scaled.oil
 
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        return damper_numbers(self.supply, self.radius, self.viscosity, self.stiffness)
+
     def carrying(self, motion: Array) -> float:
         """Return 0: the race does not spin."""
         return 0.0
@@ -157,6 +160,7 @@ class JFODamper(SteppedFilm):
         found[:, 4] = 0.0
         return found
 
+    @arguments
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.
 
@@ -179,9 +183,10 @@ class JFODamper(SteppedFilm):
         omega = require_number("speed", speed)
         require_inside(np.array([eccentricity_ratio * self.clearance, 0.0]), self.clearance)
         found = jfo_orbit(self.scaled, self._turning(eccentricity_ratio, omega), eccentricity_ratio, omega)
-        self.warn_of_air(found.drawn_in, found.side_flow)
+        self.supply.warn_of_air(found.drawn_in, found.side_flow)
         return found
 
+    @arguments
     def complex_stiffness(
         self, eccentricity_ratio: float, speed: float, s: complex
     ) -> NDArray[np.complex128]:
@@ -191,7 +196,7 @@ class JFODamper(SteppedFilm):
 
         Parameters
         ----------
-        eccentricity_ratio, speed
+        eccentricity_ratio, speed : float [1], [rad/s]
             As in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """
@@ -254,14 +259,6 @@ class JFODamper(SteppedFilm):
         gap = circular_gap(self.film.cells, q / self.clearance)
         closing = -(v / self.clearance) @ direction(self.film.cells.angle)
         return self.scaled.force * self.film.force(reynolds_state(self.film, gap, closing))
-
-    def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
-        """Warn where ends in air would draw in air."""
-        if not self.supply.submerged and drawn_in > AIR_SHARE * side_flow:
-            warn_user(
-                "submerged must be True for ends that draw in oil: in air they would draw in air, "
-                f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
-            )
 
     def _turning(self, eccentricity_ratio: float, speed: float) -> ConservedState:
         """Return the film in axes that turn with the orbit, in which its wall carries the oil back."""

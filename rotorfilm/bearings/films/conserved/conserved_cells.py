@@ -74,9 +74,9 @@ class ConservedCells(NamedTuple):
         return np.asarray(1.0 / np.where(ends & (onward > 0.0), to_film, half + onward))
 
     @property
-    def center(self) -> float:
-        """1/distance from the first cell to a groove at mid-length; 0 without one."""
-        return 2.0 / float(self.width[0]) if self.grooved else 0.0
+    def center(self) -> Array:
+        """1/distance from the first cell to a groove at mid-length, shape (N,); 0 without one."""
+        return np.full(len(self.angle), 2.0 / float(self.width[0]) if self.grooved else 0.0)
 
 
 def require_conserved_cells(cells: object) -> None:

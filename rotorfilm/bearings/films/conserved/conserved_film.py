@@ -10,6 +10,8 @@ import numpy as np
 
 from ....model import Array
 from .conserved_cells import FILM, ConservedCells
+from .fluidity import Fluidity, at_ends, at_faces
+from .oil_flows import OilFlows
 from .oil_kernel import OilCells, OilSolution, oil_outflow, solve_oil
 
 ROUNDOFF = 1e-12
@@ -106,25 +108,6 @@ class ConservedState(NamedTuple):
         return self.solution.theta * self.gap.line[:, None]
 
 
-class OilFlows(NamedTuple):
-    """Flows of a film over clearance, radius and length.
-
-    Attributes
-    ----------
-    out, drawn_in : float [1/s]
-        Through both ends, of lines where it leaves and of those where it enters.
-    inflow : ndarray, shape (openings,) [1/s]
-        From each opening, last that from a groove all round.
-    defect : float [1/s]
-        Oil that the cells of the film make or lose, all taken as positive.
-    """
-
-    out: float
-    drawn_in: float
-    inflow: Array
-    defect: float
-
-
 def circular_gap(cells: ConservedCells, eccentricity: Array) -> Gap:
     """Return the gap H = 1 - e.n around a journal, eccentricity of shape (2,)."""
     line, face = (1.0 - eccentricity @ direction(at) for at in (cells.angle, cells.face))
@@ -157,20 +140,44 @@ class ConservedFilm:
     slenderness : float [1]
         Length / diameter.
     supply : Supply
+    fluidity : Fluidity, optional
+        Of oil whose viscosity is not everywhere that of the units; cells keep it.
     """
 
     cells: ConservedCells
     slenderness: float
     supply: Supply
+    fluidity: Fluidity | None = None
 
     @cached_property
-    def _grid(self) -> tuple[Array, Array, Array, np.ndarray, np.ndarray]:
-        """Extents, areas, conductances, and pressure and theta with the values of held openings."""
+    def _grid(self) -> tuple[Array, Array, np.ndarray, np.ndarray]:
+        """Extents, areas, and pressure and theta with the values of held openings."""
         cells, supply = self.cells, self.supply
         pressure, theta = np.zeros(cells.opening.shape), np.ones(cells.opening.shape)
         held = (cells.opening != FILM) & ~np.append(supply.fed, True)[cells.opening]
         pressure[held] = supply.pressure[cells.opening[held]]
-        return cells.extent, cells.area, cells.conductance, pressure, theta
+        return cells.extent, cells.area, pressure, theta
+
+    @cached_property
+    def dragged(self) -> Array:
+        """Twice the share of speed x thickness dragged over the faces after the lines, (N, M or 1)."""
+        if self.fluidity is None:
+            return np.ones((len(self.cells.angle), 1))
+        return 2.0 * at_faces(self.fluidity.dragged, self.cells.opening != FILM)
+
+    @cached_property
+    def _pressed(self) -> tuple[Array, Array, Array]:
+        """Ease of flow around (N, M or 1), and conductances along (N, M) and from the center (N,)."""
+        cells = self.cells
+        if self.fluidity is None:
+            return np.ones((len(cells.angle), 1)), cells.conductance, cells.center
+        pressed, opening = self.fluidity.pressed, cells.opening != FILM
+        along = cells.conductance * at_ends(pressed, opening)
+        return at_faces(pressed, opening), along, cells.center * pressed[:, 0]
+
+    def carried(self, gap: Gap) -> Array:
+        """Return what full gaps carry over the faces after the lines at a unit rate, shape (N, M or 1)."""
+        return gap.face[:, None] * self.dragged
 
     def solve(
         self,
@@ -201,21 +208,22 @@ class ConservedFilm:
             If the film has no supply, so that it empties, or the search does not end.
         """
         equations = self.equations(gap, rate, storage)
-        found = solve_oil(equations, *self._grid[3:], guess, by_newton=by_newton)
+        found = solve_oil(equations, *self._grid[2:], guess, by_newton=by_newton)
         return ConservedState(gap, rate, equations, found)
 
     def equations(self, gap: Gap, rate: float, storage: Storage | None = None) -> OilCells:
         """Return the equations of the film in a gap."""
         cells, supply = self.cells, self.supply
-        extent, area, conductance = self._grid[:3]
+        extent, area = self._grid[:2]
+        ease, conductance, center = self._pressed
         return OilCells(
-            wedge=rate * gap.face,
-            around=gap.cube / cells.spacing,
+            wedge=rate * self.carried(gap),
+            around=(gap.cube / cells.spacing)[:, None] * ease,
             along=gap.line**3 * extent / self.slenderness**2,
             store=(0.0 if storage is None else storage.rate) * gap.line * extent,
             width=cells.width,
             conductance=conductance,
-            center=cells.center,
+            center=center,
             center_pressure=supply.center_pressure,
             end_pressure=supply.end_pressure,
             old=None if storage is None else storage.held * area,
@@ -238,9 +246,7 @@ class ConservedFilm:
         """Return the flows into and out of the film."""
         cells, equations, P = self.cells, state.equations, state.solution.pressure
         outflow = oil_outflow(equations, P, state.solution.theta)
-        fall = P[:, -1] - equations.end_pressure
-        fall[np.abs(fall) <= ROUNDOFF * equations.end_pressure] = 0.0
-        ends = equations.along * equations.conductance[:, -1] * fall
+        ends = equations.along * equations.conductance[:, -1] * self.falls(state)[:, -1]
         film = cells.opening == FILM
         inflow = np.bincount(cells.opening[~film], outflow[~film], len(equations.flow))
         if cells.grooved:
@@ -253,18 +259,32 @@ class ConservedFilm:
             defect=float(np.abs(outflow[film]).sum()),
         )
 
+    def falls(self, state: ConservedState) -> Array:
+        """Return by how much the pressure falls from cell to cell along the bearing, (N, M) [1/s]."""
+        end = state.equations.end_pressure
+        fall = -np.diff(state.solution.pressure, append=end)
+        fall[np.abs(fall) <= ROUNDOFF * end] = 0.0
+        return fall
+
     def shear(self, state: ConservedState) -> float:
         """Return the torque against the journal over viscosity length radius^3/clearance [1/s].
 
-        Shear of oil where there is some, in strips across the whole gap, without the openings up to their
-        edges: of the cell of an edge half is film, and full.
+        Shear of oil where there is some, in strips across the whole gap, without the openings.
         """
-        P, theta, gap = state.solution.pressure, state.solution.theta, state.gap
-        film = self.cells.opening == FILM
-        half = 0.5 * self.cells.spacing[:, None]
-        after = np.where(np.roll(film, -1, axis=0), half, 0.0)
-        before = np.where(np.roll(film, 1, axis=0), np.roll(half, 1, axis=0), 0.0)
-        extent = np.where(film, theta * self.cells.extent[:, None], after + before)
-        drag = 2.0 * state.rate * np.sum(extent * self.cells.width / gap.line[:, None])
-        rise = (np.roll(P, -1, axis=0) - P) @ self.cells.width
-        return float(drag + 6.0 * gap.face @ rise)
+        P, sheared = state.solution.pressure, self.sheared_area(state)
+        if self.fluidity is not None:
+            sheared = sheared * self.fluidity.sheared
+        rise = (np.roll(P, -1, axis=0) - P) * self.cells.width
+        return float(2.0 * state.rate * np.sum(sheared) + 6.0 * np.sum(self.carried(state.gap) * rise))
+
+    def sheared_area(self, state: ConservedState) -> Array:
+        """Return the integral of theta/H over the cells of film, shape (N, M) [rad].
+
+        Up to the edges of openings: of the cell of an edge half is film, and full.
+        """
+        cells, per_gap = self.cells, 1.0 / state.gap.line
+        film, half = cells.opening == FILM, 0.5 * cells.spacing
+        own = state.solution.theta * (cells.extent * per_gap)[:, None]
+        behind = np.where(np.roll(film, 1, axis=0), 0.0, np.roll(half * per_gap, 1)[:, None])
+        before = np.where(np.roll(film, -1, axis=0), 0.0, (half * np.roll(per_gap, -1))[:, None])
+        return np.where(film, own + behind + before, 0.0) * cells.width

@@ -74,16 +74,16 @@ class FilmInMotion:
         s : complex [1/s]
         as_stepped : bool
         """
-        rate = np.full(self.state.gap.line.shape, complex(s))
+        rate = np.full((len(self.state.gap.line), 1), complex(s))
         if not as_stepped:
             rate, _ = _wave_rate(self.film, self.state, s)
         moved, held = self._slopes
         return self._stiffness(self._response(rate, moved + s * held))
 
     def _room(self, rate: Complex) -> Complex:
-        """Return the storage of the cavity at a rate on each line, shape (N, M)."""
-        state = self.state
-        return np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * self.film.cells.area)
+        """Return the storage of the cavity at a rate (N, M or 1), shape (N, M)."""
+        room = self.state.gap.line[:, None] * self.film.cells.area
+        return np.where(self.state.solution.full, 0.0, rate * room)
 
     def _response(self, rate: Complex, outflow: Complex) -> Complex | Array:
         return oil_response(self.state.equations, self.state.solution.full, self._room(rate), -outflow)
@@ -138,12 +138,10 @@ def sudden_slopes(film: ConservedFilm, state: ConservedState) -> Array:
     gap, solution = state.gap, state.solution
     thinned = np.where(solution.full, 0.0, -solution.theta * _widening(film, gap))
     still = np.zeros(gap.line.shape)
-    carrying = state.equations._replace(
-        around=still, along=still, center=0.0, end_pressure=0.0, wedge=state.rate * gap.face
-    )
+    carrying = state.equations._replace(around=still[:, None], along=still, center=still, end_pressure=0.0)
     none = np.zeros(film.cells.opening.shape)
     dragged = [oil_outflow(carrying, none, theta) for theta in thinned]
-    by_speed = oil_outflow(carrying._replace(wedge=0.5 * gap.face), none, solution.theta)
+    by_speed = oil_outflow(carrying._replace(wedge=0.5 * film.carried(gap)), none, solution.theta)
     right = -np.concatenate([moved + np.array(dragged), held, by_speed[None]])
     keeps = np.where(solution.full, 0.0, KEEPS * film.cells.area)
     change = oil_response(state.equations, solution.full, keeps, np.where(solution.full, right, 0.0)).real
@@ -165,7 +163,9 @@ def _widening(film: ConservedFilm, gap: Gap) -> Array:
 def speed_slope(film: ConservedFilm, state: ConservedState) -> Array:
     """Return d force / d speed of a steady film, shape (2,)."""
     still, solution = np.zeros(state.gap.line.shape), state.solution
-    carried = state.equations._replace(wedge=0.5 * state.gap.face, around=still, along=still, store=still)
+    carried = state.equations._replace(
+        wedge=0.5 * film.carried(state.gap), around=still[:, None], along=still, store=still
+    )
     moved = oil_outflow(carried, solution.pressure, solution.theta)
     change = oil_response(state.equations, solution.full, np.zeros(moved.shape), -moved[None])[0].real
     return -12.0 * np.tensordot(film.weights, np.where(solution.full, change, 0.0), 2)
@@ -188,11 +188,11 @@ def _slopes(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
 
 
 def _wave_rate(film: ConservedFilm, state: ConservedState, s: complex) -> tuple[Complex, Complex]:
-    """Return what stands for s in the storage of the cavity, shape (N,), and its derivative by s."""
-    speed = 2.0 * abs(state.rate)
-    turn = 2.0 * s * film.cells.extent
+    """Return what stands for s in the storage of the cavity, shape (N, M or 1), and its derivative by s."""
+    speed = 2.0 * abs(state.rate) * film.dragged
+    turn = 2.0 * s * film.cells.extent[:, None]
     resolved = np.abs(turn) <= speed
-    phase = np.where(resolved, turn, 0.0) / (speed or 1.0)
+    phase = np.where(resolved, turn, 0.0) / np.where(speed > 0.0, speed, 1.0)
     known = np.where(phase == 0.0, 1.0, phase)
     return np.asarray(s * np.where(phase == 0.0, 1.0, np.expm1(phase) / known)), np.exp(phase)
 

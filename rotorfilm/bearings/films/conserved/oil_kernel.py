@@ -20,9 +20,9 @@ class OilCells(NamedTuple):
 
     Attributes
     ----------
-    wedge : ndarray, shape (N,) [1/s]
-        Oil that a full gap carries over the face after a line.
-    around : ndarray, shape (N,)
+    wedge : ndarray, shape (N, M), or (N, 1) where it is the same along [1/s]
+        Oil that a full gap carries over the face after a cell, around the film.
+    around : ndarray, shape (N, M) or (N, 1)
         Conductance of that face.
     along : ndarray, shape (N,)
         Conductance of a line's cells along the bearing.
@@ -32,8 +32,10 @@ class OilCells(NamedTuple):
         Of the cells along the bearing.
     conductance : ndarray, shape (N, M)
         1/distance to the next cell, the last to the end.
-    center, center_pressure, end_pressure : float
-        1/distance to a groove at mid-length, 0 without one; its pressure, and that at the end [1/s].
+    center : ndarray, shape (N,)
+        1/distance from the first cell to a groove at mid-length, 0 without one.
+    center_pressure, end_pressure : float [1/s]
+        Of that groove, and at the end.
     old : ndarray, shape (N, M), or None [1/s]
         Oil that the cells held.
     opening : ndarray of int32, shape (N, M)
@@ -52,7 +54,7 @@ class OilCells(NamedTuple):
     store: Array
     width: Array
     conductance: Array
-    center: float
+    center: Array
     center_pressure: float
     end_pressure: float
     old: Array | None
@@ -84,7 +86,7 @@ class OilSolution(NamedTuple):
 
 def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
     """Return what flows out of every cell, shape (N, M)."""
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     P, content, out = _float(pressure), _float(theta), np.empty(cells.opening.shape)
     loops()["rf_oil_outflow"](byref(struct), P.ctypes.data, content.ctypes.data, out.ctypes.data)
     del kept
@@ -116,13 +118,13 @@ def solve_oil(
     ConvergenceError
         If there is no such film, as without any supply, or the search does not end.
     """
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     P, content = np.array(pressure, dtype=float), np.array(theta, dtype=float)
     full = np.zeros(P.shape, dtype=np.uint8) if guess is None else np.array(guess, dtype=np.uint8)
     work, places = OilWorkStruct(), (full.ctypes.data, P.ctypes.data, content.ctypes.data)
     status = loops()["rf_oil_film"](byref(struct), by_newton, guess is not None, *places, byref(work))
     del kept
-    _report(status)
+    report_search(status)
     return OilSolution(P, content, full, work.solutions, work.newton)
 
 
@@ -143,7 +145,7 @@ def oil_response(
     right : ndarray, shape (K, N, M)
         Changes of the outflow, of the same kind.
     """
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     sets = np.ascontiguousarray(full, dtype=np.uint8)
     real = _float(storage.real), np.array(right.real, dtype=float, order="C")
     others = (_float(storage.imag), np.array(right.imag, dtype=float, order="C"))
@@ -158,14 +160,15 @@ def oil_response(
     )
     status = loops()["rf_oil_response"](byref(struct), *places)
     del kept
-    _report(status)
+    report_search(status)
     return real[1] + 1j * others[1] if np.iscomplexobj(storage) else real[1]
 
 
-def _struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
+def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
-    kept: list[np.ndarray] = [_float(row) for row in (*cells[:6], cells.flow)]
+    faces = (np.broadcast_to(face, cells.opening.shape) for face in cells[:2])
+    kept: list[np.ndarray] = [_float(row) for row in (*faces, *cells[2:7], cells.flow)]
     kept += [
         np.ascontiguousarray(cells.opening, dtype=np.int32),
         np.ascontiguousarray(cells.fed, dtype=np.uint8),
@@ -175,7 +178,7 @@ def _struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
         kept.append(_float(cells.old))
     old = None if cells.old is None else kept[-1].ctypes.data
     struct = OilCellsStruct(
-        *(lines, nodes, *factors, *cells[6:9], old, opening, fed, flow, len(cells.flow), cells.backward)
+        *(lines, nodes, *factors, *cells[7:9], old, opening, fed, flow, len(cells.flow), cells.backward)
     )
     return struct, kept
 
@@ -184,7 +187,8 @@ def _float(numbers: Array) -> Array:
     return np.ascontiguousarray(numbers, dtype=float)
 
 
-def _report(status: int) -> None:
+def report_search(status: int) -> None:
+    """Raise what the status of a search for a film means."""
     if status == Status.NO_MEMORY:
         raise MemoryError("no memory for a film")
     if status:

@@ -13,16 +13,11 @@ import numpy as np
 
 from ....errors import InputError
 from ....model import Array
-from .conserved_film import ConservedFilm, ConservedState, Gap, Storage, step_storage
+from .conserved_film import ConservedFilm, ConservedState, Gap
+from .step_kernel import rest_oil, step_oil
 
 MOST_GROWTH = 2.0
 """Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
-
-EMPTY = -1e-9
-"""Content of a cell below which a difference of second order took more oil from it than it had."""
-
-STILL, MOST_STILL, WEIGHT = 1e-13, 80, 0.7
-"""Change of theta at which the steady film stands, most solutions on the way, and how much of each counts."""
 
 
 class OilMemory(NamedTuple):
@@ -56,15 +51,7 @@ def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
     ConvergenceError
         As `ConservedFilm.solve`.
     """
-    state = film.solve(gap, rate)
-    carried = np.zeros(film.cells.opening.shape)
-    for _ in range(MOST_STILL):
-        theta = state.solution.theta
-        carried = (1.0 - WEIGHT) * carried + WEIGHT * sharpened(film, gap, rate, theta)
-        state = film.solve(gap, rate, storage=Storage(0.0, -carried), guess=state.solution.full)
-        if np.abs(state.solution.theta - theta).max() <= STILL:
-            break
-    return state
+    return rest_oil(film, gap, rate)
 
 
 def remembered(state: ConservedState) -> OilMemory:
@@ -106,39 +93,8 @@ def oil_step(
         If the search for the cavity does not end.
     """
     like = memory if near is None else near
-    carried = sharpened(film, gap, rate, like.theta)
-    ratio = dt / memory.length if memory.length > 0.0 else np.inf
-    if ratio <= MOST_GROWTH:
-        state = _solved(
-            film, gap, rate, step_storage(dt, memory.content, memory.before, ratio), carried, like
-        )
-        if state.solution.theta.min() >= EMPTY:
-            return state
-    return _solved(film, gap, rate, step_storage(dt, memory.content), carried, like)
-
-
-def _solved(
-    film: ConservedFilm, gap: Gap, rate: float, storage: Storage, carried: Array, near: OilMemory
-) -> ConservedState:
-    return film.solve(gap, rate, storage=storage._replace(held=storage.held - carried), guess=near.full)
-
-
-def sharpened(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
-    """Return what leaves the cells beyond transport at upstream theta, over their area, shape (N, M) [1/s].
-
-    At a face theta is that upstream plus d_- d_+/(d_- + d_+) where both have one sign (van Leer 1974), d_-
-    and d_+ being the differences before and behind that cell.
-    """
-    forward = rate >= 0.0
-    row = theta if forward else theta[::-1]
-    behind, ahead = row - np.roll(row, 1, axis=0), np.roll(row, -1, axis=0) - row
-    product = behind * ahead
-    rises = product > 0.0
-    limited = np.where(rises, product / np.where(rises, behind + ahead, 1.0), 0.0)
-    # Turned round, the face of line k is that before it.
-    face = limited if forward else np.roll(limited[::-1], -1, axis=0)
-    flux = (rate * gap.face)[:, None] * face * film.cells.width
-    return np.asarray((flux - np.roll(flux, 1, axis=0)) / film.cells.area)
+    past = memory.content, memory.before, memory.length
+    return step_oil(film, gap, rate, dt, past, (like.theta, like.full))
 
 
 def packed_oil(memory: OilMemory, **further: Array) -> bytes:

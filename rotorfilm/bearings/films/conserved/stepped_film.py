@@ -8,27 +8,24 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import ConvergenceError, require_inside, require_positive
+from ....errors import require_inside, require_positive
 from ....model import Array
+from ....native.spec import NativeSpec
 from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, input_vector
 from ...stepped_reaction import StepTrial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
 from .conserved_motion import step_stiffness, sudden_slopes
 from .oil_kernel import OilSolution
-from .oil_steps import OilMemory, after_step, oil_step, packed_oil, remembered, steady_oil, unpacked_oil
+from .oil_spec import OilNumbers, oil_spec
+from .oil_steps import OilMemory, after_step, oil_step, packed_oil, unpacked_oil
+from .step_kernel import MovingFilm, block_of, oil_sums, parts_of
 
 LARGEST_ANGLE = 2.0 * math.pi / 192.0
 """Rotation of the shaft in one inner step [rad]."""
 
 LARGEST_WAY = 0.02
 """Way of the journal in one inner step, in clearances."""
-
-SWEEPS = 2
-"""Films in one inner step, the second with what the first says of limited transport."""
-
-HALVINGS = 4
-"""Times that all inner steps are halved before a step is given up."""
 
 FLOWS = {
     "side_flow": "oil that leaves through both ends",
@@ -81,6 +78,15 @@ class SteppedFilm:
         """Units of the force [N s] and of the oil, clearance radius length [m3]."""
         raise NotImplementedError
 
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        raise NotImplementedError
+
+    def native(self) -> NativeSpec:
+        """Return its kernel in the C library, which steps as this model does."""
+        return oil_spec(self.moving, self.numbers)
+
     def carrying(self, motion: Array) -> float:
         """Return the speed with which the walls carry the oil [rad/s]: half that of a journal."""
         return 0.5 * float(motion[4])
@@ -115,9 +121,7 @@ class SteppedFilm:
             If the search for the cavity does not end.
         """
         motion = self._inside(input_vector(u), "")
-        gap = circular_gap(self.film.cells, motion[:2] / self.clearance)
-        state = steady_oil(self.film, gap, self.carrying(motion))
-        return FilmMemory(remembered(state), motion, self._output(state))
+        return self._remembered(self.moving.begin(motion))
 
     def step(
         self, state: FilmMemory, t: float, u: ArrayLike, dt: float
@@ -137,14 +141,11 @@ class SteppedFilm:
         if dt == 0.0:
             return state, state.output, {"steps": 0, "solutions": 0}
         require_positive("dt", dt)
-        pieces = self._pieces(state.motion, target, dt)
-        for halving in range(HALVINGS + 1):
-            try:
-                return self._followed(state, t, target, dt, pieces * 2**halving)
-            except ConvergenceError:
-                if halving == HALVINGS:
-                    raise
-        raise AssertionError
+        length, shares = state.oil.length, state.oil._asdict()
+        begin = block_of(length, state.motion, state.output, shares)
+        block, steps, solutions = self.moving.travel(begin, t, target, dt)
+        end = self._remembered(block)
+        return end, end.output.copy(), {"steps": steps, "solutions": solutions}
 
     def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
@@ -176,27 +177,15 @@ class SteppedFilm:
         oil, further = unpacked_oil(content, self.film.cells.opening.shape)
         return FilmMemory(oil, further["motion"], further["output"])
 
-    def _pieces(self, begin: Array, end: Array, dt: float) -> int:
-        angle = max(abs(begin[4]), abs(end[4])) * dt
-        way = math.hypot(*(end[:2] - begin[:2])) / self.clearance
-        return max(1, math.ceil(angle / LARGEST_ANGLE), math.ceil(way / LARGEST_WAY))
+    @property
+    def moving(self) -> MovingFilm:
+        """The film in SI units that the compiled library steps."""
+        share = self.carrying(np.array([0.0, 0.0, 0.0, 0.0, 1.0]))
+        return MovingFilm(self.film, self.clearance, share, *self.scales, LARGEST_ANGLE, LARGEST_WAY)
 
-    def _followed(
-        self, state: FilmMemory, t: float, target: Array, dt: float, pieces: int
-    ) -> tuple[FilmMemory, Array, dict[str, int]]:
-        solutions, begin = 0, state.motion
-        for k in range(1, pieces + 1):
-            on_way = target if k == pieces else between(begin, target, dt, k / pieces)
-            self._inside(on_way, f" at t = {t + dt * k / pieces:.9g} s")
-            near, end = None, state
-            for _ in range(SWEEPS):
-                found = self._found(state, on_way, dt / pieces, near)
-                solutions += found.solution.solutions
-                near = end = FilmMemory(
-                    after_step(state.oil, found, dt / pieces), on_way, self._output(found)
-                )
-            state = end
-        return state, state.output.copy(), {"steps": pieces, "solutions": solutions}
+    def _remembered(self, block: Array) -> FilmMemory:
+        length, motion, output, rows = parts_of(block, self.film.cells.opening.shape)
+        return FilmMemory(OilMemory(length=length, **rows), motion, output)
 
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
         gap = circular_gap(self.film.cells, u[:2] / self.clearance)
@@ -205,20 +194,8 @@ class SteppedFilm:
 
     def _output(self, state: ConservedState) -> Array:
         force, volume = self.scales
-        flows, oil = self.film.flows(state), np.sum(state.content * self.film.cells.area)
-        rest = np.array([flows.out, flows.drawn_in, flows.inflow.sum(), oil])
-        return np.concatenate([force * self.film.force(state), volume * rest])
+        return oil_sums(self.film, state) * np.repeat([force, volume], [2, 4])
 
     def _inside(self, motion: Array, when: str) -> Array:
         require_inside(motion[:2], self.clearance, when)
         return motion
-
-
-def between(begin: Array, end: Array, dt: float, share: float) -> Array:
-    """Return (x, y, vx, vy, speed) on the cubic between two motions, dt [s] apart, at a share of that."""
-    s, way = share, end[:2] - begin[:2]
-    v0, v1 = begin[2:4] * dt, end[2:4] * dt
-    bent, turned = v0 + v1 - 2.0 * way, 3.0 * way - 2.0 * v0 - v1
-    place = begin[:2] + s * (v0 + s * (turned + s * bent))
-    velocity = (v0 + s * (2.0 * turned + 3.0 * s * bent)) / dt
-    return np.concatenate([place, velocity, [begin[4] + s * (end[4] - begin[4])]])

@@ -17,22 +17,21 @@ from ....errors import (
     require_kind,
     require_number,
     require_positive,
-    warn_user,
 )
+from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array, Tangent
 from ...at_frequency import MemoryCoefficients, ReducedCoefficients
+from ...films.conserved.air_at_ends import warn_of_air
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
 from ...films.conserved.conserved_motion import FilmInMotion, slow_motion, speed_slope
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.conserved.stepped_film import SteppedFilm
 from ..bearing import JournalBearing
 from .jfo_losses import JFOHeat
 from .jfo_state import JFOState, jfo_state
-from .jfo_supply import oil_supply
-
-AIR_SHARE = 0.01
-"""Of the side flow, what ends in air may draw in before a warning."""
+from .jfo_supply import oil_numbers, oil_supply
 
 
 @quantities
@@ -75,7 +74,7 @@ class JFOFilm(JFOHeat, SteppedFilm):
     Warns
     -----
     ValidityWarning
-        If ends in air would draw in more than `AIR_SHARE` of the side flow.
+        If ends in air would draw in more than 1 % of the side flow.
 
     Examples
     --------
@@ -117,6 +116,11 @@ class JFOFilm(JFOHeat, SteppedFilm):
         """Units of the force [N s] and of the oil, clearance radius length [m3]."""
         return self.bearing.force_scale, self.clearance * self.bearing.radius * self.bearing.film_length
 
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        return oil_numbers(self.bearing, self.supply_flow, self.cavitation_pressure)
+
     @cached_property
     def film(self) -> ConservedFilm:
         """The film without dimensions, for steps in time; see `ConservedFilm`."""
@@ -126,6 +130,7 @@ class JFOFilm(JFOHeat, SteppedFilm):
             conserved_cells(self.bearing.geometry, *self.cells), self.bearing.slenderness, supply
         )
 
+    @arguments
     def solve(self, position: ArrayLike, speed: float) -> JFOState:
         """Return the steady film of a journal at rest.
 
@@ -147,19 +152,16 @@ class JFOFilm(JFOHeat, SteppedFilm):
         """
         q, state = self._steady(position, speed)
         found = jfo_state(self.bearing, self.film, state, q, self.cavitation_pressure)
-        if not self.submerged and found.drawn_in > AIR_SHARE * found.side_flow:
-            warn_user(
-                f"submerged must be True for ends that draw in oil: in air they would draw in air, "
-                f"{100.0 * found.drawn_in / found.side_flow:.2g} % of the side flow"
-            )
+        warn_of_air(self.submerged, found.drawn_in, found.side_flow)
         return found
 
+    @arguments
     def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> NDArray[np.complex128]:
         """Return K(s), shape (2, 2) [N/m]: -K q e^(s t) is the change of the force when the journal moves so.
 
         Parameters
         ----------
-        position, speed
+        position, speed : array_like, shape (2,) [m], and float [rad/s]
             As in `solve`.
         s : complex [1/s]
             Growth rate + i frequency.
@@ -168,6 +170,7 @@ class JFOFilm(JFOHeat, SteppedFilm):
             raise InputError(f"s must be a finite number, got {s!r}")
         return self._in_motion(position, speed).stiffness(complex(s))
 
+    @arguments
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
         """Return K and C in motions slow against the time that oil takes to cross the cavity: K(0), dK/ds(0).
 
@@ -175,13 +178,14 @@ class JFOFilm(JFOHeat, SteppedFilm):
 
         Parameters
         ----------
-        position, speed
+        position, speed : array_like, shape (2,) [m], and float [rad/s]
             As in `solve`.
         """
         q, state = self._steady(position, speed)
         K, C = self._slow(state)
         return ReducedCoefficients(stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0)
 
+    @arguments
     def coefficients(
         self, position: ArrayLike, speed: float, frequency: float | None = None
     ) -> ReducedCoefficients:
@@ -189,6 +193,12 @@ class JFOFilm(JFOHeat, SteppedFilm):
 
         Without a frequency they are `MemoryCoefficients`, at that of the shaft: what takes them for modes,
         thresholds or a critical mass goes by K(s).
+
+        Parameters
+        ----------
+        position, speed : array_like, shape (2,) [m], and float [rad/s]
+            As in `solve`.
+        frequency : float, optional [rad/s]
         """
         own = abs(require_number("speed", speed))
         nu = own if frequency is None else require_number("frequency", frequency)

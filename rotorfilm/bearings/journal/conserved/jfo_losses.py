@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
@@ -12,6 +13,7 @@ from ....model import Array
 from ....results import BearingLosses
 from ...films.conserved.conserved_cells import FILM
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState
+from ...oil import Cooling, Oil
 from ...oil.heat_balance import FilmHeat, balance_temperature, fed_temperature, film_heat
 
 if TYPE_CHECKING:
@@ -68,6 +70,11 @@ class JFOHeat:
         """Whether the temperature of the film is left to the heat balance."""
         return self.bearing.is_warming
 
+    @property
+    def cooled(self: _Film) -> tuple[Oil, Cooling]:
+        """Oil and cooling of its bearing; InputError if one of them is not given."""
+        return self.bearing.cooled
+
     def coldest(self: _Film) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.bearing.coldest()
@@ -88,6 +95,9 @@ class JFOHeat:
         Parameters and errors are those of `losses`.
         """
         oil, cooling = self.bearing.cooled
+        if self.supply_flow is not None:
+            # What arrives at an opening cannot leave by it: all of it goes on.
+            cooling = replace(cooling, carry_over=1.0)
 
         def heat(temperature: float) -> FilmHeat:
             film = self.at_temperature(temperature)
@@ -110,7 +120,7 @@ def film_losses(
     torque = bearing.force_scale * bearing.clearance * film.shear(state)
     force = bearing.force_scale * film.force(state)
     inflow, arriving = (flow_unit * flow for flow in opening_flows(film, state))
-    pressure = bearing.pressure_scale * (_opening_pressure(film, state) - film.supply.end_pressure)
+    pressure = bearing.pressure_scale * (opening_pressure(film, state) - film.supply.end_pressure)
     return BearingLosses(
         power_loss=torque * speed + float(pressure @ (inflow - arriving)),
         friction_torque=torque,
@@ -130,8 +140,8 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     P, theta, width = state.solution.pressure, state.solution.theta, cells.width
     after, onward = np.roll(cells.opening, -1, axis=0), cells.opening[:, 1:]
     upstream = np.roll(theta, -1, axis=0) if equations.backward else theta
-    carried = equations.wedge[:, None] * upstream
-    around = (carried + equations.around[:, None] * (P - np.roll(P, -1, axis=0))) * width
+    carried = equations.wedge * upstream
+    around = (carried + equations.around * (P - np.roll(P, -1, axis=0))) * width
     along = equations.along[:, None] * equations.conductance[:, :-1] * (P[:, :-1] - P[:, 1:])
     leaving, arriving = (np.zeros(len(equations.flow)) for _ in range(2))
     for flow, here, there in ((around, cells.opening, after), (along, cells.opening[:, :-1], onward)):
@@ -151,7 +161,7 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     return next(both), next(both)
 
 
-def _opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
+def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
     """Return the pressure of each opening, that of a groove all round last (openings,) [1/s]."""
     opening, P = film.cells.opening, state.solution.pressure
     held = opening != FILM

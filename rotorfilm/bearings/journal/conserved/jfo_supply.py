@@ -6,6 +6,7 @@ import numpy as np
 
 from ....errors import InputError
 from ...films.conserved.conserved_film import Supply
+from ...films.conserved.oil_spec import OilNumbers
 from ..bearing import JournalBearing
 
 REMEDY = (
@@ -43,6 +44,21 @@ def oil_supply(
         flow=np.full(count, flow),
         end_pressure=end,
         center_pressure=end + geometry.supply,
+    )
+
+
+def oil_numbers(bearing: JournalBearing, supply_flow: float | None, cavitation_pressure: float) -> OilNumbers:
+    """Return what the kernel of a film has besides it; openings that end in the bearing are at the supply."""
+    geometry = bearing.geometry
+    supplied = np.array([span.share < 1.0 for span in geometry.openings()], dtype=bool)
+    pressed = supply_flow is None and (supplied.any() or geometry.circumferential)
+    return OilNumbers(
+        radius=bearing.radius,
+        viscosity=bearing.film_viscosity,
+        cavitation_pressure=cavitation_pressure,
+        supplied=supplied,
+        supply_pressure=bearing.supply_pressure if pressed else None,
+        supply_flow=supply_flow,
     )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +12,7 @@ from ....errors import InputError, ValidityWarning, require_kind, require_vector
 from ....inputs.kinds import arguments
 from ....model import Array
 from ....readable.result import Readable
+from ...differences import extrapolated_value
 from ..bearing import JournalBearing
 from ..reynolds_film import ReynoldsFilm
 from .jfo_film import JFOFilm
@@ -79,7 +79,8 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     place, rest = require_vector("position", position), np.zeros(2)
     films = zip(*(both_films(bearing, cells) for cells in RUPTURE_CELLS), strict=True)
     reynolds, conserved = (
-        extrapolated_value(*(_numbers(film, place, rest, speed) for film in pair)) for pair in films
+        extrapolated_value(_numbers(coarse, place, rest, speed), _numbers(fine, place, rest, speed))
+        for coarse, fine in films
     )
     size = float(np.hypot(*conserved[:2]))
     if size == 0.0:
@@ -89,11 +90,6 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
         side_flow_error=float(reynolds[2] / conserved[2]) - 1.0,
         torque_error=float(reynolds[3] / conserved[3]) - 1.0,
     )
-
-
-def extrapolated_value(coarse: Any, fine: Any) -> Any:
-    """Return what cells without end would give, of second order, the first value on half of them."""
-    return (4.0 * fine - coarse) / 3.0
 
 
 def _numbers(film: JournalBearing | JFOFilm, place: Array, rest: Array, speed: float) -> Array:

@@ -10,9 +10,9 @@ from rotorfilm.bearings.films.conserved.oil_steps import (
     after_step,
     oil_step,
     remembered,
-    sharpened,
     steady_oil,
 )
+from rotorfilm.bearings.films.conserved.step_kernel import sharpened_oil
 from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2.0, width=np.radians(20.0), share=0.8),), supply=0.05)
@@ -92,10 +92,10 @@ def test_the_other_sense_of_rotation_is_the_mirror_image(supply):
     film = ring(36, supply)
     # The mirror image of a line is the last but that line; the gap is that of a centered journal.
     gap = circular_gap(film.cells, np.zeros(2))
-    there, turned = sharpened(film, gap, 0.5, theta), sharpened(film, gap, -0.5, theta[::-1])[::-1]
+    there, turned = sharpened_oil(film, gap, 0.5, theta), sharpened_oil(film, gap, -0.5, theta[::-1])[::-1]
     np.testing.assert_allclose(turned, there, atol=1e-13)
-    assert np.abs(there).max() > 1e-2
-    np.testing.assert_allclose(np.sum(there * film.cells.area), 0.0, atol=1e-14)
+    assert np.abs(there).max() > 1e-2 * film.cells.area.max()
+    np.testing.assert_allclose(there.sum(), 0.0, atol=1e-14)
 
 
 def test_a_cell_never_gives_more_oil_than_it_has(supply):

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....model import Array
-from .film_cells import FilmCells
-from .frozen_film import Fluidity
-from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
+from ....films.conserved.fluidity import Fluidity
+from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained, from_center
 
 
 @dataclass(frozen=True)
@@ -24,55 +23,46 @@ class MeanTemperature:
     itself, upwind: heat is accounted for to the last digit on any grid.
     """
 
-    def shape(self, cells: FilmCells) -> tuple[int, ...]:
-        """Return the shape of a temperature."""
-        return cells.shape
+    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
+        """Return the shape of a temperature of cells (N, M)."""
+        return cells
 
     def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity (N, M + 1) flows."""
-        return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5))
+        """Return how easily oil of a relative viscosity (N, M) flows."""
+        return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5), viscosity)
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""
-        cells, flow, (lines, along) = heating.cells, heating.flow, heating.cells.shape
-        opening = lines * along
-        index = _unknowns(cells)
+        flow, film, index = heating.flow, heating.film, heating.unknowns()
         oil = carried(
             (index, np.roll(index, -1, axis=0), flow.around),
             (index[:, :-1], index[:, 1:], flow.axial[:, :-1]),
+            *from_center(heating, index[:, 0], flow.central),
         )
-        equations = HeatEquations(opening + int(cells.opening.max()) + 1, heating)
-        film = ~cells.held
+        equations = HeatEquations(index.size, heating)
         own = index[film]
         made = heating.heat_scale * (heating.speed**2 * heating.viscosity * flow.shear + flow.dissipation)
         less = made * heating.thinning
         through = np.maximum(flow.entering, flow.leaving) + less
         equations.carry(oil)
         equations.add(own, own, np.where(through > 0.0, through, 1.0)[film])
-        unused = np.arange(opening).reshape(lines, along)[cells.held]
-        equations.add(unused, unused, 1.0)
+        equations.leave_out(~film)
         equations.right[own] = (made + less * heating.temperature)[film]
         bush, journal = _into_walls(equations, heating.diffusion * flow.shear, index)
-        line = np.broadcast_to(np.arange(lines)[:, None], index.shape)
+        line = np.broadcast_to(np.arange(len(index))[:, None], index.shape)
         equations.lose((index, index), bush, journal, line)
         x = equations.solve()
         T = x[index]
         return HeatSolution(
             oil=T,
+            openings=equations.in_openings(x),
             walls=equations.wall_temperatures(x),
             made=float(np.sum((made - less * (T - heating.temperature))[film])),
             leaked=float(np.sum((flow.leaked * T)[film])),
-            drained=drained(oil, x, opening),
+            drained=drained(oil, x, index.size),
             to_bush=equations.total(bush, x),
             to_journal=equations.total(journal, x),
         )
-
-
-def _unknowns(cells: FilmCells) -> np.ndarray:
-    """Return the number of the unknown of each cell; an opening has one, after those of the film."""
-    lines, along = cells.shape
-    index = np.arange(lines * along).reshape(lines, along)
-    return np.where(cells.held[:, None], lines * along + cells.opening[:, None], index)
 
 
 def _into_walls(equations: HeatEquations, into: Array, index: np.ndarray) -> tuple[Terms, Terms]:

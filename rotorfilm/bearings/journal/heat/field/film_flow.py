@@ -36,6 +36,8 @@ class FilmFlow(NamedTuple):
         Power of the pressure in the cells / (viscosity radius^3 length/2 / clearance).
     climb : ndarray, shape (N, M + 1) [1/s]
         Integral of H times the slope of the pressure around the film over the cells of film.
+    central : ndarray, shape (N,), or None [1/s]
+        Flow from a groove all round at mid-length into the first cells; None without one.
     """
 
     dragged: Array
@@ -48,6 +50,7 @@ class FilmFlow(NamedTuple):
     shear: Array
     dissipation: Array
     climb: Array
+    central: Array | None = None
 
     @property
     def around(self) -> Array:
@@ -124,7 +127,7 @@ def film_flow(
     axial[:, -1] = np.where(
         full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0
     )
-    entering, leaving = _through(around, axial)
+    entering, leaving = through(around, axial)
     capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
     filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
     climbing = H[:, None] * (np.roll(pressure, -1, axis=0) - pressure)
@@ -154,10 +157,12 @@ def _driven(cells: FilmCells, full: np.ndarray, H: Array, at_lines: Array, speed
     return np.where(emptied, np.roll(at_lines, shifts[0])[:, None], H[:, None])
 
 
-def _through(around: Array, axial: Array) -> tuple[Array, Array]:
-    """Return what enters and what leaves each cell."""
+def through(around: Array, axial: Array, central: Array | None = None) -> tuple[Array, Array]:
+    """Return what enters and what leaves each cell by flows as in `FilmFlow`."""
     before = np.roll(around, 1, axis=0)
     inward = np.pad(axial, ((0, 0), (1, 0)))[:, :-1]
+    if central is not None:
+        inward[:, 0] = central
     entering = sum(np.maximum(flow, 0.0) for flow in (before, -around, inward, -axial))
     leaving = sum(np.maximum(flow, 0.0) for flow in (-before, around, -inward, axial))
     return np.asarray(entering), np.asarray(leaving)
@@ -183,17 +188,27 @@ def _with_streamers(cells: FilmCells, full: np.ndarray, drag: Array, axial: Arra
 def _dissipation(cells: FilmCells, found: FilmSolution, full: np.ndarray) -> Array:
     """Return the power of the pressure, that of each face shared by the cells of film beside it."""
     pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
-    # Beside an opening under pressure there may be film shorter than a cell.
-    weight = np.where(cells.held[:, None], 0.0, np.where(full, 1.0, 1e-30))
+    weight = film_weight(full, cells.held[:, None])
     around = np.zeros(full.shape)
     around[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1] ** 2
+    along = found.stencil.along * (pressure[:, :-1] - pressure[:, 1:]) ** 2
+    return 12.0 * in_cells(around, along, weight)
+
+
+def film_weight(full: np.ndarray, opening: np.ndarray) -> Array:
+    """Return how much of what happens at its faces is a cell's: nothing is that of an opening's."""
+    # Beside an opening under pressure there may be film shorter than a cell.
+    return np.where(opening, 0.0, np.where(full, 1.0, 1e-30))
+
+
+def in_cells(around: Array, along: Array, weight: Array) -> Array:
+    """Return what faces after lines (N, M) and between cells (N, M - 1) have, shared by the cells."""
     here, there = _shared(around, weight, np.roll(weight, -1, axis=0))
     total = here + np.roll(there, 1, axis=0)
-    along = found.stencil.along * (pressure[:, :-1] - pressure[:, 1:]) ** 2
     here, there = _shared(along, weight[:, :-1], weight[:, 1:])
     total[:, :-1] += here
     total[:, 1:] += there
-    return 12.0 * total
+    return np.asarray(total)
 
 
 def _shared(amount: Array, first: Array, second: Array) -> tuple[Array, Array]:

@@ -9,29 +9,10 @@ import numpy as np
 
 from .....model import Array, Tangent
 from ....films.bound_law import kinematics
+from ....films.conserved.fluidity import Fluidity
 from ....films.ring.stencil_film import Stencil, StencilSolution, solve_stencil
 from ....reaction import NOMINAL_SPEED, StaticReaction
 from .film_cells import FilmCells, thickness
-
-
-class Fluidity(NamedTuple):
-    """How easily the oil of each cell flows, from its viscosity.
-
-    Attributes
-    ----------
-    pressed : ndarray, shape (N, M + 1)
-        Flow by pressure over that of oil of the viscosity of the bearing: 12 F_2 in Dowson's terms.
-    dragged : ndarray, shape (N, M + 1)
-        Share of speed x thickness that the walls drag along: 1 - F_1/F_0, 1/2 where the viscosity is the same
-        from wall to wall.
-    """
-
-    pressed: Array
-    dragged: Array
-
-    def at_faces(self) -> Fluidity:
-        """Return the means of both sides at the faces after the lines."""
-        return Fluidity(*(0.5 * (field + np.roll(field, -1, axis=0)) for field in self))
 
 
 class FilmSolution(NamedTuple):

@@ -14,7 +14,6 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
 from .....model import Array
-from .film_cells import FilmCells
 from .film_flow import FilmFlow
 from .walls import WallResponse
 
@@ -24,14 +23,15 @@ class Heating(NamedTuple):
 
     Attributes
     ----------
-    cells : FilmCells
+    opening : ndarray of int, shape (N, M)
+        Opening of a cell, -1 in film.
     flow : FilmFlow
     speed : float [rad/s]
-    viscosity : ndarray, shape (N, M + 1, ...) [1]
+    viscosity : ndarray, shape (N, M, ...) [1]
         Over that of the bearing; a last axis is that of layers.
-    thinning : ndarray, shape (N, M + 1, ...) [1/K]
+    thinning : ndarray, shape (N, M, ...) [1/K]
         By which heat falls as the oil warms; 0 to hold it.
-    temperature : ndarray, shape (N, M + 1, ...) [K]
+    temperature : ndarray, shape (N, M, ...) [K]
         At which the oil has this viscosity, above that of the supply.
     heat_scale : float [K s]
         Viscosity of the bearing radius^2/(volumetric heat clearance^2).
@@ -43,7 +43,7 @@ class Heating(NamedTuple):
         None for walls that take no heat; in the units of the equations, ambients above the supply.
     """
 
-    cells: FilmCells
+    opening: np.ndarray
     flow: FilmFlow
     speed: float
     viscosity: Array
@@ -53,6 +53,23 @@ class Heating(NamedTuple):
     diffusion: float
     carry_over: float
     walls: WallResponse | None
+
+    @property
+    def film(self) -> np.ndarray:
+        """Which cells are film, shape (N, M)."""
+        return self.opening < 0
+
+    @property
+    def openings(self) -> int:
+        """Openings, that all round at mid-length the last."""
+        return int(self.opening.max()) + 1 + (self.flow.central is not None)
+
+    def unknowns(self, *layers: int) -> np.ndarray:
+        """Return the number of the unknown of each cell; openings have one each, after those of the cells."""
+        shape = (*self.opening.shape, *layers)
+        own, count = np.arange(np.prod(shape)).reshape(shape), int(np.prod(shape))
+        opening = self.opening.reshape(*self.opening.shape, *(1 for _ in layers))
+        return np.where(opening < 0, own, count + opening)
 
 
 class WallTemperatures(NamedTuple):
@@ -67,8 +84,10 @@ class HeatSolution(NamedTuple):
 
     Attributes
     ----------
-    oil : ndarray, shape (N, M + 1, ...) [K]
+    oil : ndarray, shape (N, M, ...) [K]
         In openings that of the mixed oil.
+    openings : ndarray, shape (openings,) [K]
+        Of that oil.
     walls : WallTemperatures or None
         None of walls that take no heat.
     made : float [K/s]
@@ -81,6 +100,7 @@ class HeatSolution(NamedTuple):
     """
 
     oil: Array
+    openings: Array
     walls: WallTemperatures | None
     made: float
     leaked: float
@@ -114,22 +134,33 @@ def carried(*faces: tuple[np.ndarray, np.ndarray, Array]) -> Carried:
     return Carried(donor, receiver, np.abs(flow))
 
 
+def from_center(
+    heating: Heating, cells: np.ndarray, flow: Array | None
+) -> list[tuple[np.ndarray, np.ndarray, Array]]:
+    """Return the faces through which a groove at mid-length feeds cells (N, ...); none without one."""
+    if flow is None:
+        return []
+    groove = heating.unknowns(*flow.shape[1:]).size + heating.openings - 1
+    return [(np.full(cells.shape, groove), cells, flow)]
+
+
 Terms = list[tuple[np.ndarray | int, Array]]
 """A flow of heat [K/s] as a sum of unknowns times coefficients [1/s]."""
 
 
 class HeatEquations:
-    """Equations in the temperatures of oil (`size` unknowns, the openings last), bush, its heat, and journal.
+    """Equations in the temperatures of oil (`cells` unknowns, then openings), bush, its heat, and journal.
 
     Parameters
     ----------
-    size : int
+    cells : int
     heating : Heating
     """
 
-    def __init__(self, size: int, heating: Heating) -> None:
-        self.openings = int(heating.cells.opening.max()) + 1
-        self.lines, self.size, self._heating = len(heating.cells.theta), size, heating
+    def __init__(self, cells: int, heating: Heating) -> None:
+        self.openings = heating.openings
+        self.lines, size, self._heating = len(heating.opening), cells + self.openings, heating
+        self.size = size
         self.bush = size + np.arange(self.lines)
         self.to_bush = self.bush + self.lines
         self.mean, self.journal = size + 2 * self.lines, size + 2 * self.lines + 1
@@ -152,6 +183,16 @@ class HeatEquations:
             mixed = np.maximum(self._heating.carry_over * taken, given)
             places = np.arange(opening, self.size)
             self.add(places, places, np.where(mixed > 0.0, mixed, 1.0))
+
+    def leave_out(self, cells: np.ndarray) -> None:
+        """Let cells have no temperature of their own, which are in openings: (N, M), of all their layers."""
+        layers = (self.size - self.openings) // cells.size
+        places = np.flatnonzero(np.repeat(cells.ravel(), layers))
+        self.add(places, places, 1.0)
+
+    def in_openings(self, x: Array) -> Array:
+        """Return the temperatures of the openings."""
+        return x[self.size - self.openings : self.size]
 
     def lose(
         self, rows: tuple[np.ndarray, np.ndarray], bush: Terms, journal: Terms, line: np.ndarray

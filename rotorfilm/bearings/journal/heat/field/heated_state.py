@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from ....oil import Cooling, Oil
 from ...bearing import JournalBearing
 from ...film_at_rest import FilmAtRest
 from .film_flow import FilmFlow
-from .frozen_film import FilmSolution, FrozenFilm
 from .heat_equations import HeatSolution
 
 
@@ -48,17 +47,17 @@ class HeatAccount(Readable):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatedState(FilmAtRest):
-    """A film with its temperature, for a journal at rest; N lines with M + 1 nodes on each.
+    """A film with its temperature, for a journal at rest; N lines with M nodes on each.
 
     Attributes
     ----------
-    axial : ndarray, shape (M + 1,) [m]
+    axial : ndarray, shape (M,) [m]
         Nodes from the middle of the bearing to its end; the film is symmetric.
-    pressure : ndarray, shape (N, M + 1) [Pa]
+    pressure : ndarray, shape (N, M) [Pa]
         Gauge pressure.
-    filled : ndarray, shape (N, M + 1) [1]
+    filled : ndarray, shape (N, M) [1]
         Share of the gap that oil fills: 1 in the film, less in the ruptured zone, 0 in openings.
-    oil_temperature : ndarray, shape (N, M + 1) or (N, M + 1, layers) [K]
+    oil_temperature : ndarray, shape (N, M) or (N, M, layers) [K]
         The mean across the film, or that of its layers from the bush to the journal.
     bush_temperature : ndarray, shape (N,), or None [K]
         At the bore; None for walls that take no heat.
@@ -73,7 +72,7 @@ class HeatedState(FilmAtRest):
     side_flow : float [m3/s]
         Oil that leaves through both ends of the film.
     heat : HeatAccount
-    film : FrozenFilm
+    film : FrozenFilm or FrozenJFOFilm
         The film at frozen temperature: a Reaction with exact derivatives.
     film_temperature : ndarray, shape of oil_temperature [K]
         At which the film has its viscosity; that of the oil when the rounds have come to rest.
@@ -92,9 +91,20 @@ class HeatedState(FilmAtRest):
     friction_torque: float
     side_flow: float
     heat: HeatAccount
-    film: FrozenFilm
+    film: Any
     film_temperature: Array
     rounds: int
+
+
+class FoundFilm(NamedTuple):
+    """What a film says without its heat, in units of `HeatedState`; `pumped` is the supply's power [W]."""
+
+    force: Array
+    angle: Array
+    axial: Array
+    pressure: Array
+    pumped: float
+    side_flow: float
 
 
 class HeatRound(NamedTuple):
@@ -104,8 +114,9 @@ class HeatRound(NamedTuple):
     speed: float
     rounds: int
     temperature: Array
-    film: FrozenFilm
-    found: FilmSolution
+    opening: np.ndarray
+    film: Any
+    found: FoundFilm
     flow: FilmFlow
     warm: HeatSolution
 
@@ -126,38 +137,43 @@ def volumetric_heat(bearing: JournalBearing) -> float:
 
 def heat_unit(bearing: JournalBearing) -> float:
     """Return the heat flow [W/K] of oil that flows at 1/s in the units of the film, in both its halves."""
-    return volumetric_heat(bearing) * bearing.clearance * bearing.radius * bearing.length
+    return volumetric_heat(bearing) * bearing.clearance * bearing.radius * bearing.film_length
 
 
 def heated_state(bearing: JournalBearing, done: HeatRound) -> HeatedState:
     """Return what a round has found, in SI units."""
-    film, found, flow, warm = done.film, done.found, done.flow, done.warm
-    cells, T_s, unit = film.cells, oil_and_cooling(bearing)[1].supply_temperature, heat_unit(bearing)
+    return HeatedState(**state_fields(bearing, done))
+
+
+def state_fields(bearing: JournalBearing, done: HeatRound) -> dict[str, Any]:
+    """Return the fields of the state that a round has found."""
+    found, warm = done.found, done.warm
+    T_s, unit = oil_and_cooling(bearing)[1].supply_temperature, heat_unit(bearing)
     made = unit * warm.made
-    power = made - bearing.force_scale * bearing.clearance * found.pumped(cells)
-    return HeatedState(
-        position=done.position,
-        speed=done.speed,
-        force=bearing.force_scale * found.force(cells),
-        angle=cells.theta % (2.0 * np.pi),
-        axial=0.5 * bearing.length * np.append(0.0, np.cumsum(1.0 / cells.conductance)),
-        pressure=bearing.pressure_scale * np.pad(found.solution.pressure, ((0, 0), (0, 1))),
-        filled=flow.filled,
-        oil_temperature=T_s + warm.oil,
-        bush_temperature=None if warm.walls is None else T_s + warm.walls.bush,
-        journal_temperature=None if warm.walls is None else T_s + warm.walls.journal,
-        maximum_temperature=T_s + float(warm.oil[~cells.held].max()),
-        power_loss=power,
-        friction_torque=power / done.speed,
-        side_flow=bearing.clearance * bearing.radius * bearing.length * flow.side_flow,
-        heat=HeatAccount(
+    power = made - found.pumped
+    return {
+        "position": done.position,
+        "speed": done.speed,
+        "force": found.force,
+        "angle": found.angle,
+        "axial": found.axial,
+        "pressure": found.pressure,
+        "filled": done.flow.filled,
+        "oil_temperature": T_s + warm.oil,
+        "bush_temperature": None if warm.walls is None else T_s + warm.walls.bush,
+        "journal_temperature": None if warm.walls is None else T_s + warm.walls.journal,
+        "maximum_temperature": T_s + float(warm.oil[done.opening < 0].max()),
+        "power_loss": power,
+        "friction_torque": power / done.speed,
+        "side_flow": found.side_flow,
+        "heat": HeatAccount(
             made=made,
             leaked=unit * warm.leaked,
             drained=unit * warm.drained,
             into_bush=unit * warm.to_bush,
             into_journal=unit * warm.to_journal,
         ),
-        film=film,
-        film_temperature=done.temperature,
-        rounds=done.rounds,
-    )
+        "film": done.film,
+        "film_temperature": done.temperature,
+        "rounds": done.rounds,
+    }

@@ -8,9 +8,8 @@ import numpy as np
 
 from .....errors import require_count
 from .....model import Array
-from .film_cells import FilmCells
-from .frozen_film import Fluidity
-from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
+from ....films.conserved.fluidity import Fluidity
+from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained, from_center
 from .layer_shares import LayerShares, layer_shares
 
 
@@ -34,37 +33,34 @@ class LayeredTemperature:
     def __post_init__(self) -> None:
         require_count("layers", self.layers, 2)
 
-    def shape(self, cells: FilmCells) -> tuple[int, ...]:
-        """Return the shape of a temperature."""
-        return (*cells.shape, self.layers)
+    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
+        """Return the shape of a temperature of cells (N, M)."""
+        return (*cells, self.layers)
 
     def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity (N, M + 1, layers) flows."""
+        """Return how easily oil of a relative viscosity (N, M, layers) flows."""
         shares = layer_shares(1.0 / viscosity)
-        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1))
+        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""
-        cells, flow = heating.cells, heating.flow
-        (lines, along), K = cells.shape, self.layers
-        opening = lines * along * K
-        index = np.arange(opening).reshape(lines, along, K)
-        unused = index[cells.held]
-        index = np.where(cells.held[:, None, None], opening + cells.opening[:, None, None], index)
+        flow, film, index = heating.flow, heating.film, heating.unknowns(self.layers)
         shares = layer_shares(1.0 / heating.viscosity)
-        around, axial = _layer_flows(heating, shares)
+        around, axial, central = _layer_flows(heating, shares)
         dragged = shares.dragged / shares.dragged.sum(axis=-1, keepdims=True)
         fresh, lost = (amount[..., None] * dragged for amount in (flow.fresh, flow.lost))
         inward = np.pad(axial, ((0, 0), (1, 0), (0, 0)))[:, :-1]
+        if central is not None:
+            inward[:, 0] = central
         net = np.roll(around, 1, axis=0) - around + inward - axial + fresh - lost
         upward = np.cumsum(net, axis=-1)[..., :-1]
-        film = ~cells.held
         oil = carried(
             (index, np.roll(index, -1, axis=0), around),
             (index[:, :-1], index[:, 1:], axial[:, :-1]),
             (index[film][..., :-1], index[film][..., 1:], upward[film]),
+            *from_center(heating, index[:, 0], central),
         )
-        equations = HeatEquations(opening + int(cells.opening.max()) + 1, heating)
+        equations = HeatEquations(index.size, heating)
         made = heating.heat_scale * layer_heat(heating, shares)
         less = made * heating.thinning
         drawn = np.zeros(made.shape)
@@ -74,7 +70,7 @@ class LayeredTemperature:
         own = index[film]
         equations.carry(oil)
         equations.add(own, own, np.where(through > 0.0, through, 1.0)[film])
-        equations.add(unused, unused, 1.0)
+        equations.leave_out(~film)
         equations.right[own] = (made + less * heating.temperature)[film]
         bush, journal = self._conduct(equations, heating, index)
         x = equations.solve()
@@ -83,24 +79,24 @@ class LayeredTemperature:
         leaked[:, -1] += np.maximum(axial[:, -1], 0.0)
         return HeatSolution(
             oil=T,
+            openings=equations.in_openings(x),
             walls=equations.wall_temperatures(x),
             made=float(np.sum((made - less * (T - heating.temperature))[film])),
             leaked=float(np.sum((leaked * T)[film])),
-            drained=drained(oil, x, opening),
+            drained=drained(oil, x, index.size),
             to_bush=equations.total(bush, x),
             to_journal=equations.total(journal, x),
         )
 
     def _conduct(self, equations: HeatEquations, heating: Heating, index: np.ndarray) -> tuple[Terms, Terms]:
         """Add what layers conduct to each other and to the walls; return the latter."""
-        film = ~heating.cells.held
+        film = heating.film
         each = self.layers * (heating.diffusion * heating.flow.shear)[film]
-        layer, lines = index[film], np.flatnonzero(film)
+        layer, line = index[film], np.nonzero(film)[0]
         below, above = layer[..., :-1], layer[..., 1:]
         for here, there in ((below, above), (above, below)):
             equations.add(here, here, each[..., None])
             equations.add(here, there, -each[..., None])
-        line = np.broadcast_to(lines[:, None], each.shape)
         journal_column = np.full(each.shape, equations.journal)
         bush: Terms = [(layer[..., 0], 3.0 * each), (layer[..., 1], -each / 3.0)]
         journal: Terms = [(layer[..., -1], 3.0 * each), (layer[..., -2], -each / 3.0)]
@@ -110,8 +106,8 @@ class LayeredTemperature:
         return bush, journal
 
 
-def _layer_flows(heating: Heating, shares: LayerShares) -> tuple[Array, Array]:
-    """Return the flows around and along the bearing, layer by layer, through faces as in `FilmFlow`."""
+def _layer_flows(heating: Heating, shares: LayerShares) -> tuple[Array, Array, Array | None]:
+    """Return flows around, along and from the center, layer by layer, through faces as in `FilmFlow`."""
     flow = heating.flow
     dragged, pressed = (
         _normalized(field + np.roll(field, -1, axis=0)) for field in (shares.dragged, shares.pressed)
@@ -120,7 +116,8 @@ def _layer_flows(heating: Heating, shares: LayerShares) -> tuple[Array, Array]:
     sideways = np.concatenate(
         [shares.pressed[:, 1:] + shares.pressed[:, :-1], shares.pressed[:, -1:]], axis=1
     )
-    return around, flow.axial[..., None] * _normalized(sideways)
+    central = None if flow.central is None else flow.central[:, None] * _normalized(shares.pressed[:, 0])
+    return around, flow.axial[..., None] * _normalized(sideways), central
 
 
 def _normalized(layers: Array) -> Array:

@@ -1,0 +1,116 @@
+"""The dry elliptic contact of two elastic bodies (Hertz 1881) in its own units; elliptic integrals."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from ..errors import InputError, require_positive
+
+
+class EllipticIntegrals(NamedTuple):
+    """Complete elliptic integrals of the parameter 1 - 1/ellipticity^2.
+
+    Attributes
+    ----------
+    first, second : float [1]
+        K and E.
+    share : float [1]
+        (K - E)/K, with its digits where the ellipse is nearly a circle.
+    """
+
+    first: float
+    second: float
+    share: float
+
+
+def elliptic_integrals(ellipticity: float) -> EllipticIntegrals:
+    """Return the complete elliptic integrals of an ellipse, by the arithmetic-geometric mean.
+
+    Parameters
+    ----------
+    ellipticity : float [1]
+        Longer over shorter axis, at least 1.
+
+    Raises
+    ------
+    InputError
+        If it is below 1.
+    """
+    require_ellipticity(ellipticity)
+    larger, smaller = 1.0, 1.0 / ellipticity
+    square, weight, share = (1.0 - smaller) * (1.0 + smaller), 0.5, 0.0
+    while square > 1e-24:
+        share += weight * square
+        half = 0.5 * (larger - smaller)
+        larger, smaller = 0.5 * (larger + smaller), math.sqrt(larger * smaller)
+        square, weight = half**2, 2.0 * weight
+    first = 0.5 * math.pi / larger
+    return EllipticIntegrals(first, first * (1.0 - share), share)
+
+
+def curvature_ratio(ellipticity: float) -> float:
+    """Return rho_x/rho_y = (kappa^2 E - K)/(K - E) of an ellipse; 1 of a circle."""
+    kappa = ellipticity
+    m, share = (1.0 - 1.0 / kappa) * (1.0 + 1.0 / kappa), elliptic_integrals(kappa).share
+    return kappa**2 * (m - share) / share if share > 0.0 else 1.0
+
+
+def require_ellipticity(value: float) -> None:
+    """Raise InputError if an ellipticity is not finite and at least 1."""
+    require_positive("ellipticity", value)
+    if value < 1.0:
+        raise InputError(f"ellipticity must be at least 1, got {value!r}")
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """The dry contact of an ellipticity kappa = a/b, the axis b along the way that the bodies roll.
+
+    In units of its load: lengths in b, pressures in the largest, approach and gap in b^2 rho_x/2. There the
+    pressure is sqrt(1 - x^2 - y^2/kappa^2), and the gap is approach + x^2 + (rho_y/rho_x) y^2 + C times the
+    integral of p/|r - r'|.
+
+    Parameters
+    ----------
+    ellipticity : float [1]
+        At least 1.
+    """
+
+    ellipticity: float
+
+    @cached_property
+    def integrals(self) -> EllipticIntegrals:
+        """K and E."""
+        return elliptic_integrals(self.ellipticity)
+
+    @cached_property
+    def across(self) -> float:
+        """rho_y/rho_x."""
+        return 1.0 / curvature_ratio(self.ellipticity)
+
+    @cached_property
+    def strength(self) -> float:
+        """C = (1 + rho_y/rho_x)/(pi E); 4/pi^2 of a circle."""
+        return (1.0 + self.across) / (math.pi * self.integrals.second)
+
+    @property
+    def load(self) -> float:
+        """The integral of the pressure, 2 pi kappa/3."""
+        return 2.0 * math.pi * self.ellipticity / 3.0
+
+    @property
+    def depth(self) -> float:
+        """Minus the approach, pi C K; 2 of a circle."""
+        return math.pi * self.strength * self.integrals.first
+
+    @property
+    def slope(self) -> float:
+        """Stiffness: minus the derivative of the load by the approach, kappa/(C K)."""
+        return self.ellipticity / (self.strength * self.integrals.first)
+
+
+CIRCLE = Ellipse(1.0)
+"""The contact of a ball and a plane."""

@@ -1,0 +1,144 @@
+"""A ball bearing whose cage turns under a planar rotor: its stiffness varies as the balls pass the load."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ....errors import ConvergenceError, InputError, require_finite, require_kind
+from ....inputs.si_arguments import quantities
+from ....model import Array, Linearization
+from ....native import Status
+from ....native.ball_kernel import BallsAt
+from ....signals import Signal
+from ...reaction import Called, input_vector
+from ..ball_element import BallElement
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class TurningBalls(Called):
+    """A ball bearing, or a pair, with the angles of cage and shaft as states: a Reaction and a Dynamic.
+
+    The cage turns with a fixed share of the speed; waves of the inner ring turn with the shaft. The force
+    swings with the ball-pass frequency, balls * cage_ratio * speed, and is smooth between two of its events,
+    at which a ball comes under load or leaves it.
+
+    Parameters
+    ----------
+    bearing : BallBearing or BearingPair
+        Its cage angle is that at t = 0.
+    cage_ratio : float or None [1]
+        Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` tells it; by default
+        (1 - D cos(angle)/pitch_diameter)/2 at the free contact angle.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+
+    Examples
+    --------
+    >>> bearing = BallBearing(
+    ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6
+    ... )
+    >>> round(TurningBalls(bearing=bearing).ratio, 4)
+    0.3965
+    """
+
+    bearing: BallElement
+    cage_ratio: float | None = None
+
+    def __post_init__(self) -> None:
+        require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
+        if not 0.0 < self.ratio < 1.0:
+            raise InputError(f"cage_ratio must be above 0 and below 1, got {self.cage_ratio!r}")
+
+    @property
+    def ratio(self) -> float:
+        """Speed of the cage over that of the shaft."""
+        return self.bearing.cage_ratio if self.cage_ratio is None else self.cage_ratio
+
+    @property
+    def clearance(self) -> float:
+        """Radial way [m] to a contact pressure of 4200 MPa, that of the bearing."""
+        return self.bearing.clearance
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return self.bearing.inputs
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal."""
+        return self.bearing.outputs
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """How far cage and shaft have turned."""
+        return tuple(
+            Signal(
+                name=f"{part}_angle", unit="rad", nominal=1.0, description=f"by which the {part} has turned"
+            )
+            for part in ("cage", "shaft")
+        )
+
+    @property
+    def initial_state(self) -> Array:
+        """Nothing has turned."""
+        return np.zeros(2)
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the force (2, ...) [N] where nothing has turned, that of the bearing."""
+        return self.bearing.force(position, velocity, speed)
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the derivatives (2, 5, ...) of `force`."""
+        return self.bearing.jacobian(position, velocity, speed)
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return (force_x, force_y) [N] for u = (x, y, vx, vy, speed)."""
+        values = input_vector(u)
+        return self._at(x, values).wrench[:2] - self.bearing.damping * values[2:4]
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the speeds of cage and shaft [rad/s]."""
+        speed = float(input_vector(u)[4])
+        return np.array([self.ratio * speed, speed])
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives; where z follows from an axial load, with that."""
+        slopes = self._at(x, input_vector(u)).slopes
+        if self.bearing.axial_load is not None:
+            slopes = slopes - np.outer(slopes[:, 2], slopes[2]) / slopes[2, 2]
+        B = np.zeros((2, 5))
+        B[:, 4] = self.ratio, 1.0
+        damping = -self.bearing.damping * np.eye(2)
+        D = np.hstack([slopes[:2, :2], damping, slopes[:2, 5:6]])
+        return Linearization(np.zeros((2, 2)), B, slopes[:2, 6:8], D)
+
+    def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the approach of each ball to the inner ring [m]: it changes sign where the load does."""
+        return np.array(self._at(x, input_vector(u)).each["gap"])
+
+    def _at(self, x: ArrayLike, u: Array) -> BallsAt:
+        angles = require_finite("x", x)
+        if angles.shape != (2,):
+            raise InputError(f"x must have shape (2,) for the angles of cage and shaft, got {angles.shape}")
+        cage, shaft = (math.remainder(angle, 2.0 * math.pi) for angle in angles.tolist())
+        bearing, state = self.bearing, u.tolist()
+        z, status = bearing.kernel.axial_place(*state, cage=cage, shaft=shaft)
+        if status == Status.STUCK and bearing.axial_load is not None:
+            raise ConvergenceError(
+                f"axial_load must be one that the balls can carry, got {bearing.axial_load!r} N at "
+                f"{state[:2]} m, {state[4]!r} rad/s and a cage angle of {cage!r} rad"
+            )
+        motion = np.array([*state[:2], z, *bearing.tilt])
+        at = bearing.kernel.at(motion, state[4], cage, shaft)
+        if at.status:
+            bearing.explain(at, motion, state[4])
+        return at

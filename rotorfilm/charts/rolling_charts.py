@@ -1,0 +1,144 @@
+"""Charts of ball bearings: loads, contact angles and stiffness over speed, swing, error against cost."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..comparisons import BallAccuracy, BallCurves
+from ..motion import VariableCompliance
+from .canvas import new_axes, new_figure
+from .comparisons.rung_marks import RungMark, draw_marks, label_marks
+
+RPM = 30.0 / math.pi
+SHOWN = 8
+"""Harmonics of the ball-pass frequency that are drawn."""
+
+
+def plot_ball_curves(result: BallCurves) -> list[Axes]:
+    """Draw load distribution, contact angles over speed, stiffness over speed and preload, and the swing.
+
+    Parameters
+    ----------
+    result : BallCurves
+    """
+    figure = new_figure(size=(12.5, 8.6))
+    shown = list(figure.subplots(2, 2).ravel())
+    _draw_loads(result, shown[0])
+    _draw_angles(result, shown[1])
+    _draw_stiffness(result, shown[2])
+    plot_compliance(result.swing, axes=shown[3])
+    return shown
+
+
+def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> Axes:
+    """Draw the spectrum of the swing of a shaft as balls pass: amplitudes at multiples of their frequency.
+
+    Parameters
+    ----------
+    result : VariableCompliance
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Swing as balls pass")
+    orders = np.arange(1, min(SHOWN, result.swing_amplitude.shape[1]) + 1)
+    passing = result.ball_pass_frequency / (2.0 * math.pi)
+    unit = passing or 1.0
+    for name, row, side in zip("xy", result.swing_amplitude, (-0.1, 0.1), strict=True):
+        axes.vlines(
+            (orders + side) * unit, 1e-12, 1e9 * row[: orders.size], label=name, lw=4.0, color=_color(side)
+        )
+    axes.set(
+        yscale="log",
+        xlabel="frequency [Hz]" if passing else "multiple of the ball-pass frequency",
+        ylabel="amplitude of the place [nm]",
+        title=f"Swing under {math.hypot(*result.load):.4g} N as balls pass, {passing:.4g} Hz",
+    )
+    axes.set_ylim(1e-3 * 1e9 * result.swing_amplitude.max(), 3e9 * result.swing_amplitude.max())
+    _finish(axes)
+    return axes
+
+
+def plot_ball_accuracy(result: BallAccuracy) -> list[Axes]:
+    """Draw the error of the stiffness of each model over the time of its force and derivatives.
+
+    A filled dot is the 90th percentile, an open one the median.
+
+    Parameters
+    ----------
+    result : BallAccuracy
+    """
+    axes = new_axes(
+        f"Models of ball bearings, {result.states} loads and speeds of two bearings", size=(7.6, 5.4)
+    )
+    marks = [
+        RungMark(1e6 * rung.call_time, rung.usual_error, rung.median_error, rung.name, "#1f4fb4")
+        for rung in result.rungs
+    ]
+    draw_marks(axes, marks, margins=(0.4, 4.0))
+    axes.set(
+        xlabel="time of force and derivatives at one place [us]",
+        ylabel=f"error of K against {result.reference.partition(',')[0]} [1]",
+    )
+    label_marks(axes, marks)
+    return [axes]
+
+
+def _draw_loads(result: BallCurves, axes: Axes) -> None:
+    order = np.argsort(np.mod(result.ball_angle, 2.0 * math.pi))
+    angle = np.degrees(np.mod(result.ball_angle, 2.0 * math.pi))[order]
+    last = len(result.speeds) - 1
+    for k in sorted({0, last // 2, last}):
+        (line,) = axes.plot(
+            angle, result.inner_load[k][order], "o-", label=f"inner, {_rpm(result.speeds[k])}"
+        )
+        axes.plot(
+            angle, result.outer_load[k][order], "s--", color=line.get_color(), mfc="none", label="outer"
+        )
+    axes.set(
+        xlabel="place of the ball from +x [deg]",
+        ylabel="contact load [N]",
+        title=f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y",
+    )
+    _finish(axes)
+
+
+def _draw_angles(result: BallCurves, axes: Axes) -> None:
+    axes.plot(RPM * result.speeds, np.degrees(result.inner_angle), label="inner")
+    axes.plot(RPM * result.speeds, np.degrees(result.outer_angle), "--", label="outer")
+    axes.set(
+        xlabel="speed [rpm]",
+        ylabel="contact angle [deg]",
+        title=f"Contact angles under {result.thrust:g} N of thrust",
+    )
+    _finish(axes)
+
+
+def _draw_stiffness(result: BallCurves, axes: Axes) -> None:
+    for preload, radial, axial in zip(
+        result.preloads, result.radial_stiffness, result.axial_stiffness, strict=True
+    ):
+        (line,) = axes.plot(RPM * result.speeds, 1e-6 * radial, label=f"radial, {preload:g} N")
+        axes.plot(RPM * result.speeds, 1e-6 * axial, "--", color=line.get_color(), label="axial")
+    axes.set(
+        xlabel="speed [rpm]",
+        ylabel="stiffness [N/um]",
+        title="Pairs back to back by their preload as clamped",
+    )
+    axes.set_ylim(bottom=0.0)
+    _finish(axes)
+
+
+def _finish(axes: Axes) -> None:
+    axes.grid(visible=True, alpha=0.3)
+    axes.legend(fontsize=8)
+
+
+def _rpm(speed: float) -> str:
+    return f"{RPM * speed:.5g} rpm"
+
+
+def _color(side: float) -> str:
+    return "#1f4fb4" if side > 0.0 else "#d62728"

@@ -1,0 +1,1 @@
+"""Critical speeds, with a proof that the list is complete."""

@@ -1,0 +1,189 @@
+"""The equations of a flexible rotor at rest in its bearings, and Newton's method for them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import cast
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from ...bearings.contact_place import minimum_film
+from ...errors import EquilibriumError, InputError
+from ...model import Array, Reaction
+from ...rotors.structure import Structure, across_planes
+from ...warming import Warming
+from ..equilibrium import equilibrium
+from .tilting import film_rows, force_at, resists_tilt, slopes_at
+from .work import tally
+
+TOLERANCE = 1e-10
+"""Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
+
+CONTINUATION = 8
+"""Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
+
+_NEWTON_STEPS = 40
+
+_SINGULAR = 1e15
+
+
+class RestEquations:
+    """The equations of a rotor at rest: displacements in units of the smallest clearance."""
+
+    def __init__(self, structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> None:
+        unknown = sorted(set(bearings) - set(structure.stations))
+        if unknown:
+            raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
+        self.names = [name for name in structure.stations if name in bearings]
+        self.given = [bearings[name] for name in self.names]
+        self.bearings = list(self.given)
+        self.speed = speed
+        self.tilting = [resists_tilt(b) for b in self.given]
+        self.sizes = [4 if tilting else 2 for tilting in self.tilting]
+        rows = [film_rows(structure, *pair) for pair in zip(self.names, self.sizes, strict=True)]
+        self.journals = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
+        self.stiffness = structure.stiffness + speed * structure.circulation
+        if structure.hysteresis is not None:
+            self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
+        self.weight = structure.weight
+        self.size = float(np.abs(structure.weight).sum()) or 1.0
+
+    def split(self, values: Array) -> list[Array]:
+        """Return what a vector over the rows of all bearings has of each."""
+        return np.split(values, np.cumsum(self.sizes)[:-1]) if self.sizes else []
+
+    def on_rigid_bearings(self) -> tuple[Array, Array]:
+        """Return the displacement of the rotor, and the loads on bearings that do not give way."""
+        n, m = len(self.weight), len(self.journals)
+        saddle = np.block([[self.stiffness, self.journals.T], [self.journals, np.zeros((m, m))]])
+        # Rows and columns are scaled alike: stiffness is some 1e6 to 1e9 N/m.
+        largest = max(float(np.abs(self.stiffness).max()), self.size / 1e-4)
+        scale = np.concatenate([np.full(n, largest**-0.5), np.ones(m)])
+        scale[n:] = 1.0 / scale[0]
+        matrix = saddle * np.outer(scale, scale)
+        wanted = scale * np.concatenate([self.weight, np.zeros(m)])
+        if np.linalg.cond(matrix) < _SINGULAR:
+            solved = scale * np.linalg.solve(matrix, wanted)
+            return solved[:n], solved[n:]
+        if not self.weight.any():
+            return np.zeros(n), np.zeros(m)
+        left, sizes, right = np.linalg.svd(matrix)
+        known = sizes > sizes[0] / _SINGULAR
+        if np.linalg.norm(right[~known, :n]) > 0.5:
+            raise self.free()
+        # Bearings of one node share its load, for a start alike.
+        solved = scale * (right[known].T @ ((left.T @ wanted)[known] / sizes[known]))
+        return solved[:n], solved[n:]
+
+    def free(self) -> EquilibriumError:
+        """Return what to raise of bearings that leave the rotor free."""
+        return EquilibriumError(f"bearings must hold the rotor, got {self.names} that leave it free to move")
+
+    def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
+        """Return the position of one journal under its load, and the temperature of a film that warms."""
+        bearing = self.given[k]
+        if resists_tilt(bearing):
+            still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
+            place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
+            return np.append(place, (0.0, 0.0)), None
+        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
+            return np.zeros(2), self._balanced(bearing, np.zeros(2))
+        at = equilibrium(bearing, load, self.speed)
+        return at.position, at.temperature
+
+    def each_alone(self, loads: list[Array]) -> list[tuple[Array, float | None]]:
+        """Return all as `alone` does, what is overloaded in the middle; EquilibriumError if all are."""
+        found, failed = [], []
+        for k, load in enumerate(loads):
+            try:
+                found.append(self.alone(k, load))
+            except EquilibriumError as failure:
+                # As a seal, which carries little: others may have its load.
+                failed.append(failure)
+                found.append((np.zeros(2), self._balanced(self.given[k], np.zeros(2))))
+        if failed and len(failed) == len(loads):
+            raise failed[0]
+        return found
+
+    def warm(self, temperatures: list[float | None]) -> None:
+        """Take the films at these temperatures; None for those that have theirs."""
+        pairs = zip(self.given, temperatures, strict=True)
+        self.bearings = [b if T is None else cast(Warming, b).at_temperature(T) for b, T in pairs]
+
+    def balanced(self, p: Array) -> list[float | None]:
+        """Return the temperatures of the films that warm, for these positions of the journals."""
+        return [self._balanced(b, at) for b, at in zip(self.given, self.split(p), strict=True)]
+
+    def _balanced(self, bearing: Reaction, at: Array) -> float | None:
+        warms = isinstance(bearing, Warming) and bearing.is_warming
+        return bearing.balanced_temperature(at, np.zeros(2), self.speed) if warms else None  # type: ignore[attr-defined]
+
+    def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
+        """Return (q, p) at rest, by continuation where one step does not converge."""
+        try:
+            return self.solve(q, p, 1.0)
+        except EquilibriumError:
+            for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
+                q, p = self.solve(q, p, float(s))
+            return q, p
+
+    def forces(self, p: Array) -> Array:
+        """Return the forces of the bearings, one after the other."""
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.concatenate([np.zeros(0), *(force_at(b, at, self.speed) for b, at in pairs)])
+
+    def slopes(self, p: Array) -> Array:
+        """Return d(forces)/dp, block by block."""
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.asarray(block_diag(np.zeros((0, 0)), *(slopes_at(b, at, self.speed) for b, at in pairs)))
+
+    def residual(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return what is left of the forces on the rotor, and of the displacements of its journals."""
+        forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
+        return forces, self.journals @ q - s * p
+
+    def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
+        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], self.sizes)
+        forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
+        forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
+        misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
+        roundoff = max(len(q), 10) * np.finfo(float).eps
+        return TOLERANCE * self.size + roundoff * forces, TOLERANCE * lengths + roundoff * misfit
+
+    def solve(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return (q, p) by Newton's method with steps that stay within the clearances."""
+        n = len(q)
+        for _ in range(_NEWTON_STEPS):
+            tally("newton_steps")
+            forces, misfit = self.residual(q, p, s)
+            force_limit, misfit_limit = self.tolerances(q, p, s)
+            if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
+                return q, p
+            slopes = self.slopes(p)
+            matrix = np.block(
+                [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
+            )
+            try:
+                step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+            except np.linalg.LinAlgError:
+                raise self.free() from None
+            share = self._within(p, step[n:])
+            q, p = q + share * step[:n], p + share * step[n:]
+        raise EquilibriumError(
+            f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
+            f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight"
+        )
+
+    def _within(self, p: Array, step: Array) -> float:
+        """Return the part of a step that leaves every journal at least half of its gap."""
+        share = 1.0
+        moves = zip(self.bearings, self.split(p), self.split(step), self.tilting, strict=True)
+        for bearing, at, move, tilting in moves:
+            # Balls push back wherever the shaft goes: no gap, but a way on which their force may change much.
+            gap = bearing.clearance if tilting else float(minimum_film(bearing, at))
+            length = math.hypot(*move[:2])
+            share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
+        return share

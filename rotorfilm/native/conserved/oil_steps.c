@@ -1,0 +1,163 @@
+#include "oil_steps.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../status.h"
+
+#define MOST_GROWTH 2.0 /* of a step over the last one, up to which differences take both (stable to 2.41) */
+#define EMPTY (-1e-9)   /* content below which a difference took more oil from a cell than it had */
+#define STILL 1e-13     /* change of theta at which the steady film stands */
+#define MOST_STILL 80   /* solutions on the way there, of which ... */
+#define WEIGHT 0.7      /* ... each counts so much */
+
+static size_t neighbor(const rf_oil_shape *shape, size_t i, int forward)
+{
+    if (forward)
+        return i + 1 < shape->lines ? i + 1 : 0;
+    return i > 0 ? i - 1 : shape->lines - 1;
+}
+
+/* Of a line as the oil goes: by how much theta at the face behind it is above its own. */
+static double rise(const rf_oil_shape *shape, size_t i, size_t j, int forward, const double *theta)
+{
+    const size_t m = shape->nodes;
+    const double here = theta[i * m + j];
+    const double behind = here - theta[neighbor(shape, i, !forward) * m + j];
+    const double ahead = theta[neighbor(shape, i, forward) * m + j] - here;
+    const double product = behind * ahead;
+    return product > 0.0 ? product / (behind + ahead) : 0.0;
+}
+
+void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const double *theta, double *carried)
+{
+    const size_t m = shape->nodes;
+    const int forward = rate >= 0.0;
+    memset(carried, 0, shape->lines * m * sizeof *carried);
+    for (size_t i = 0; i < shape->lines; ++i) {
+        const size_t after = neighbor(shape, i, 1), up = forward ? i : after;
+        for (size_t j = 0; j < m; ++j) {
+            const double flux = rate * gap->face[i] * rise(shape, up, j, forward, theta) * shape->width[j];
+            carried[i * m + j] += flux;
+            carried[after * m + j] -= flux;
+        }
+    }
+}
+
+/* y' = (a y_n+1 + b y_n + c y_n-1)/dt, of a step that is so many times the one before. */
+static void set_differences(double ratio, double *a, double *b, double *c)
+{
+    *a = (1.0 + 2.0 * ratio) / (1.0 + ratio);
+    *b = -(1.0 + ratio);
+    *c = ratio * ratio / (1.0 + ratio);
+}
+
+/* A step by differences a, b, c over dt. */
+static int solve_step(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap,
+                      const rf_oil_past *past, const double *by, const double *carried, rf_oil_found *found)
+{
+    const size_t m = shape->nodes;
+    rf_oil_work work;
+    found->rate = by[0];
+    rf_store_oil(equations, gap, by[0]);
+    for (size_t q = 0; q < shape->lines * m; ++q) {
+        const double held = by[1] * past->content[q] + (by[2] != 0.0 ? by[2] * past->before[q] : 0.0);
+        equations->old[q] = -held * equations->extent[q / m] * shape->width[q % m] - carried[q];
+    }
+    rf_hold_openings(shape, found->pressure, found->theta);
+    const int status =
+        rf_oil_film(&equations->cells, RF_BY_SETS, 1, found->full, found->pressure, found->theta, &work);
+    found->work.solutions += work.solutions;
+    found->work.newton += work.newton;
+    return status;
+}
+
+static int is_in_debt(const rf_oil_shape *shape, const double *theta)
+{
+    for (size_t q = 0; q < shape->lines * shape->nodes; ++q)
+        if (theta[q] < EMPTY)
+            return 1;
+    return 0;
+}
+
+int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const rf_oil_past *past, double dt,
+                rf_oil_found *found)
+{
+    const size_t all = shape->lines * shape->nodes;
+    const double ratio = past->length > 0.0 ? dt / past->length : HUGE_VAL;
+    double *carried = malloc(all * sizeof *carried), a, b, c;
+    rf_oil_equations equations;
+    memset(&found->work, 0, sizeof found->work);
+    int status = rf_open_oil(&equations, shape, gap, rate);
+    if (!carried || status != RF_OK) {
+        rf_close_oil(&equations);
+        free(carried);
+        return RF_MEMORY;
+    }
+    rf_sharpen_oil(shape, gap, rate, found->theta, carried);
+    int done = 0;
+    if (ratio <= MOST_GROWTH) {
+        set_differences(ratio, &a, &b, &c);
+        const double second[3] = {a / dt, b / dt, c / dt};
+        status = solve_step(&equations, shape, gap, past, second, carried, found);
+        done = status != RF_OK || !is_in_debt(shape, found->theta);
+    }
+    if (!done) {
+        const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};
+        status = solve_step(&equations, shape, gap, past, first, carried, found);
+    }
+    memcpy(found->old, equations.old, all * sizeof *found->old);
+    rf_close_oil(&equations);
+    free(carried);
+    return status;
+}
+
+/* Solve again with transport as the last theta has it, until that changes no more. */
+static int settle(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate,
+                  double *carried, double *last, rf_oil_found *found)
+{
+    const size_t all = shape->lines * shape->nodes;
+    rf_oil_work work;
+    rf_store_oil(equations, gap, 0.0);
+    for (int k = 0; k < MOST_STILL; ++k) {
+        double most = 0.0;
+        memcpy(last, found->theta, all * sizeof *last);
+        rf_sharpen_oil(shape, gap, rate, last, carried);
+        for (size_t q = 0; q < all; ++q)
+            equations->old[q] = (1.0 - WEIGHT) * equations->old[q] - WEIGHT * carried[q];
+        rf_hold_openings(shape, found->pressure, found->theta);
+        const int status =
+            rf_oil_film(&equations->cells, RF_BY_SETS, 1, found->full, found->pressure, found->theta, &work);
+        found->work.solutions += work.solutions;
+        if (status != RF_OK)
+            return status;
+        for (size_t q = 0; q < all; ++q)
+            most = fmax(most, fabs(found->theta[q] - last[q]));
+        if (most <= STILL)
+            break;
+    }
+    return RF_OK;
+}
+
+int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_found *found)
+{
+    const size_t all = shape->lines * shape->nodes;
+    rf_oil_equations equations;
+    double *carried = malloc(2 * all * sizeof *carried);
+    int status = rf_open_oil(&equations, shape, gap, rate);
+    if (status == RF_OK && !carried)
+        status = RF_MEMORY;
+    if (status == RF_OK) {
+        rf_hold_openings(shape, found->pressure, found->theta);
+        status = rf_oil_film(&equations.cells, RF_BY_SETS, 0, found->full, found->pressure, found->theta, &found->work);
+    }
+    if (status == RF_OK)
+        status = settle(&equations, shape, gap, rate, carried, carried + all, found);
+    if (status == RF_OK)
+        memcpy(found->old, equations.old, all * sizeof *found->old);
+    found->rate = 0.0;
+    rf_close_oil(&equations);
+    free(carried);
+    return status;
+}

@@ -1,0 +1,225 @@
+#include "oil_travel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SWEEPS 2   /* films in an inner step */
+#define HALVINGS 4 /* times that all inner steps are halved before a step is given up */
+#define MOST_PIECES 1e6
+
+/* One block for what is new, and the work of a step. */
+typedef struct traveler {
+    const rf_oil_film_si *film;
+    size_t all;
+    double *block, *gap;
+    rf_oil_found found;
+    void *memory;
+} traveler;
+
+size_t rf_oil_numbers(const rf_oil_shape *shape)
+{
+    return RF_OIL_CELLS + RF_OIL_ROWS * shape->lines * shape->nodes;
+}
+
+static double *row(const traveler *self, size_t k)
+{
+    return self->block + RF_OIL_CELLS + k * self->all;
+}
+
+static int open_traveler(traveler *self, const rf_oil_film_si *film, rf_message *why)
+{
+    const size_t all = film->shape.lines * film->shape.nodes, numbers = rf_oil_numbers(&film->shape);
+    double *at = calloc(numbers + 3 * film->shape.lines + 3 * all, sizeof *at);
+    uint8_t *full = calloc(all, 1);
+    self->film = film;
+    self->all = all;
+    self->memory = at;
+    self->found.full = full;
+    if (!at || !full)
+        return rf_say(why, RF_MEMORY, "no memory for a film");
+    self->block = at;
+    self->gap = at + numbers;
+    self->found.pressure = self->gap + 3 * film->shape.lines;
+    self->found.theta = self->found.pressure + all;
+    self->found.old = self->found.theta + all;
+    return RF_OK;
+}
+
+static void close_traveler(traveler *self)
+{
+    free(self->found.full);
+    free(self->memory);
+}
+
+static int require_inside(const rf_oil_film_si *film, const double *motion, double t, rf_message *why)
+{
+    const double e = hypot(motion[0], motion[1]);
+    if (e < film->clearance)
+        return RF_OK;
+    return rf_say(why, RF_AT_WALL,
+                  "the journal must stay inside the clearance %.9g m, got an eccentricity of %.6g m at t = %.9g s "
+                  "(x = %.9g, y = %.9g)",
+                  film->clearance, e, t, motion[0], motion[1]);
+}
+
+static int judged(int status, double t, const double *motion, rf_message *why)
+{
+    if (status == RF_OK)
+        return RF_OK;
+    if (status == RF_MEMORY)
+        return rf_say(why, status, "no memory for a film");
+    return rf_say(why, status,
+                  "the search for a film that conserves its oil must end, and did not at t = %.9g s, x = %.9g, y = %.9g m: "
+                  "is there any supply?",
+                  t, motion[0], motion[1]);
+}
+
+static rf_oil_gap gap_of(const traveler *self, const double *motion)
+{
+    const double e[2] = {motion[0] / self->film->clearance, motion[1] / self->film->clearance};
+    return rf_circular_gap(&self->film->shape, e, self->gap);
+}
+
+/* Set the sums of what was found, in SI units. */
+static int set_answer(traveler *self, const rf_oil_gap *gap, double rate)
+{
+    const rf_oil_film_si *film = self->film;
+    double *sums = self->block + RF_OIL_ANSWER;
+    rf_oil_equations equations;
+    int status = rf_open_oil(&equations, &film->shape, gap, rate);
+    if (status == RF_OK) {
+        rf_store_oil(&equations, gap, self->found.rate);
+        equations.cells.old = self->found.old;
+        status =
+            rf_oil_sums(&film->shape, gap, &equations.cells, self->found.pressure, self->found.theta, sums);
+    }
+    rf_close_oil(&equations);
+    for (size_t k = 0; k < RF_OIL_SUMS; ++k)
+        sums[k] *= k < RF_OIL_OUT ? film->force : film->oil;
+    return status;
+}
+
+/* Take what was found as the end of a step of length dt. */
+static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
+{
+    const size_t nodes = self->film->shape.nodes;
+    self->block[RF_OIL_LENGTH] = dt;
+    memcpy(self->block + RF_OIL_MOTION, motion, RF_MOTION * sizeof *motion);
+    memcpy(row(self, 1), row(self, 0), self->all * sizeof(double));
+    memcpy(row(self, 2), self->found.pressure, self->all * sizeof(double));
+    memcpy(row(self, 3), self->found.theta, self->all * sizeof(double));
+    for (size_t q = 0; q < self->all; ++q) {
+        row(self, 0)[q] = self->found.theta[q] * gap->line[q / nodes];
+        row(self, 4)[q] = self->found.full[q];
+    }
+    return set_answer(self, gap, self->film->carrying * motion[4]);
+}
+
+int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why)
+{
+    traveler self;
+    int status = require_inside(film, motion, 0.0, why);
+    if (status != RF_OK)
+        return status;
+    status = open_traveler(&self, film, why);
+    if (status == RF_OK) {
+        const rf_oil_gap gap = gap_of(&self, motion);
+        status = rf_oil_rest(&film->shape, &gap, film->carrying * motion[4], &self.found);
+        if (status == RF_OK)
+            status = keep(&self, &gap, motion, 0.0);
+        status = judged(status, 0.0, motion, why);
+    }
+    if (status == RF_OK) {
+        memcpy(row(&self, 1), row(&self, 0), self.all * sizeof(double));
+        memcpy(block, self.block, rf_oil_numbers(&film->shape) * sizeof *block);
+    }
+    close_traveler(&self);
+    return status;
+}
+
+/* The motion at a share of the way of a step. */
+static void set_between(const double *begin, const double *end, double dt, double s, double *motion)
+{
+    for (size_t k = 0; k < 2; ++k) {
+        const double way = end[k] - begin[k], v0 = begin[2 + k] * dt, v1 = end[2 + k] * dt;
+        const double bent = v0 + v1 - 2.0 * way, turned = 3.0 * way - 2.0 * v0 - v1;
+        motion[k] = begin[k] + s * (v0 + s * (turned + s * bent));
+        motion[2 + k] = (v0 + s * (2.0 * turned + 3.0 * s * bent)) / dt;
+    }
+    motion[4] = begin[4] + s * (end[4] - begin[4]);
+}
+
+static int inner_step(traveler *self, const double *motion, double dt, int64_t *solutions)
+{
+    const rf_oil_gap gap = gap_of(self, motion);
+    const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH]};
+    memcpy(self->found.theta, row(self, 3), self->all * sizeof(double));
+    for (size_t q = 0; q < self->all; ++q)
+        self->found.full[q] = row(self, 4)[q] != 0.0;
+    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        const int status =
+            rf_oil_step(&self->film->shape, &gap, self->film->carrying * motion[4], &past, dt, &self->found);
+        *solutions += self->found.work.solutions;
+        if (status != RF_OK)
+            return status;
+    }
+    return keep(self, &gap, motion, dt);
+}
+
+/* Go there in so many inner steps. */
+static int follow(traveler *self, double t, const double *begin, const double *end, double dt, int64_t pieces,
+                  int64_t *work, rf_message *why)
+{
+    const double length = dt / (double)pieces;
+    double motion[RF_MOTION];
+    for (int64_t k = 1; k <= pieces; ++k) {
+        const double share = (double)k / (double)pieces, time = t + dt * share;
+        memcpy(motion, end, sizeof motion);
+        if (k < pieces)
+            set_between(begin, end, dt, share, motion);
+        int status = require_inside(self->film, motion, time, why);
+        if (status != RF_OK)
+            return status;
+        status = judged(inner_step(self, motion, length, work + 1), time, motion, why);
+        if (status != RF_OK)
+            return status;
+    }
+    work[0] = pieces;
+    return RF_OK;
+}
+
+static int64_t fewest_pieces(const rf_oil_film_si *film, const double *begin, const double *end, double dt)
+{
+    const double angle = fmax(fabs(begin[4]), fabs(end[4])) * dt / film->largest_angle;
+    const double way = hypot(end[0] - begin[0], end[1] - begin[1]) / film->clearance / film->largest_way;
+    const double pieces = fmax(1.0, fmax(ceil(angle), ceil(way)));
+    return pieces < MOST_PIECES ? (int64_t)pieces : -1;
+}
+
+int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, double dt, double *block, int64_t *work,
+                  rf_message *why)
+{
+    const double *begin = block + RF_OIL_MOTION;
+    const size_t bytes = rf_oil_numbers(&film->shape) * sizeof *block;
+    const int64_t fewest = fewest_pieces(film, begin, motion, dt);
+    traveler self;
+    work[0] = work[1] = 0;
+    if (fewest < 0)
+        return rf_say(why, RF_STUCK, "a step of %.9g s must not have more than %g inner steps", dt, MOST_PIECES);
+    int status = require_inside(film, motion, t + dt, why);
+    if (status != RF_OK)
+        return status;
+    status = open_traveler(&self, film, why);
+    for (int halving = 0; status == RF_OK && halving <= HALVINGS; ++halving) {
+        memcpy(self.block, block, bytes);
+        status = follow(&self, t, begin, motion, dt, fewest << halving, work, why);
+        if (status != RF_STUCK || halving == HALVINGS)
+            break;
+        status = RF_OK;
+    }
+    if (status == RF_OK)
+        memcpy(block, self.block, bytes);
+    close_traveler(&self);
+    return status;
+}

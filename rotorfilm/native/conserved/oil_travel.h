@@ -1,0 +1,45 @@
+/* A film that conserves its oil around a journal that moves: what it remembers, and how it follows.
+
+   The motion of the journal is (x, y, vx, vy, speed) [m, m/s, rad/s]. On the way between two motions the journal goes
+   along the cubic with the positions and velocities of both, the speed along a line. */
+#ifndef ROTORFILM_OIL_TRAVEL_H
+#define ROTORFILM_OIL_TRAVEL_H
+
+#include "../status.h"
+#include "oil_steps.h"
+
+enum { RF_MOTION = 5 };
+
+/* The film in SI units, and how long its inner steps may be. */
+typedef struct rf_oil_film_si {
+    rf_oil_shape shape;
+    double clearance;     /* [m] */
+    double carrying;      /* of the speed, that with which the walls carry the oil: 1/2, or 0 of a race that does not spin */
+    double force, oil;    /* units of the force [N s] and of the oil [m3] */
+    double largest_angle; /* of the shaft in an inner step [rad] */
+    double largest_way;   /* of the journal in an inner step, in clearances */
+} rf_oil_film_si;
+
+/* What the film remembers is a block of numbers: the length of the last step [s], the motion at its end, the sums
+   there as of oil_shape.h in N, m3/s and m3, and of the cells theta H, the same before the last step, P, theta, and 1
+   in cells that are full. */
+enum {
+    RF_OIL_LENGTH = 0,
+    RF_OIL_MOTION = 1,
+    RF_OIL_ANSWER = RF_OIL_MOTION + RF_MOTION,
+    RF_OIL_CELLS = RF_OIL_ANSWER + RF_OIL_SUMS,
+    RF_OIL_ROWS = 5
+};
+
+size_t rf_oil_numbers(const rf_oil_shape *shape);
+
+/* Begin with the steady film of a journal at rest in a motion. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
+RF_EXPORT_LOOP int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why);
+
+/* Go on from t by dt to a motion, in inner steps, all of them halved where the film is not found; each sees its film
+   twice, the second time with what the first says of transport. The block stays as it was unless the answer is RF_OK.
+   `work` counts inner steps and solutions. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
+RF_EXPORT_LOOP int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, double dt, double *block,
+                                 int64_t *work, rf_message *why);
+
+#endif

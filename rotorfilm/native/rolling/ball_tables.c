@@ -1,0 +1,57 @@
+#include "ball_tables.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST_BALLS 1000.0
+
+static int is_row(const double *row)
+{
+    int good = fabs(row[1]) == 1.0 && row[5] >= 1.0 && row[5] <= MOST_BALLS && row[5] == floor(row[5]);
+    for (unsigned k = 7; k < RF_BALL_COLUMNS; ++k)
+        good = good && row[k] > 0.0;
+    return good && row[11] < 1.0;
+}
+
+static int is_extent(const rf_table *table, uint32_t most, uint32_t columns, rf_message *why)
+{
+    if (table->extent[0] >= 1 && table->extent[0] <= most && table->extent[1] == columns)
+        return RF_OK;
+    return rf_say(why, RF_INVALID, "table %s must be 1 to %u x %u, got %u x %u", table->name, (unsigned)most,
+                  (unsigned)columns, (unsigned)table->extent[0], (unsigned)table->extent[1]);
+}
+
+int rf_take_balls(const rf_tables *tables, uint32_t numbers, rf_ball_tables *mine, rf_balls *balls, const double **law,
+                  rf_message *why)
+{
+    const rf_table *rows = rf_find_table(tables, "rows", 2, why);
+    const rf_table *waves = rows ? rf_find_table(tables, "waves", 2, why) : NULL;
+    const rf_table *given = waves ? rf_find_table(tables, "law", 1, why) : NULL;
+    if (!given || is_extent(rows, RF_MOST_ROWS, RF_BALL_COLUMNS, why) ||
+        is_extent(waves, RF_MOST_WAVES, RF_WAVE_COLUMNS, why))
+        return RF_INVALID;
+    if (given->extent[0] != numbers)
+        return rf_say(why, RF_INVALID, "table law must have %u numbers, got %u", (unsigned)numbers,
+                      (unsigned)given->extent[0]);
+    const uint32_t count = rows->extent[0], wavy = waves->extent[0];
+    for (uint32_t k = 0; k < count; ++k)
+        if (!is_row(rows->numbers + k * RF_BALL_COLUMNS))
+            return rf_say(why, RF_INVALID, "row %u must be that of a ball bearing", (unsigned)k);
+    const double inertia = given->numbers[0];
+    if (inertia != RF_BALLS_STATIC && inertia != RF_BALLS_OUTER_CONTROL && inertia != RF_BALLS_INNER_CONTROL)
+        return rf_say(why, RF_INVALID, "inertia must be 0, 1 or 2, got %.9g", inertia);
+    memcpy(mine->rows, rows->numbers, count * sizeof *mine->rows);
+    memcpy(mine->waves, waves->numbers, wavy * sizeof *mine->waves);
+    const rf_balls found = {mine->rows, count, 0.0, (int32_t)inertia, 0.0, 0.0, mine->waves, wavy};
+    *balls = found;
+    *law = given->numbers;
+    return RF_OK;
+}
+
+const char *rf_ball_text(int status)
+{
+    static const char *const said[] = {
+        "", "a ball must be pressed to 4200 MPa at most and need a traction coefficient of at most 0.06", "", "",
+        "the force is not finite", "", "the balls must find a balance, and the search found none"};
+    return said[status];
+}

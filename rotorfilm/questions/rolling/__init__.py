@@ -1,0 +1,1 @@
+"""Questions about ball bearings by their dimensions."""

@@ -1,0 +1,1 @@
+"""Rotors whose shaft is cracked."""

@@ -1,0 +1,1 @@
+"""Ball bearings by their dimensions in scene files."""

@@ -1,0 +1,203 @@
+"""Runs of a scene's rotor on its films over time: run-ups, motors in place of a speed, ground that shakes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ...errors import ContactError, InputError
+from ...linear import equilibrium, rotor_equilibrium
+from ...model import Array, Reaction
+from ...motion import simulate, simulate_rotor
+from ...progress import Report, silent
+from ...readable.result import Readable
+from ...results import Trajectory
+from ...rotors import MotorDrivenRotor, RigidRotor, ShaftRotor, ShakenBaseRotor, mount
+from ..excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+RTOL = 1e-6
+
+A_TURN = 24
+"""Samples in a turn at the highest speed."""
+
+FEWEST, MOST = 1001, 200_001
+"""Samples of a run."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorRun(Readable):
+    """A motion of a rotor on its films.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+        Up to contact, if there is one.
+    peaks : mapping of str to float [m]
+        Greatest distance of each journal from the center of its bearing, and of each probe from its place in
+        a straight shaft.
+    end_speed : float [rad/s]
+    contact_time : float or None [s]
+        When a journal reached the wall; None if none did.
+    """
+
+    trajectory: Trajectory
+    peaks: Mapping[str, float]
+    end_speed: float
+    contact_time: float | None = None
+
+    def _own_units(self) -> dict[str, str]:
+        return dict.fromkeys(self.peaks, "m")
+
+
+class _Parts(NamedTuple):
+    """A rotor at rest in its bearings, by station, and how long it runs [s]."""
+
+    rotor: RigidRotor | ShaftRotor
+    bearings: dict[str, Reaction]
+    duration: float
+    fastest: float
+
+
+def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
+    """Return the motion of a rotor on its films, from rest at `operation.speed` on.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a `[shaft]`, or with a `[rigid_rotor]` on a film that carries it. Its excitation is an unbalance,
+        a `run_up`, a `motor` or `ground`.
+    report : callable
+        Is told the progress.
+
+    Raises
+    ------
+    InputError
+        If the scene has no such rotor, or another excitation.
+    EquilibriumError
+        If a film cannot carry its load.
+
+    Notes
+    -----
+    A contact ends the run and is no error. A shaft on a motor is integrated by scipy, all else in C.
+    """
+    report(0.0, "equilibrium")
+    parts = _parts(scene)
+    report(0.05, "motion")
+    turns = parts.fastest * parts.duration / (2.0 * np.pi)
+    times = np.linspace(0.0, parts.duration, min(max(int(A_TURN * turns) + 1, FEWEST), MOST))
+    contact = None
+    try:
+        trajectory = _motion(scene, parts, times)
+    except ContactError as error:
+        trajectory = error.partial
+        if trajectory is None:
+            raise
+        contact = float(trajectory.time[-1])
+    report(1.0, "done")
+    return RotorRun(
+        trajectory=trajectory,
+        peaks=_peaks(trajectory),
+        end_speed=float(trajectory["speed"][-1]),
+        contact_time=contact,
+    )
+
+
+def _parts(scene: Scene) -> _Parts:
+    """Return the rotor of a scene at rest in its bearings."""
+    excitation, speed, duration = scene.excitation, scene.speed, None
+    if not isinstance(excitation, None | RunUpTable | MotorTable | GroundTable) and (
+        type(excitation) is not UnbalanceTable
+    ):
+        raise InputError(
+            'excitation.kind must be "unbalance", "run_up", "motor" or "ground" for a run of a rotor, '
+            f"got {excitation!r}"
+        )
+    fastest = abs(speed)
+    if isinstance(excitation, RunUpTable):
+        duration = excitation.profile(speed).times[-1]
+        fastest = max(fastest, abs(excitation.end_speed))
+    if isinstance(excitation, MotorTable):
+        fastest = max(fastest, abs(excitation.idle_speed))
+    given = None if scene.operation is None else scene.operation.duration
+    if isinstance(excitation, GroundTable) and given is None:
+        duration = excitation.end
+    rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
+    if isinstance(excitation, RunUpTable):
+        rotor = replace(rotor, speed=excitation.profile(speed))
+    return _Parts(rotor, bearings, duration or scene.duration, fastest)
+
+
+def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
+    """Return the shaft of a scene, and its bearings."""
+    assert scene.shaft is not None
+    extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
+    rotor, bearings = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    still = rotor_equilibrium(rotor, bearings, scene.speed).displacement
+    return replace(rotor, initial=(*still, *0.0 * still)), bearings
+
+
+def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
+    """Return the rigid rotor of a scene, and its bearing."""
+    rotor, bearing = _rigid_parts(scene)
+    if isinstance(scene.excitation, UnbalanceTable):
+        if rotor.unbalance:
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {scene.excitation.unbalance:g} kg m"
+            )
+        one = scene.excitation
+        rotor = replace(rotor, unbalance=one.unbalance, unbalance_angle=one.unbalance_angle)
+    return rotor, {"": bearing}
+
+
+def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
+    """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
+    if scene.damper is not None and scene.rigid_rotor is not None:
+        return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
+    rotor, bearing = scene.rotor, scene.bearing
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    return replace(rotor, position=tuple(at.position.tolist())), bearing
+
+
+def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
+    """Return the motion of rotor and bearings."""
+    rotor: Any = parts.rotor
+    if isinstance(scene.excitation, MotorTable):
+        return _on_motor(scene.excitation, parts, times)
+    if isinstance(scene.excitation, GroundTable):
+        rotor = ShakenBaseRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
+    if isinstance(parts.rotor, RigidRotor):
+        return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
+    return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
+
+
+def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
+    """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
+    rotor, last = parts.rotor, next(reversed(parts.bearings))
+    if isinstance(rotor, ShaftRotor):
+        own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
+        rotor = replace(rotor, stations=own)
+    driven = MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
+    others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
+    mounted: Any = mount(driven, others) if others else driven
+    found = simulate(mounted, parts.bearings[last], duration=parts.duration, times=times, rtol=RTOL)
+    plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if last else set()
+    return replace(
+        found, signals={f"{last}_{k}" if k in plain else k: row for k, row in found.signals.items()}
+    )
+
+
+def _peaks(run: Trajectory) -> dict[str, float]:
+    """Return the greatest size of each displacement (x, y)."""
+    pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
+    moved = [name for name in pairs if not name.endswith("force_x")]
+    return {
+        name[:-2] or "journal": float(np.hypot(run.signals[name], run.signals[f"{name[:-1]}y"]).max())
+        for name in moved
+    }

@@ -1,0 +1,211 @@
+"""Critical speeds that are proven to be all, and what the proof stands on."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy import sparse
+
+from rotorfilm import ConvergenceError
+from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm.bearings.tabulated import TabulatedBearing
+from rotorfilm.linear import (
+    critical_speed_map,
+    critical_speeds,
+    rotor_equilibrium,
+    rotor_modes,
+    rotor_threshold,
+    stability_changes,
+    unbalance_response,
+)
+from rotorfilm.linear.critical import crossings as searching
+from rotorfilm.linear.critical.sylvester import require_all_undamped
+from rotorfilm.linear.critical.whirl_bounds import Changing, branches_on_line
+from rotorfilm.linear.large.condensed import models
+from rotorfilm.linear.large.defects import WholeRotor, seen_rows
+from rotorfilm.linear.large.inertia_count import negative_count
+from rotorfilm.linear.large.left_out import LeftOut
+from rotorfilm.linear.large.second_order import small_motion
+from rotorfilm.linear.rotor_rest import rest
+from rotorfilm.rotors import JeffcottRotor, RigidShaft
+
+from .test_big_rotors import FILMS, SPRINGS, long_rotor
+
+
+def bouncing(**changes):
+    """Return a rigid shaft whose bearings are beside its middle: bounce at sqrt(2 k / m), fast tilt."""
+    parts = {
+        "mass": 20.0,
+        "diametral_inertia": 0.05,
+        "polar_inertia": 0.0,
+        "stations": (("left", -0.4), ("right", 0.4)),
+        "speed": 0.0,
+        "gravity": (0.0, 0.0),
+    }
+    return RigidShaft(**(parts | changes))
+
+
+def stiffening(first, last, speeds=(20.0, 60.0, 100.0, 140.0, 180.0)):
+    """Return springs with which the bounce has the frequency w + (w - first) (w - last) / 40."""
+    w = np.linspace(speeds[0], speeds[-1], 161)
+    frequency = w + (w - first) * (w - last) / 40.0
+    springs = 10.0 * frequency[:, None, None] ** 2 * np.eye(2)
+    film = TabulatedBearing(speeds=w, stiffness=springs, damping=[np.zeros((2, 2))] * len(w))
+    return {"left": film, "right": film}
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("grid", [[30.0, 170.0], np.linspace(170.0, 30.0, 9)])
+def test_a_whirl_that_crosses_to_and_fro_in_one_step_is_found_twice(grid):
+    """As many whirls are slower than the rotation at both ends; a count there sees nothing."""
+    found = critical_speeds(bouncing(), stiffening(98.0, 107.0), grid)
+    assert_allclose([one.speed for one in found], [98.0, 98.0, 107.0, 107.0], rtol=2e-5)
+
+
+@pytest.mark.closed_form
+def test_whirls_that_only_come_near_the_rotation_are_none():
+    """w + (w - a)^2 / 40 + .1 never is w."""
+    w = np.linspace(20.0, 180.0, 161)
+    frequency = w + (w - 100.0) ** 2 / 40.0 + 0.1
+    springs = 10.0 * frequency[:, None, None] ** 2 * np.eye(2)
+    film = TabulatedBearing(speeds=w, stiffness=springs, damping=[np.zeros((2, 2))] * len(w))
+    found = critical_speeds(bouncing(), {"left": film, "right": film}, [30.0, 170.0])
+    assert found == ()
+    assert found.work["eigenproblems"] > 2
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("zeta", [0.05, 0.5, 0.9])
+def test_damped_critical_speeds_are_damped_natural_frequencies(zeta):
+    """Whirl that decays faster than it turns too: w sqrt(1 - z^2), both directions."""
+    rotor = JeffcottRotor(
+        mass=3.0, journal_mass=1e-3, stiffness=2e5, speed=0.0, external_damping=2 * zeta * math.sqrt(6e5)
+    )
+    natural = math.sqrt(2e5 / 3.0)
+    found = critical_speeds(rotor, {"": LinearBearing(stiffness=1e11)}, np.linspace(20.0, 400.0, 5))
+    wanted = natural * math.sqrt(1.0 - zeta**2)
+    assert_allclose([one.speed for one in found], [wanted, wanted], rtol=1e-5)
+    assert_allclose(found[0].log_decrement, 2 * np.pi * zeta / math.sqrt(1 - zeta**2), rtol=1e-4)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("seed", range(4))
+def test_bounds_hold_for_matrices_at_random(seed):
+    """Every eigenvalue that a proven step lets come to the line goes as the bounds say, no other comes."""
+    rng = np.random.default_rng(seed)
+    n, half = 8, 1.0
+    values = rng.uniform(-20.0, 20.0, n) + 1j * rng.uniform(-60.0, 60.0, n)
+    rates, bends = (s * (rng.normal(size=(n, n)) + 1j * rng.normal(size=(n, n))) for s in (0.5, 0.2))
+    line = np.array([9.0, 11.0])
+    ways = branches_on_line(Changing(values, rates, np.abs(bends), half), line)
+    assert ways is not None
+    before = values[ways.places]
+    for d in np.linspace(0.0, half, 101):
+        T = np.diag(values) + d * rates + (d / half) ** 2 * bends
+        own = np.linalg.eigvals(T)
+        expected = values[ways.places] + d * np.diag(rates)[ways.places]
+        now = np.array([own[np.abs(own - one).argmin()] for one in before])
+        assert np.all(np.abs(now - expected) <= ways.drifts)
+        if d:
+            speed = (now - before) / (half / 100.0)
+            assert np.all(np.abs(speed - np.diag(rates)[ways.places]) <= ways.slopes)
+        others = [one for one in own if np.abs(now - one).min() > 1e-9]
+        assert all(abs(one.imag - 10.0 - d) > 0.0 for one in others)
+        before = now
+
+
+def test_a_matrix_whose_eigenvalues_meet_is_not_proven():
+    values = np.array([10.0j, 10.0j + 1e-3])
+    coupled = np.array([[0.0, 1.0], [1.0, 0.0]], dtype=complex)
+    assert branches_on_line(Changing(values, coupled, np.zeros((2, 2)), 1.0), np.array([9.0, 11.0])) is None
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("count", [6, 30])
+def test_undamped_critical_speeds_are_counted_in_all_coordinates(count):
+    """Sylvester's law: one less, or one more, is told."""
+    rotor, springs = long_rotor(count), dict.fromkeys(FILMS, LinearBearing(stiffness=1e6))
+    found = critical_speeds(rotor, springs, [20.0, 700.0])
+    whole = searching.exact_structure(rotor)
+    low, high = (rest(whole if count == 6 else rotor.structure, springs, w) for w in (20.0, 700.0))
+    require_all_undamped(whole, low, high, len(found))
+    for wrong in (len(found) - 1, len(found) + 1):
+        with pytest.raises(ConvergenceError, match=f"{wrong} were of {len(found)}"):
+            require_all_undamped(whole, low, high, wrong)
+    damped = replace(low, coefficients=rest(rotor.structure, SPRINGS, 20.0).coefficients)
+    require_all_undamped(whole, damped, damped, 99)
+
+
+@pytest.mark.closed_form
+def test_the_law_of_inertia_counts_eigenvalues():
+    rng = np.random.default_rng(1)
+    bands = [rng.normal(size=60 - k) for k in range(4)]
+    stiffness = sparse.csr_array(sparse.diags_array(bands, offsets=[0, 1, 2, 3]))
+    stiffness = stiffness + stiffness.T
+    mass = sparse.csr_array(sparse.diags_array(rng.uniform(1.0, 2.0, 60)))
+    for square in (-2.0, -0.1, 0.0, 0.5, 3.0):
+        wanted = int(np.sum(np.linalg.eigvalsh((stiffness - square * mass).toarray()) < 0.0))
+        assert negative_count(stiffness, square, mass) == wanted
+        assert negative_count(stiffness.toarray(), square, mass.toarray()) == wanted
+
+
+def test_the_error_of_a_response_is_that_of_the_large_matrices():
+    """l* A r with r and l as the whole rotor has them."""
+    rotor, speed = replace(long_rotor(30), internal_damping=1e-5, loss_factor=0.01), 130.0
+    model = next(models(rotor, 200.0))
+    at = rest(model.structure, SPRINGS, speed)
+    loads = rotor.assembly.unbalance
+    L = small_motion(model.structure, at, speed).dynamic_stiffness(speed)
+    amplitudes = speed**2 * np.array([[1.0], [-1.0j]])
+    few = np.linalg.solve(L, model.seen(loads) @ amplitudes)
+    left_out = LeftOut(model, loads)
+    dual = np.linalg.solve(L.conj().T, left_out.seen.T)
+    whole, places = WholeRotor(model.whole, at, speed), seen_rows(model.whole)
+    unbalanced = model.answer(loads @ amplitudes - whole.forces(1j * speed, model.lifted(few)))
+    other = places.T - whole.adjoint_forces(1j * speed, model.lifted(dual))
+    wanted = np.abs(other.conj().T @ unbalanced).max() / np.abs(places @ model.lifted(few)).max() * 4.0 / 3.0
+    assert left_out.error(at, speed, amplitudes, few, dual) == pytest.approx(wanted, rel=1e-3)
+
+
+@pytest.mark.closed_form
+def test_a_threshold_tells_the_error_of_its_speed():
+    """In few shapes beside all coordinates; a small rotor has none."""
+    speeds = np.linspace(150.0, 300.0, 4)
+    found = rotor_threshold(long_rotor(30), FILMS, speeds)
+    assert 0.0 < found.speed_error < 1e-4
+    exact = stability_changes(long_rotor(12), FILMS, speeds)[0]
+    assert exact.speed_error == 0.0
+    assert abs(found.speed - exact.speed) < 10.0 * found.speed_error + 1e-6 * exact.speed
+
+
+def test_analyses_count_their_work():
+    rotor, speeds = long_rotor(30), np.linspace(50.0, 300.0, 6)
+    assert rotor_modes(rotor, SPRINGS, 100.0).work["eigenproblems"] == 1
+    response = unbalance_response(rotor, SPRINGS, speeds)
+    assert response.work["solutions"] == 6
+    assert response.work["equilibria"] == 1, "springs rest alike at all speeds"
+    found = critical_speeds(rotor, SPRINGS, speeds)
+    assert found.work["eigenproblems"] <= 2 * (len(speeds) - 1)
+    assert 0 < found.work["factorizations"] <= 8 * (len(found) + 1)
+    assert stability_changes(rotor, FILMS, speeds[:2]).work["equilibria"] >= 2
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("count", [6, 30])
+def test_critical_speeds_on_rigid_bearings_are_the_limit_of_stiff_ones(count):
+    """Journals that cannot move, solved apart; no digit is lost on the way."""
+    rotor = long_rotor(count)
+    s, n = rotor.structure, len(rotor.assembly.coordinates)
+    free = np.delete(np.eye(n), [0, 2 * count], axis=1)
+    polar = s.gyroscopic[:n, n:]
+    stiffness, inertia = (free.T @ part @ free for part in (s.stiffness[:n, :n], s.mass[:n, :n] - polar))
+    squares = 1.0 / np.sort(np.linalg.eigvals(np.linalg.solve(stiffness, inertia)).real)[::-1][:2]
+    found = critical_speed_map(rotor, [1e13, 1e18, 1e25], 2)
+    assert_allclose(found[:, 1:], np.sqrt(squares)[:, None] * [1.0, 1.0], rtol=1e-8)
+    assert_allclose(found[:, 0], np.sqrt(squares), rtol=1e-6)
+
+
+def test_equilibria_count_their_steps():
+    assert 1 <= rotor_equilibrium(long_rotor(6), FILMS, 150.0).work["newton_steps"] <= 12

@@ -1,0 +1,144 @@
+"""Runs of scenes over time: run-ups, motors, and ground that shakes."""
+
+import math
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotorfilm import (
+    BaseMotion,
+    InputError,
+    SceneError,
+    ShakenBaseRotor,
+    mount,
+    rotor_equilibrium,
+    simulate_rotor,
+)
+from rotorfilm.scenes import Scene, read_scene
+from rotorfilm.scenes.excitation_table import MotorTable
+from rotorfilm.scenes.shaft.rotor_runs import run_rotor
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def shaken(**excitation):
+    data = tomllib.loads((EXAMPLES / "earthquake.toml").read_text(encoding="utf-8"))
+    return data | {"excitation": {"kind": "ground", **excitation}}
+
+
+def read(data, folder=EXAMPLES):
+    return read_scene(data, str(folder / "scene.toml"))
+
+
+@pytest.mark.regression
+def test_ground_of_a_scene_is_that_of_its_record(tmp_path):
+    """The same as the parts put together by hand, from a file and from rows."""
+    rows = [[0.0, 0.0, 0.0], [0.02, 2.0, 1.0], [0.05, -1.0, 0.0]]
+    (tmp_path / "record.csv").write_text("t,x,y\n" + "\n".join(",".join(map(str, row)) for row in rows))
+    scene = read(shaken(acceleration="record.csv", scale=2.0), tmp_path)
+    assert read(shaken(acceleration=rows, scale=2.0)) == scene
+    run = run_rotor(scene)
+    assert run.trajectory.time[-1] == 0.05
+    films, speed = scene.shaft.build_bearings(), scene.speed
+    shaft = scene.shaft.build(speed)
+    still = rotor_equilibrium(shaft, films, speed).displacement
+    x, y = (0.0, 4.0, -2.0), (0.0, 2.0, 0.0)
+    ground = BaseMotion(times=(0.0, 0.02, 0.05), acceleration_x=x, acceleration_y=y)
+    model = ShakenBaseRotor(rotor=replace(shaft, initial=(*still, *0.0 * still)), base=ground)
+    wanted = simulate_rotor(mount(model, films), duration=0.05, times=run.trajectory.time, rtol=1e-9)
+    assert_allclose(run.trajectory["disk_x"], wanted["disk_x"], atol=1e-9)
+    assert run.peaks["disk"] == pytest.approx(np.hypot(wanted["disk_x"], wanted["disk_y"]).max(), rel=1e-4)
+
+
+@pytest.mark.closed_form
+def test_displacement_and_spectrum_of_the_ground():
+    """A cosine of 1 mm has w^2 mm/s2; a flat spectrum has the rms of its integral."""
+    times = np.linspace(0.0, 2.0 * math.pi, 201)
+    rows = np.column_stack([times, 1e-3 * np.cos(times)]).tolist()
+    motion = read(shaken(displacement=rows)).excitation.motion(1.0)
+    assert_allclose(motion.rows[1], -1e-3 * np.cos(times), atol=2e-7)
+    flat = read(shaken(spectrum=[[10.0, 0.5], [110.0, 0.5]], scale=2.0, seed=3)).excitation.motion(40.0)
+    assert_allclose(flat.rows[1:].std(axis=1), 2.0 * math.sqrt(50.0), rtol=0.02)
+
+
+@pytest.mark.closed_form
+def test_a_spectrum_is_a_sum_of_cosines_with_random_phases():
+    omega, power, duration = np.array([30.0, 250.0]), np.array([1e-3, 2e-3]), 3.0
+    motion = BaseMotion.from_spectrum(omega, power, duration=duration, seed=1)
+    count = math.ceil(220.0 * duration / (2.0 * math.pi))
+    step = 220.0 / count
+    middle = 30.0 + step * (np.arange(count) + 0.5)
+    size = np.sqrt(2.0 * step * np.interp(middle, omega, power))
+    phases = np.random.default_rng(1).uniform(0.0, 2.0 * math.pi, (2, count))
+    wanted = [np.cos(np.outer(motion.times, middle) + phase) @ size for phase in phases]
+    assert_allclose(motion.rows[1:], wanted, atol=1e-10)
+
+
+@pytest.mark.closed_form
+def test_a_motor_speeds_up_a_balanced_rotor():
+    """I w' = T (1 - w / w0) - r w, from operation.speed on."""
+    scene = Scene.load(EXAMPLES / "weak_motor.toml")
+    motor = replace(scene.excitation, unbalance=0.0, resistance=1e-3)
+    run = run_rotor(replace(scene, excitation=motor))
+    slope = motor.stall_torque / motor.idle_speed + motor.resistance
+    end = motor.stall_torque / slope
+    time = run.trajectory.time
+    wanted = end + (scene.speed - end) * np.exp(-slope * time / motor.inertia)
+    assert_allclose(run.trajectory["speed"], wanted, rtol=1e-5)
+    assert run.end_speed == pytest.approx(wanted[-1], rel=1e-5)
+
+
+def test_a_motor_turns_a_shaft_on_films():
+    """Without unbalance: the same torque on the inertia; the names of the last bearing stay."""
+    data = shaken(acceleration=[[0.0, 0.0], [1.0, 0.0]])
+    data["excitation"] = {
+        "kind": "motor",
+        "unbalance": 0.0,
+        "inertia": 0.5,
+        "stall_torque": 50.0,
+        "idle_speed": "3000 rpm",
+    }
+    data["operation"]["duration"] = 2e-3
+    data["shaft"]["unbalances"] = []
+    scene = read(data)
+    assert isinstance(scene.excitation, MotorTable)
+    run = run_rotor(scene)
+    assert {"left", "right", "disk"} == set(run.peaks)
+    gained = 50.0 * (1.0 - 0.5) / 0.5 * 2e-3
+    assert run.end_speed - scene.speed == pytest.approx(gained, rel=1e-3)
+
+
+def test_a_run_up_ends_at_its_speed():
+    scene = Scene.load(EXAMPLES / "critical_run_up.toml")
+    run = run_rotor(replace(scene, excitation=replace(scene.excitation, duration=0.02)))
+    assert run.end_speed == pytest.approx(scene.excitation.end_speed)
+    assert run.contact_time is None
+    assert run.trajectory.work["steps"] > 10
+
+
+@pytest.mark.parametrize(
+    ("excitation", "said"),
+    [
+        ({}, "one of acceleration, displacement and spectrum must be given"),
+        ({"acceleration": "none.csv"}, r"excitation\.acceleration must be a file of rows of numbers"),
+        ({"acceleration": [[0.0, 1.0]]}, "must be 2 to 1000000 rows of 2 or 3 numbers"),
+        ({"acceleration": [[0.0, 1.0], [0.0, 2.0]]}, "the first column must increase strictly"),
+        ({"acceleration": [[0.0, 1.0], [1.0, "x"]]}, "row 1 must be 2 numbers"),
+        ({"spectrum": [[1.0, 1.0, 1.0], [2.0, 1.0, 1.0]]}, "spectrum must have 2 columns, got 3"),
+        ({"acceleration": [[0, 0], [1, 1]], "displacement": [[0, 0], [1, 1]]}, "one of acceleration"),
+    ],
+)
+def test_records_that_are_none(excitation, said):
+    with pytest.raises(SceneError, match=said):
+        read(shaken(**excitation))
+
+
+def test_other_excitations_are_refused():
+    data = shaken()
+    data["excitation"] = {"kind": "step", "load": "1 N"}
+    with pytest.raises(InputError, match=r"excitation\.kind must be"):
+        run_rotor(read(data))
