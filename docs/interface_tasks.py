@@ -13,7 +13,7 @@ TASKS = {
     "Lubricated rolling contacts": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
     "Seals, rings that are rubbed, cracks": (
-        "bearings.rub_ring",
+        "bearings.rub",
         "bearings.seal",
         "motion.periodic.cracked_response",
         "motion.transient.ring_contacts",

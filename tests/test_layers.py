@@ -54,7 +54,13 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "seal"], ["rolling"]],
+    "bearings": [
+        ["films"],
+        ["oil"],
+        ["journal"],
+        ["damper", "contact", "bush", "pads", "rub", "seal"],
+        ["rolling"],
+    ],
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
@@ -78,7 +84,7 @@ PARTS = {
 }
 """The same among the folders of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "seal"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "rub", "seal"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from .pads import *
     from .parallel import ParallelReaction as ParallelReaction
     from .rolling import *
-    from .rub_ring import RubContact as RubContact, RubRing as RubRing
+    from .rub import *
     from .seal import *
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing

@@ -171,6 +171,13 @@ MADE = [
     rf.Unbalance(node=0, unbalance=1e-4, unbalance_angle=0.5),
     SHAFT,
     rf.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
+    rf.ModallyDampedRotor(
+        rotor=SHAFT, damping_ratios=(0.01,), speed=100.0, gravity=SHAFT.gravity, bearing_stiffness=1e7
+    ),
+    rf.Impeller(power=2e5, diameter=0.4, width=0.012, suction_density=5.0, discharge_density=8.0),
+    rf.AxialStage(power=5e5, diameter=0.6, height=0.08),
+    rf.ThrustBearing(node=0, stiffness=1e8, damping=1e4),
+    rf.TwistSpring(node=0, stiffness=1e5, damping=10.0),
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
     rf.RollingMaterial.steel(),
     rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),

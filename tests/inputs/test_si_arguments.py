@@ -19,13 +19,15 @@ from .public_objects import BALL, BEARING, MADE
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
-    "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CountedMass", "CountedThreshold", "CouplingReport", "CrackedResponse", "CriticalMass", "CriticalSpeed",
-    "DamperTurn", "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit",
-    "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
-    "Reduction", "RingContacts", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError",
-    "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory",
-    "VariableCompliance", "WhirlThreshold",
+    "AxialStatics", "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation",
+    "Coefficients", "CountedMass", "CountedThreshold", "CouplingReport", "CrackedResponse",
+    "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "FilmDamping", "FilmSystem",
+    "HeatedJFOState", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
+    "MemoryCoefficients", "MeshConvergence", "PadEquilibrium", "PadMatrices", "PeriodicOrbit",
+    "ReducedCoefficients", "Reduction", "ResonancePeak", "RingContacts", "RotorEquilibrium", "RotorModes",
+    "RotorThreshold", "RuptureError", "SealFlow", "SeparationMargins", "ShaftStatics", "SqueezeImpedance",
+    "StabilityChange", "StabilityCurve", "StabilityLevelOne", "StabilityLevelTwo", "StraightModes",
+    "TiltedPads", "Trajectory", "VariableCompliance", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

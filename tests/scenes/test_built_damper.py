@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from rotorfilm import EndSeal, FiniteSqueeze, FullFilm, RigidRotor, SqueezeFilmDamper, synchronous_orbits
 from rotorfilm.bearings.damper.built.judged_damper import JudgedDamper
-from rotorfilm.bearings.damper.built.left_out import LeftOut
+from rotorfilm.bearings.damper.built.neglected import Neglected
 from rotorfilm.bearings.sprung import Sprung
 from rotorfilm.errors import InputError, SceneError
 from rotorfilm.motion import simulate
@@ -134,7 +134,7 @@ def test_what_is_left_out_of_a_full_film_is_the_second_order(eps):
         right = (
             exact["exact_orbit"](eps, reynolds, nodes=21, steps=400) - exact["film_orbit"](eps, reynolds)[0]
         )
-        found = LeftOut(1.0 / reynolds, 1.0, 0.0, False).force(e, w, -e, 1.0)[:, 0]
+        found = Neglected(1.0 / reynolds, 1.0, 0.0, False).force(e, w, -e, 1.0)[:, 0]
         assert np.linalg.norm(found - right) < 0.25 * np.linalg.norm(right)
 
 
@@ -143,7 +143,7 @@ def test_what_is_left_out_of_a_ruptured_film_is_its_edge(eps):
     exact = runpy.run_path(EXACT)
     e, w = np.array([[eps], [0.0]]), np.array([[0.0], [eps]])
     right = exact["cut_off"](eps, 4.0) - exact["film_orbit"](eps, 4.0, ruptured=True)[0]
-    found = LeftOut(0.25, 1.0, 0.0, True).force(e, w, -e, 1.0)[:, 0]
+    found = Neglected(0.25, 1.0, 0.0, True).force(e, w, -e, 1.0)[:, 0]
     assert_allclose(found, right, rtol=0.01)
 
 

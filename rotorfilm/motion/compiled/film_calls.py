@@ -25,7 +25,7 @@ from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.linear import LinearBearing
 from ...bearings.parallel import ParallelReaction
 from ...bearings.reaction import FilmReaction
-from ...bearings.rub_ring import RubRing
+from ...bearings.rub import RubRing
 from ...bearings.sprung import Sprung
 from ...errors import FilmContactError, InputError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...bearings.rub_ring import RubRing
+from ...bearings.rub import RubRing
 from ...errors import InputError, require_kind
 from ...inputs.kinds import arguments
 from ...model import Array

@@ -11,8 +11,6 @@
 
 enum { HEADER = 24, MODEL = 176, VARIABLE = 96, TABLE = 64 }; /* bytes of each record */
 
-static const char FILE_NAME[] = "rotorfilm.bin";
-
 static uint32_t read_u32(const unsigned char *at)
 {
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
@@ -63,7 +61,7 @@ static int read_variable(const unsigned char *at, rf_resource *to, rf_variable *
     v->nominal = read_double(at + 40);
     if (!read_text(at + 48, v->name, sizeof v->name) || role >= RF_ROLES || v->index != to->count[role]
         || !isfinite(v->start) || !(v->nominal > 0.0 && v->nominal < HUGE_VAL))
-        return rf_say(why, RF_INVALID, "variable %zu of %s is no variable", to->variable_count, FILE_NAME);
+        return rf_say(why, RF_INVALID, "variable %zu of %s is no variable", to->variable_count, RF_RESOURCE_FILE);
     v->role = (rf_role)role;
     to->count[role] += 1;
     to->variable_count += 1;
@@ -119,15 +117,15 @@ static int read_tables(const unsigned char *bytes, size_t size, size_t directory
     size_t total = 0, count;
     to->tables.list = list;
     if (!list)
-        return rf_say(why, RF_MEMORY, "no memory for the tables of %s", FILE_NAME);
+        return rf_say(why, RF_MEMORY, "no memory for the tables of %s", RF_RESOURCE_FILE);
     for (size_t i = 0; i < to->tables.count; ++i) {
         if (!measure(bytes + directory + i * TABLE, size, list + i, &count))
-            return rf_say(why, RF_INVALID, "table %zu of %s is no table", i, FILE_NAME);
+            return rf_say(why, RF_INVALID, "table %zu of %s is no table", i, RF_RESOURCE_FILE);
         total += count;
     }
     to->numbers = total <= size ? malloc((total + 1) * sizeof *to->numbers) : NULL;
     if (!to->numbers)
-        return rf_say(why, RF_MEMORY, "no memory for the %zu numbers of %s", total, FILE_NAME);
+        return rf_say(why, RF_MEMORY, "no memory for the %zu numbers of %s", total, RF_RESOURCE_FILE);
     double *next = to->numbers;
     for (size_t i = 0; i < to->tables.count; ++i) {
         const unsigned char *entry = bytes + directory + i * TABLE, *from = bytes + read_u64(entry + 56);
@@ -136,7 +134,7 @@ static int read_tables(const unsigned char *bytes, size_t size, size_t directory
         (read_u32(entry + 52) ? read_quanta : read_doubles)(from, count, next);
         for (const double *end = next + count; next < end; ++next)
             if (!isfinite(*next))
-                return rf_say(why, RF_INVALID, "table %s of %s must be finite", list[i].name, FILE_NAME);
+                return rf_say(why, RF_INVALID, "table %s of %s must be finite", list[i].name, RF_RESOURCE_FILE);
     }
     return RF_OK;
 }
@@ -148,11 +146,11 @@ static int read_model(const unsigned char *bytes, size_t size, rf_resource *to, 
     if (!read_text(model, to->token, sizeof to->token)
         || !read_text(model + 128, to->kernel, sizeof to->kernel) || variables > size / VARIABLE
         || tables > size / TABLE || HEADER + MODEL + variables * VARIABLE + tables * TABLE > size)
-        return rf_say(why, RF_INVALID, "%s has no room for %zu variables and %zu tables", FILE_NAME,
+        return rf_say(why, RF_INVALID, "%s has no room for %zu variables and %zu tables", RF_RESOURCE_FILE,
                       variables, tables);
     to->variables = calloc(variables + 1, sizeof *to->variables);
     if (!to->variables)
-        return rf_say(why, RF_MEMORY, "no memory for the variables of %s", FILE_NAME);
+        return rf_say(why, RF_MEMORY, "no memory for the variables of %s", RF_RESOURCE_FILE);
     for (size_t i = 0; i < variables; ++i)
         if (read_variable(model + MODEL + i * VARIABLE, to, to->variables + i, why) != RF_OK)
             return RF_INVALID;
@@ -163,16 +161,16 @@ static int read_model(const unsigned char *bytes, size_t size, rf_resource *to, 
 static int check(const unsigned char *bytes, size_t size, rf_message *why)
 {
     if (size < HEADER + MODEL || memcmp(bytes, MAGIC, 8) != 0)
-        return rf_say(why, RF_INVALID, "%s must begin with %s, got %zu bytes of something else", FILE_NAME,
+        return rf_say(why, RF_INVALID, "%s must begin with %s, got %zu bytes of something else", RF_RESOURCE_FILE,
                       MAGIC, size);
     if (read_u32(bytes + 8) != VERSION)
-        return rf_say(why, RF_INVALID, "%s must be of version %u, got %u", FILE_NAME, VERSION,
+        return rf_say(why, RF_INVALID, "%s must be of version %u, got %u", RF_RESOURCE_FILE, VERSION,
                       (unsigned)read_u32(bytes + 8));
     if (read_u64(bytes + 16) != size)
-        return rf_say(why, RF_INVALID, "%s must have %.0f bytes, got %zu", FILE_NAME,
+        return rf_say(why, RF_INVALID, "%s must have %.0f bytes, got %zu", RF_RESOURCE_FILE,
                       (double)read_u64(bytes + 16), size);
     if (read_u32(bytes + 12) != rf_checksum(bytes + HEADER, size - HEADER))
-        return rf_say(why, RF_INVALID, "%s is damaged, its checksum is wrong", FILE_NAME);
+        return rf_say(why, RF_INVALID, "%s is damaged, its checksum is wrong", RF_RESOURCE_FILE);
     return RF_OK;
 }
 
@@ -182,7 +180,7 @@ static rf_resource *parse(const unsigned char *bytes, size_t size, rf_message *w
         return NULL;
     rf_resource *made = calloc(1, sizeof *made);
     if (!made) {
-        rf_say(why, RF_MEMORY, "no memory for %s", FILE_NAME);
+        rf_say(why, RF_MEMORY, "no memory for %s", RF_RESOURCE_FILE);
         return NULL;
     }
     made->checksum = read_u32(bytes + 12);
@@ -234,71 +232,4 @@ void rf_free_resource(rf_resource *resource)
     free((void *)resource->tables.list);
     free(resource->numbers);
     free(resource);
-}
-
-static int digit(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    if (c >= 'a' && c <= 'f')
-        return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-/* Decode %xx in place; 0 if one is not hexadecimal, or a zero. */
-static int decode(char *text)
-{
-    char *to = text;
-    for (; *text; ++text, ++to) {
-        *to = *text;
-        if (*text != '%')
-            continue;
-        const int high = digit(text[1]), low = high < 0 ? -1 : digit(text[2]);
-        if (low < 0 || high + low == 0)
-            return 0;
-        *to = (char)(unsigned char)(16 * high + low);
-        text += 2;
-    }
-    *to = '\0';
-    return 1;
-}
-
-static int is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-/* The path in file:/path, file:///path, file://host/path or file:///C:/path; NULL if there is none. */
-static const char *local_part(const char *after_scheme)
-{
-    const char *path = after_scheme;
-    if (path[0] == '/' && path[1] == '/') {
-        path += 2;
-        if (strncmp(path, "localhost/", 10) == 0)
-            path += 9;
-        else if (path[0] && path[0] != '/' && !(is_letter(path[0]) && path[1] == ':'))
-            return after_scheme; /* a Windows share: //host/path */
-    }
-    if (path[0] == '/' && is_letter(path[1]) && path[2] == ':')
-        ++path;
-    return path[0] ? path : NULL;
-}
-
-char *rf_resource_path(const char *folder, rf_message *why)
-{
-    const int is_uri = folder && strncmp(folder, "file:", 5) == 0;
-    const char *given = is_uri ? local_part(folder + 5) : folder;
-    char *path = given && *given ? malloc(strlen(given) + sizeof FILE_NAME + 2) : NULL;
-    if (path)
-        strcpy(path, given);
-    if (!path || (is_uri && !decode(path))) {
-        rf_say(why, RF_INVALID, "the resources of the FMU must be a file URI or a path, got '%.200s'",
-               folder ? folder : "");
-        free(path);
-        return NULL;
-    }
-    const size_t length = strlen(path);
-    if (path[length - 1] != '/' && path[length - 1] != '\\')
-        strcat(path, "/");
-    return strcat(path, FILE_NAME);
 }

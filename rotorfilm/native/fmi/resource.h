@@ -15,6 +15,8 @@ typedef enum rf_role {
     RF_ROLES
 } rf_role;
 
+#define RF_RESOURCE_FILE "rotorfilm.bin"
+
 enum { RF_TUNABLE = 1 };
 
 /* A variable; its value reference is its place in the list. */

@@ -14,7 +14,7 @@ from ...films.cavitation import FullFilm
 from ...inertial_model import InertialModel
 from ..bearing import SqueezeFilmDamper
 from ..squeeze_laws import FiniteSqueeze, ShortSqueeze, parabola_mean
-from .left_out import LeftOut
+from .neglected import Neglected
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,14 +112,14 @@ class JudgedDamper(InertialModel):
         return math.isfinite(self.damper.slenderness_limit)
 
     @cached_property
-    def _short(self) -> LeftOut:
+    def _short(self) -> Neglected:
         """The short film, with what of its length counts."""
         damper = self.damper
         share = 1.0 if self._is_short else parabola_mean(damper.slenderness)
         leak = damper.squeeze_case.end_leak * damper.slenderness
         inertial = damper.density * damper.radius * damper.length**3
         seal = 3.0 / leak if self._ruptured else 0.0
-        return LeftOut(share * damper.force_scale, share * inertial, seal, self._ruptured)
+        return Neglected(share * damper.force_scale, share * inertial, seal, self._ruptured)
 
     @cached_property
     def _small(self) -> tuple[float, float]:

@@ -9,11 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import keep_pair, require_each, require_non_negative, require_positive
-from ..inputs.si_arguments import quantities
-from ..model import Array
-from ..signals import Signal, journal_inputs
-from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, input_vector
+from ...errors import keep_pair, require_each, require_non_negative, require_positive
+from ...inputs.si_arguments import quantities
+from ...model import Array
+from ...signals import Signal, journal_inputs
+from ..reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, input_vector
 
 
 class RubContact(NamedTuple):

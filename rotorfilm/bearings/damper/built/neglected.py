@@ -26,7 +26,7 @@ NODES = 1440
 """Around a film that is cut off: within 1e-3 of its force to eps = .9."""
 
 
-class LeftOut(NamedTuple):
+class Neglected(NamedTuple):
     """The numbers of a film that its left-out forces need; lengths in clearances.
 
     Attributes
