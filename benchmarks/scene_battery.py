@@ -4,6 +4,7 @@
     python benchmarks/scene_battery.py --count 40 --families lobes dam tilting
     python benchmarks/scene_battery.py --family heated --count 40
     python benchmarks/scene_battery.py --family supplied --count 60
+    python benchmarks/scene_battery.py --family "built damper" --count 30 --seed 20297
     python benchmarks/scene_battery.py --family lobes dam tilting --count 40
 
 The ranges of a family were fixed before its estimator was tuned; the default seed was not run while anything

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from . import (
+    built_dampers,
     bushes,
     contacts,
     couplings,
@@ -51,6 +52,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "dam": (1, padded.dam),
     "tilting": (2, padded.tilting),
     "ball bearing": (0, rolling.ball_bearing),
+    "built damper": (0, built_dampers.built_damper),
     "heated": (0, heated.heated),
     "supplied": (0, supplied.supplied),
 }

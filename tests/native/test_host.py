@@ -1,17 +1,21 @@
 """A host in C without Python gets the digits that Python gets."""
 
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
 
-from rotorfilm import JournalBearing, MapFilm, RigidRotor, SpeedProfile
+from rotorfilm import JournalBearing, MapFilm, RigidRotor, SpeedProfile, export_fmu, simulate
+from rotorfilm.rotors import mount
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the host in C loads libraries by dlopen")
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 HOST = Path(__file__).parents[1] / "fmi" / "host" / "host.c"
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(mass=50.0, speed=SpeedProfile((0.0, 0.03), (50.0, 200.0)), unbalance=1e-3)
@@ -78,3 +82,26 @@ def test_the_wall_is_told_in_the_log(unzipped, host):
         AssertionError, match=r"logStatusError: .*inside the clearance 0.0001 m, got an eccentricity of"
     ):
         run(host, 2, folder, ("x",), ("force_x",), np.array([[0.0, 1e-5], [1e-3, 2e-4]]))
+
+
+def test_the_turbocharger_on_its_damper_moves_in_fmpy_and_in_the_host_as_the_simulation(
+    unzipped, host, tmp_path
+):
+    """Sealed, of finite length, with the inertia of its oil: rotor and damper of the example as one FMU."""
+    example = runpy.run_path(str(EXAMPLES / "turbocharger_damper.py"))
+    rotor, support = example["rotor"], example["support"]
+    system, dt, steps = mount(rotor, {"": support}), 1e-5, 60
+    times = dt * np.arange(steps + 1)
+    right = simulate(rotor, support, duration=times[-1], times=times, rtol=1e-10)
+    names = ("x", "y", "force_x", "force_y")
+    expected = np.array([right[name] for name in names])
+    size = np.abs(expected).max(axis=1, keepdims=True)
+    assert size[0] > 0.05 * support.clearance
+    for version in (2, 3):
+        folder = unzipped(system, folder=f"fmi {version}")
+        told = run(host, version, folder, (), names, np.diff(times, prepend=0.0)[:, None])
+        np.testing.assert_allclose(told.T / size, expected / size, atol=1e-5)
+    path = export_fmu(system, tmp_path / "turbocharger.fmu", component="system", stop_time=times[-1])
+    ran = fmpy.simulate_fmu(str(path), stop_time=times[-1], step_size=dt, output_interval=dt)
+    found = np.array([ran[f"system.{name}"] for name in names])
+    np.testing.assert_allclose(found / size, expected / size, atol=1e-5)

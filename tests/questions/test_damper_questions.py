@@ -80,6 +80,8 @@ SUBSET = [
     ("damper blade loss", 8),
     ("damper blade loss", 26),
     ("damper jumps", 6),
+    ("built damper", 6),
+    ("built damper", 38),
 ]
 """Families and seeds of the battery's scenes that run here; benchmarks/scene_battery.py runs hundreds."""
 

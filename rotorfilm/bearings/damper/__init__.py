@@ -13,6 +13,10 @@ if TYPE_CHECKING:
         leak_test_seal as leak_test_seal,
     )
     from .built.film_range import FULL_LIMITS, RUPTURED_LIMITS
+    from .built.hole_impedance import (
+        SqueezeMatrices as SqueezeMatrices,
+        hole_small_motion as hole_small_motion,
+    )
     from .built.judged_damper import JudgedDamper
     from .built.squeeze_impedance import (
         FilmSegment as FilmSegment,

@@ -112,7 +112,7 @@ class ShakenRotor(NamedTuple):
             return TangentsAlong(
                 film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
             )
-        slopes = slopes - np.einsum("ijk...,j...->ik...", heavy.mass_slopes(q, v), a)
+        slopes = slopes - np.einsum("ijk...,j...->ik...", heavy.mass_slopes(q, v)[:, :, :4], a)
         return TangentsAlong(film.force_along(q, v, a), -slopes[:, :2], -slopes[:, 2:], heavy.mass(q, v))
 
     def propagated(

@@ -17,8 +17,8 @@
    (force_x, force_y) = viscous film + convection q(x, v, v) - stiffness (x, y)
    force of the film on the rotor = (force_x, force_y) - [mass_xx mass_xy; mass_xy mass_yy] acceleration
 
-   Validity: A rotor must solve for its acceleration with the mass, (m + M) a = force, as the rotor FMU with
-   inputs mass_xx, mass_xy, mass_yy does. Never exchange -M a as a force: that diverges where the mass of the
+   Validity: A rotor must solve for its acceleration with the mass, (m + M) a = force, in its own equations; the
+   FMU of rotor and damper together does. Never exchange -M a as a force: that diverges where the mass of the
    oil is larger than that of the rotor. Inertia of first order in the squeeze Reynolds number speed clearance^2
    density/viscosity: to 10, of a ruptured film to 5. Fixed is what the tables hold for. Laminar, isothermal,
    aligned. Where a rotor in a film that ruptures is at rest off the center, the force is zero and has no

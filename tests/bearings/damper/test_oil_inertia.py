@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from families.built_truth import Place
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
@@ -200,3 +201,25 @@ def test_bad_states_of_the_mass_are_named():
         full.mass([np.nan, 0.0])
     with pytest.raises(InputError, match="small_motion takes a FullFilm"):
         ruptured.small_motion(100.0)
+
+
+@pytest.mark.parametrize(("slimness", "leakage"), [(0.1, None), (0.5, None), (0.3, 2e-9), (0.3, 2e-10)])
+def test_finite_film_on_orbits_is_that_of_another_code(slimness, leakage):
+    # Collocation, and the pressure of the inertia solved for: benchmarks/families/built_truth.py
+    R, c, mu, w = 0.05, 1e-4, 5e-3, 2000.0
+    damper = rf.SqueezeFilmDamper(
+        radius=R,
+        length=2.0 * R * slimness,
+        clearance=c,
+        viscosity=mu,
+        density=850.0,
+        extent=FULL,
+        film=rf.FiniteSqueeze(),
+        seals=None if leakage is None else rf.EndSeal(leakage=leakage),
+    )
+    leak = np.inf if leakage is None else 12.0 * mu * R * leakage / c**3
+    for eps in (0.2, 0.7):
+        q, v = np.array([eps * c, 0.0]), np.array([0.0, w * eps * c])
+        found = damper.force(q, v) + w**2 * damper.mass(q, v) @ q
+        right = Place(slimness, leak, eps, damper.reynolds_number(w)).full() * 12.0 * mu * w * R**4 / c**2
+        assert_allclose(found, [right.real, right.imag], atol=1e-6 * abs(right))

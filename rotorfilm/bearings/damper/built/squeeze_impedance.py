@@ -119,9 +119,8 @@ class SegmentedDamper:
             If the frequency is negative or not finite.
         """
         require_non_negative("frequency", frequency)
-        # The mass of slow motion is the slope of the force: at so low a frequency it errs by its square.
-        slow = 1e-4 * self.viscosity / max(self.density, 1e-9) / max(s.clearance for s in self.segments) ** 2
-        at = frequency or slow
+        deepest = max(segment.clearance for segment in self.segments)
+        at = frequency or slow_frequency(deepest, self.viscosity, self.density)
         impedance = -self._force(at)
         return SqueezeImpedance(
             damping=impedance.real, added_mass=impedance.imag / at, frequency=float(frequency)
@@ -157,6 +156,19 @@ class SegmentedDamper:
             mean = found[2 * k] * math.tanh(half) / half - Z * R * R / segment.clearance
             total += segment.length * mean
         return math.pi * R * total
+
+
+def slow_frequency(height: float, viscosity: float, density: float) -> float:
+    """Return a frequency [rad/s] so low that the mass, the slope of the force, errs by its square, 1e-8.
+
+    Parameters
+    ----------
+    height : float [m]
+        Of the film.
+    viscosity : float [Pa s]
+    density : float [kg/m3]
+    """
+    return 1e-4 * viscosity / max(density, 1e-9) / height**2
 
 
 def film_impedance(height: float, viscosity: float, density: float, frequency: float) -> complex:
