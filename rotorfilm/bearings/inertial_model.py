@@ -71,7 +71,7 @@ class InertialModel(StaticReaction):
         force = self.force(position, velocity, 0.0)
         if not self.has_inertia:
             return force
-        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity), acceleration)
+        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, 0.0), acceleration)
 
     def output(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""

@@ -26,6 +26,7 @@ RESULTS = {
     "MemoryCoefficients", "MeshConvergence", "PadEquilibrium", "PadMatrices", "PeriodicOrbit",
     "ReducedCoefficients", "Reduction", "ResonancePeak", "RingContacts", "RotorEquilibrium", "RotorModes",
     "RotorThreshold", "RuptureError", "SealFlow", "SeparationMargins", "ShaftStatics", "SqueezeImpedance",
+    "SqueezeMatrices",
     "StabilityChange", "StabilityCurve", "StabilityLevelOne", "StabilityLevelTwo", "StraightModes",
     "TiltedPads", "Trajectory", "VariableCompliance", "WhirlThreshold",
 }  # fmt: skip

@@ -93,8 +93,11 @@ class ShakenRotor(NamedTuple):
     def linear(self, film: RestTangent, step: float, count: int) -> MarchMotion:
         """Return the motion about the rest on a film of constant stiffness and damping, in the same steps."""
         pulls = np.array([self.pull(n * step) for n in range(count + 1)]).T + film.force[:, None]
-        parts = (self._whole(film.mass[:, :, None]), film.stiffness[:, :, None], film.damping[:, :, None])
-        moved = linear_march(*(np.repeat(part, count + 1, axis=2) for part in parts), pulls, step)
+        mass, stiffness, damping = (
+            np.repeat(part[:, :, None], count + 1, axis=2)
+            for part in (self._whole(film.mass[:, :, None])[:, :, 0], film.stiffness, film.damping)
+        )
+        moved = linear_march(mass, stiffness, damping, pulls, step)
         position = self.rest[:, None] + moved.position
         return MarchMotion(time=moved.time, position=position, velocity=moved.velocity)
 
@@ -113,7 +116,8 @@ class ShakenRotor(NamedTuple):
                 film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
             )
         slopes = slopes - np.einsum("ijk...,j...->ik...", heavy.mass_slopes(q, v)[:, :, :4], a)
-        return TangentsAlong(film.force_along(q, v, a), -slopes[:, :2], -slopes[:, 2:], heavy.mass(q, v))
+        force = film.force_along(q, v, a)  # type: ignore[misc]  # heavy and film are one
+        return TangentsAlong(force, -slopes[:, :2], -slopes[:, 2:], heavy.mass(q, v))
 
     def propagated(
         self, states: StatesAlong, own: Reaction | RestTangent, rich: Reaction
@@ -141,5 +145,5 @@ def states_along(motion: MarchMotion, stride: int) -> StatesAlong:
     """Return every so many-th state of a motion."""
     step = float(motion.time[stride] - motion.time[0])
     acceleration = np.gradient(motion.velocity, motion.time, axis=1)
-    parts = (part[:, ::stride].copy() for part in (motion.position, motion.velocity, acceleration))
-    return StatesAlong(*parts, step)
+    q, v, a = (part[:, ::stride].copy() for part in (motion.position, motion.velocity, acceleration))
+    return StatesAlong(q, v, a, step)

@@ -114,7 +114,7 @@ def built_films(table: DamperTable, speed: float) -> tuple[BuiltDamperFilm, ...]
 
 
 def _laws(table: DamperTable) -> list[tuple[str, SqueezeLaw]]:
-    short = [] if table.needs_length else [("short film", ShortSqueeze())]
+    short: list[tuple[str, SqueezeLaw]] = [] if table.needs_length else [("short film", ShortSqueeze())]
     if isinstance(table.extent, FullFilm):
         return [*short, ("finite film", FiniteSqueeze())]
     return short if table.seals is not None else [*short, ("finite film", FiniteMapSqueeze())]

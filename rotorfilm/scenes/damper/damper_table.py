@@ -160,7 +160,10 @@ class DamperTable:
             land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
             return made_from(PorousDamper, self, film=film, seals=None, length=land, viscosity=twice)
         damper = made_from(PorousDamper, self, film=film, seals=self.seal)
-        return aerated_damper(damper, self.air_fraction) if self.air_fraction else damper
+        if not self.air_fraction:
+            return damper
+        aired = aerated_damper(damper, self.air_fraction)
+        return replace(damper, viscosity=aired.viscosity, density=aired.density)
 
     @property
     def seal(self) -> EndSeal | None:

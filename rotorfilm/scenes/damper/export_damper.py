@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...bearings.damper import MapSqueeze
+from ...bearings.damper import JFODamper, MapSqueeze
 from ...errors import InputError
 from ...rotors import mount
 from .damper_models import damper_models
@@ -60,6 +60,7 @@ def export_damped_rotor(
     if table.film is None and not table.needs_length:
         scene = replace(scene, damper=replace(table, film=MapSqueeze()))
     models = damper_models(scene)
+    assert not isinstance(models.support, JFODamper)  # which no scene has that names a film, or seals
     path = folder / "system.fmu"
     export_fmu(
         mount(models.rotor, {"": models.support}),
