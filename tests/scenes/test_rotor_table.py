@@ -185,7 +185,9 @@ def test_without_unbalance_there_is_no_response():
 
 def test_what_a_shaft_cannot_be_asked():
     loss = '[excitation]\nkind = "blade_loss"\nunbalance = "500 g mm"\n'
-    with pytest.raises(InputError, match=r"excitation.kind must be 'unbalance' for a shaft"):
+    with pytest.raises(
+        InputError, match=r"excitation.kind must be unbalance, run_up, motor or ground here, got "
+    ):
         solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, loss))
     with pytest.raises(InputError, match="shaft is required for the analyses of a flexible rotor"):
         solve_rotor(bundled_scene())
