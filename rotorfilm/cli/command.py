@@ -7,10 +7,13 @@ called `report` is no option but moves a progress bar.
 from __future__ import annotations
 
 import argparse
+import errno
 import inspect
 import math
+import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from enum import Enum
 from functools import partial
 from importlib import import_module
@@ -109,6 +112,33 @@ class Group(NamedTuple):
 
 SceneFile = Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
 SignalFile = Annotated[Path | None, Option(help="CSV file for the signals.", metavar="FILE.csv")]
+
+
+@contextmanager
+def inside(scene: Path) -> Iterator[None]:
+    """Let an InputError about a scene begin with the name of its file."""
+    from ..errors import InputError
+
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{scene}: {error}") from None
+
+
+def make_room(out: Path | None) -> None:
+    """Make the folder of a file that is to be written, before what takes long; raise where that is one."""
+    if out is None:
+        return
+    if out.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(out))
+    out.parent.mkdir(parents=True, exist_ok=True)
+
+
+def written_rows(out: Path | None) -> list[tuple[str, str]]:
+    """Return the row that says where the signals are."""
+    return [] if out is None else [("signals", str(out))]
+
+
 JSON = inspect.Parameter(
     "json",
     inspect.Parameter.KEYWORD_ONLY,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 from ..progress import Report
 from ..results import write_csv
 from . import printing as console
-from .command import Argument, Option, Said, SignalFile
+from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 
 if TYPE_CHECKING:
     from ..scenes.cosimulate_scene import CosimAnswer
@@ -49,10 +49,12 @@ def cosim(
         table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
     if revolutions is not None:
         table = replace(table, revolutions=revolutions)
+    make_room(out)
     try:
-        answer, signals = run_scene(
-            replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
-        )
+        with inside(scene):
+            answer, signals = run_scene(
+                replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
+            )
     except PartialResultError as error:
         if out is not None and error.partial is not None:
             kept = error.partial.trajectory
@@ -60,13 +62,13 @@ def cosim(
         raise
     if out is not None:
         write_csv(out, {"time": signals.time, **signals.signals})
-    return Said(answer, partial(_print, loaded.title, answer))
+    return Said(answer, partial(_print, loaded.title, answer, out))
 
 
-def _print(title: str, answer: CosimAnswer) -> None:
+def _print(title: str, answer: CosimAnswer, out: Path | None) -> None:
     for trial in answer.trials:
         console.print_rows("", [(trial.scheme, trial.reason)])
-    console.print_rows(title, cosim_rows(answer))
+    console.print_rows(title, cosim_rows(answer) + written_rows(out))
 
 
 def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:

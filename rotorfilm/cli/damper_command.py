@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ..results import CircularOrbit, write_csv
 from . import printing as console
-from .command import Argument, Option, Said, SignalFile
+from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 
 if TYPE_CHECKING:
     from ..bearings.damper import EndSeal, PorousCage
@@ -186,7 +186,9 @@ def damper_run(
     from ..scenes import Scene
 
     loaded = Scene.load(scene)
-    run = _run(loaded, fmus)
+    make_room(out)
+    with inside(scene):
+        run = _run(loaded, fmus)
     if out is not None:
         write_csv(out, {"time": run.trajectory.time, **run.trajectory.signals})
     if chart is not None:
@@ -194,7 +196,8 @@ def damper_run(
 
         save(plot_damper_run(run.trajectory.time, run.eccentricity_ratio, run.force), chart)
     failure = None if run.contact_time is None else contact_message(run)
-    return Said(plain_run(run), partial(console.print_rows, loaded.title, damper_run_rows(run)), failure)
+    rows = damper_run_rows(run) + written_rows(out)
+    return Said(plain_run(run), partial(console.print_rows, loaded.title, rows), failure)
 
 
 def _run(scene: Scene, fmus: bool) -> DamperRun:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from ..progress import Report
 from . import printing as console
-from .command import Argument, Option, Said, SceneFile
+from .command import Argument, Option, Said, SceneFile, inside
 
 FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
@@ -58,21 +58,24 @@ def build(
     from ..scenes.shaft.export_rotor import export_system
 
     loaded = Scene.load(scene)
-    whole = loaded.shaft is not None and not loaded.has_film
-    if loaded.has_film and loaded.damper is None:
-        loaded.film_table.make_map(report)
-    heavy = loaded.damper is not None and loaded.damper.density > 0.0
-    made = (export_damped_rotor if heavy else export_system if whole else export_scene)(
-        loaded,
-        out,
-        version=fmi.value,
-        backend=None if backend is None else backend.value,
-        platforms=platforms.value,
-    )
-    files = {name: str(path) for name, path in made._asdict().items()}
-    if ssp:
-        system = export_scene_system(loaded, out / "system.ssp", version=fmi.value, platforms=platforms.value)
-        files["ssp"] = str(system)
+    with inside(scene):
+        whole = loaded.shaft is not None and not loaded.has_film
+        if loaded.has_film and loaded.damper is None:
+            loaded.film_table.make_map(report)
+        heavy = loaded.damper is not None and loaded.damper.density > 0.0
+        made = (export_damped_rotor if heavy else export_system if whole else export_scene)(
+            loaded,
+            out,
+            version=fmi.value,
+            backend=None if backend is None else backend.value,
+            platforms=platforms.value,
+        )
+        files = {name: str(path) for name, path in made._asdict().items()}
+        if ssp:
+            system = export_scene_system(
+                loaded, out / "system.ssp", version=fmi.value, platforms=platforms.value
+            )
+            files["ssp"] = str(system)
     return Said(files, partial(console.print_rows, "FMUs", files.items()))
 
 

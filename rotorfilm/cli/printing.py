@@ -66,7 +66,10 @@ def filled(table: Table, rows: Iterable[Sequence[str]]) -> Table:
 
 def print_rows(title: str, rows: Iterable[Sequence[str]]) -> None:
     """Print names and values in two columns."""
-    plain_console().print(filled(plain_table(title, show_header=False), rows))
+    table = plain_table(title, show_header=False)
+    table.add_column()
+    table.add_column(overflow="fold")
+    plain_console().print(filled(table, rows))
 
 
 def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..answers import QuestionAnswer, RungReport
+from ..readable.quantities import without_round_off
 from .printing import filled, plain_console, plain_table
 
 STYLES = {"chosen": "bold green", "refused": "yellow"}
@@ -94,7 +95,9 @@ def _value(value: Any, *, short: bool = False) -> str:
         return f"{float(value):.6g}"
     if short:
         return f"max {float(np.max(np.abs(value))):.5g}"
-    return "; ".join("  ".join(f"{entry:.6g}" for entry in row) for row in np.atleast_2d(value))
+    return "; ".join(
+        "  ".join(f"{entry:.6g}" for entry in row) for row in without_round_off(np.atleast_2d(value))
+    )
 
 
 def _number(value: float) -> str:

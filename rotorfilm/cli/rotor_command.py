@@ -12,7 +12,7 @@ import numpy as np
 from ..progress import Report
 from ..results import to_plain, write_csv
 from . import printing as console
-from .command import Argument, Option, Said, SignalFile
+from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 from .solve_command import remark_rows
 
 if TYPE_CHECKING:
@@ -35,7 +35,9 @@ def rotor(
     from ..scenes import Scene
     from ..scenes.shaft.solve_shaft import solve_rotor
 
-    answer = solve_rotor(Scene.load(scene), report)
+    loaded = Scene.load(scene)
+    with inside(scene):
+        answer = solve_rotor(loaded, report)
     if out is not None:
         write_rotor(answer, out)
     return Said(plain_rotor(answer), partial(console.print_rows, answer.title, rotor_rows(answer)))
@@ -52,7 +54,8 @@ def stability_level_one(
     from ..scenes.shaft.solve_compressor import solve_level_one
 
     given = Scene.load(scene)
-    found = solve_level_one(given)
+    with inside(scene):
+        found = solve_level_one(given)
     if out is not None:
         write_level_one(found, out)
     return Said(to_plain(found), partial(console.print_rows, given.title, found.to_rows()))
@@ -168,19 +171,23 @@ def rotor_run(
     from ..scenes.shaft.rotor_runs import run_rotor
 
     loaded = Scene.load(scene)
-    run = run_rotor(loaded, report)
+    make_room(out)
+    with inside(scene):
+        run = run_rotor(loaded, report)
     if out is not None:
         write_csv(out, {"time": run.trajectory.time, **run.trajectory.signals})
     failure = None
     if run.contact_time is not None:
         failure = f"a journal reached the wall at {run.contact_time:.6g} s; what is shown ends there"
-    return Said(plain_rotor_run(run), partial(console.print_rows, loaded.title, rotor_run_rows(run)), failure)
+    rows = rotor_run_rows(run) + written_rows(out)
+    return Said(plain_rotor_run(run), partial(console.print_rows, loaded.title, rows), failure)
 
 
 def plain_rotor_run(run: RotorRun) -> dict[str, Any]:
     """Return a run as plain numbers."""
     return {
         "peaks": dict(run.peaks),
+        "at_rest": dict(run.at_rest),
         "end_speed": run.end_speed,
         "contact_time": run.contact_time,
         "end": float(run.trajectory.time[-1]),
@@ -194,7 +201,13 @@ def rotor_run_rows(run: RotorRun) -> list[tuple[str, str]]:
     return [
         ("to", f"{run.trajectory.time[-1]:.6g} s"),
         ("speed at the end", f"{run.end_speed * RPM:.6g} rpm"),
-        *((f"largest displacement of {name}", f"{size * 1e6:.4g} um") for name, size in run.peaks.items()),
+        *(
+            (
+                f"largest displacement of {name}",
+                f"{size * 1e6:.4g} um, at rest {run.at_rest[name] * 1e6:.4g} um",
+            )
+            for name, size in run.peaks.items()
+        ),
         ("contact", "none" if run.contact_time is None else f"at {run.contact_time:.6g} s"),
         ("work", calls),
     ]

@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..progress import Report
 from . import printing as console
 from .bush_command import print_bush
-from .command import Option, Said, SceneFile
+from .command import Option, Said, SceneFile, inside
 
 if TYPE_CHECKING:
     from ..scenes import Scene
@@ -38,10 +38,12 @@ def solve(
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
     if loaded.bush is not None and not loaded.has_film:
-        melting = loaded.melting()
+        with inside(scene):
+            melting = loaded.melting()
         return Said(melting, partial(print_bush, melting))
-    loaded.film_table.make_map(report)
-    answer = loaded.describe()
+    with inside(scene):
+        loaded.film_table.make_map(report)
+        answer = loaded.describe()
     return Said(answer, partial(print_answer, loaded.title, answer))
 
 
@@ -62,10 +64,8 @@ def schema(
 def _question(path: Path, scene: Scene, explain: bool) -> Said:
     from .question_printing import print_question
 
-    try:
+    with inside(path):
         answer = scene.ask()
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
     show = partial(print_question, scene.title, answer, explain=explain)
     return Said(answer, show, None if answer.met else answer.message)
 

@@ -28,6 +28,9 @@ FACTORS = {"us": 1e-6, "nm": 1e-9, "mm/s": 1e-3, "um/s": 1e-6}
 FEW = 4
 """Entries of a vector, and rows or columns of a matrix, that are shown one by one."""
 
+ROUND_OFF = 1e-12
+"""Share of the largest entry of a matrix below which another is shown as 0."""
+
 AXES = "xy"
 
 
@@ -112,9 +115,16 @@ def _array(name: str, value: np.ndarray, unit: str) -> list[str]:
     if value.dtype.kind not in "fiucb":
         return [shortened(str(value))] if value.size else []
     if value.shape == (2, 2) and value.dtype.kind != "b":
+        value = without_round_off(value)
         rows = [[f"{a}{b} {value[i, j]:14.7g}" for j, b in enumerate(AXES)] for i, a in enumerate(AXES)]
         return [f"{'   '.join(row)} {_spelled(unit)}".rstrip() for row in rows]
     return [_summary(name, value, unit)] if value.size else []
+
+
+def without_round_off(value: np.ndarray) -> np.ndarray:
+    """Return the entries of a matrix to be shown, 0 where it is round-off beside the largest."""
+    size = np.abs(value)
+    return np.where(size < ROUND_OFF * size.max(initial=0.0), 0.0, value)
 
 
 def _summary(name: str, value: np.ndarray, unit: str) -> str:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Annotated
 
 from ..errors import InputError, require_count, require_non_negative, require_number, require_positive
@@ -12,7 +14,7 @@ from ..rotors.driven.base_motion import BaseMotion
 from ..rotors.driven.linear_motor import LinearMotor
 from ..rotors.profile import SpeedProfile
 from .reading.readers import Count, read_load
-from .reading.records import Record, read_record
+from .reading.records import Record, record_of
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, flag
 
@@ -146,7 +148,7 @@ class MotorTable(UnbalanceTable):
     stall_torque : float [N m]
         Torque at rest; it falls in a line to nothing at the idle speed.
     idle_speed : float [rad/s]
-    resistance : float [N m s]
+    resistance : float [N m s/rad]
         Torque per rad/s that resists.
     """
 
@@ -184,9 +186,9 @@ class GroundTable:
         Of the random phases of a spectrum.
     """
 
-    acceleration: Annotated[Record | None, read_record] = None
-    displacement: Annotated[Record | None, read_record] = None
-    spectrum: Annotated[Record | None, read_record] = None
+    acceleration: Annotated[Record | None, record_of("time [s]", "x [m/s2]", "y [m/s2]")] = None
+    displacement: Annotated[Record | None, record_of("time [s]", "x [m]", "y [m]")] = None
+    spectrum: Annotated[Record | None, record_of("frequency [rad/s]", "density [m2/s3]")] = None
     scale: Annotated[float, Quantity("1")] = 1.0
     seed: Annotated[int, Count(SEEDS, 0)] = 0
 
@@ -230,3 +232,28 @@ EXCITATIONS = {
     "ground": GroundTable,
 }
 """What may shake a scene, by name."""
+
+
+def kind_of(excitation: object) -> str:
+    """Return the name of what shakes a scene; empty for nothing."""
+    return next((name for name, table in EXCITATIONS.items() if type(excitation) is table), "")
+
+
+def require_kind(
+    excitation: object, kinds: Sequence[str], elsewhere: Mapping[str, str] = MappingProxyType({})
+) -> None:
+    """Raise InputError unless a scene is shaken by one of some kinds, or by nothing.
+
+    Parameters
+    ----------
+    excitation : ExcitationTable or None
+    kinds : sequence of str
+    elsewhere : mapping of str to str
+        Commands that take other kinds.
+    """
+    found = kind_of(excitation)
+    if not found or found in kinds:
+        return
+    wanted = " or ".join([", ".join(kinds[:-1]), kinds[-1]] if len(kinds) > 1 else kinds)
+    hint = f"; `{elsewhere[found]}` takes it" if found in elsewhere else ""
+    raise InputError(f"excitation.kind must be {wanted} here, got {found}{hint}")

@@ -8,6 +8,7 @@ from typing import Any, Protocol, Self, runtime_checkable
 from ..errors import InputError
 from ..progress import Report
 from ..readable.result import Readable
+from .excitation_table import kind_of
 from .families import family_of
 from .lubricant_table import Lubricant, LubricantTable
 
@@ -63,12 +64,19 @@ def film_tables(tables: Mapping[str, Any]) -> dict[str, FilmTable]:
     return found
 
 
-def film_table(tables: Mapping[str, Any]) -> FilmTable:
-    """Return the table of the bearing with a film among those of a scene; raise InputError without one."""
+def film_table(tables: Mapping[str, Any], excitation: object = None) -> FilmTable:
+    """Return the table of the bearing with a film among those of a scene; raise InputError without one.
+
+    The message has the commands for what there is, and for what shakes it.
+    """
     found = next(iter(film_tables(tables).values()), None)
     if found is None:
-        given = {name: family_of(name).command for name, table in tables.items() if table is not None}
-        hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
+        given = {f"[{name}]": family_of(name).command for name, table in tables.items() if table is not None}
+        if getattr(tables.get("shaft"), "compressor", None) is not None:
+            given["[shaft.compressor]"] = "rotorfilm stability-level-one"
+        if (kind := kind_of(excitation)) in ("motor", "ground"):
+            given[f"excitation.kind {kind}"] = "rotorfilm rotor-run"
+        hints = "".join(f"; `{command}` is for {what}" for what, command in given.items() if command)
         raise InputError(f"journal is required for a film, got no such table{hints}")
     return found
 

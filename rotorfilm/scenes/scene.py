@@ -222,7 +222,7 @@ class Scene:
     @property
     def film_table(self) -> FilmTable:
         """The table of the bearing with a film; raises InputError if the scene has none."""
-        return film_table(self.tables)
+        return film_table(self.tables, self.excitation)
 
     @property
     def speed(self) -> float:

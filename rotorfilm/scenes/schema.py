@@ -22,7 +22,7 @@ from .journal.echo import BearingData, bearing_data
 from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD, ConservedOil
 from .journal.journal_remarks import film_remarks
 from .lubricant_table import Lubricant, OiledTable
-from .reading.readers import read_load
+from .reading.readers import read_static_load
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, TableList, Variant, flag
 
@@ -179,7 +179,7 @@ class OperationTable:
     """
 
     speed: Annotated[float, Quantity("rad/s")]
-    load: Annotated[tuple[float, float] | None, read_load] = None
+    load: Annotated[tuple[float, float] | None, read_static_load] = None
     duration: Annotated[float | None, Quantity("s")] = None
 
     def __post_init__(self) -> None:

@@ -147,3 +147,57 @@ def test_a_run_over_time_is_followed_and_written(run, tmp_path):
     assert set(found["peaks"]) == {"left", "right", "disk"}
     assert found["work"]["steps"] > 0
     assert (tmp_path / "motion.csv").read_text(encoding="utf-8").startswith("time")
+
+
+EXAMPLES = SCENE.parent
+
+
+@pytest.mark.parametrize(
+    ("name", "hints"),
+    [
+        (
+            "compressor.toml",
+            ["`rotorfilm rotor` is for [shaft]", "`rotorfilm stability-level-one` is for [shaft.comp"],
+        ),
+        (
+            "earthquake.toml",
+            ["`rotorfilm rotor` is for [shaft]", "`rotorfilm rotor-run` is for excitation.kind ground"],
+        ),
+        (
+            "weak_motor.toml",
+            ["`rotorfilm damper-run` is for [damper]", "`rotorfilm rotor-run` is for excitation.kind mo"],
+        ),
+    ],
+)
+def test_solve_names_the_commands_for_what_it_does_not_take(run, name, hints):
+    code, out, err = run("solve", EXAMPLES / name)
+    assert (code, out) == (2, "")
+    assert f"{name}: journal is required for a film" in err
+    assert all(hint in err for hint in hints)
+
+
+@pytest.mark.parametrize(
+    "command", ["rotor-run", "damper-run", "rotor", "stability-level-one", "fmu build", "cosim"]
+)
+def test_messages_from_inside_begin_with_the_file(run, command):
+    path = EXAMPLES / "spindle_bearing.toml"
+    code, out, err = run(*command.split(), path)
+    assert (code, out) == (2, "")
+    assert f"error: {path}: " in err
+
+
+def test_folders_of_signals_are_made_and_said(run, tmp_path):
+    text = (EXAMPLES / "weak_motor.toml").read_text().replace('"0.3 s"', '"0.001 s"')
+    scene, out = tmp_path / "short.toml", tmp_path / "no" / "such" / "x.csv"
+    scene.write_text(text)
+    code, shown, _ = run("rotor-run", scene, "--out", out)
+    assert code == 0
+    assert "x.csv" in "".join(shown.split())
+    assert "at rest 0 um" in shown
+    assert out.read_text(encoding="utf-8").startswith("time")
+
+
+def test_a_folder_is_no_file_of_signals(run, tmp_path):
+    code, out, err = run("rotor-run", EXAMPLES / "weak_motor.toml", "--out", tmp_path)
+    assert (code != 0, out) == (True, "")
+    assert str(tmp_path) in err

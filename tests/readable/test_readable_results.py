@@ -19,7 +19,7 @@ from rotorfilm.charts.result_charts import PICTURES
 from rotorfilm.errors import AbsentError
 from rotorfilm.motion.periodic.continuation import Bifurcation
 from rotorfilm.readable.docstrings import explained
-from rotorfilm.readable.quantities import quantity
+from rotorfilm.readable.quantities import quantity, texts
 from rotorfilm.readable.result import Drawable, Readable
 from rotorfilm.results import Coefficients, Equilibrium, Trajectory, WhirlThreshold
 from rotorfilm.units import DISPLAY_UNITS, parse_quantity
@@ -395,3 +395,16 @@ def test_losses_without_openings_are_one_row():
     frame = losses.to_dataframe()
     assert frame.shape[0] == 1
     assert frame["power_loss"][0] == losses.power_loss
+
+
+def test_round_off_beside_a_large_entry_is_shown_as_zero():
+    """Small numbers of their own stay."""
+    shown = texts("stiffness", np.array([[4e8, -1.5e-8], [1e-3, 4e8]]), "N/m")
+    assert [line.split() for line in shown] == [
+        ["xx", "4e+08", "xy", "0", "N/m"],
+        ["yx", "0.001", "yy", "4e+08", "N/m"],
+    ]
+    assert texts("stiffness", np.array([[1e-9, 0.0], [2e-9, -3e-9]]), "N/m")[1].split()[1:4:2] == [
+        "2e-09",
+        "-3e-09",
+    ]

@@ -2,10 +2,13 @@
 
 import math
 import re
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from rotorfilm import (
     BallBearing,
@@ -17,12 +20,12 @@ from rotorfilm import (
     equilibrium,
     tandem,
 )
-from rotorfilm.errors import SceneError
+from rotorfilm.errors import InputError, SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.rolling.ball_remarks import ball_numbers
-from rotorfilm.scenes.rolling.ball_rest import rest_under
-from rotorfilm.scenes.scene import parse_scene
+from rotorfilm.scenes.rolling.ball_rest import rest_under, single_of
+from rotorfilm.scenes.scene import Scene, parse_scene, read_scene
 from rotorfilm.sweeps.point import solve_point
 
 ROW = 'balls = 10\nball_diameter = "7.938 mm"\npitch_diameter = "33.5 mm"\n'
@@ -149,3 +152,27 @@ def test_numbers_of_remarks():
     assert numbers["all"] == 20.0
     assert 0.0 < numbers["traction"] < 0.01
     assert math.isnan(numbers["film_parameter"])
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("load", ["0 N", [0.0, 0.0]])
+def test_a_preloaded_pair_carries_itself(load):
+    """A vertical spindle: in the middle, as stiff along x as along y, and as under next to no load."""
+    path = Path(__file__).parents[2] / "examples" / "spindle_bearing.toml"
+    data = tomllib.loads(path.read_text(encoding="utf-8"))
+    free, held = (
+        read_scene(data | {"operation": data["operation"] | {"load": one}}, "spindle.toml").ask()
+        for one in (load, "1e-3 N")
+    )
+    (kxx, kxy), (kyx, kyy) = free.value
+    assert kxx == pytest.approx(kyy, rel=1e-6)
+    assert max(abs(kxy), abs(kyx)) < 1e-6 * kxx
+    assert_allclose(free.value, held.value, rtol=1e-4, atol=1e-4 * kxx)
+    assert free.met
+
+
+def test_balls_that_nothing_presses_refuse_no_load():
+    path = Path(__file__).parents[2] / "examples" / "spindle_bearing.toml"
+    bearing = single_of(Scene.load(path).table("ball_bearing").build())
+    with pytest.raises(InputError, match="load must not be zero for balls that neither thrust nor preload"):
+        rest_under(replace(bearing, law=StaticBalls()), (0.0, 0.0), 0.0)

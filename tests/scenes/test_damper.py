@@ -145,7 +145,7 @@ def test_what_a_run_lacks_is_named():
         ({"rigid_rotor": None}, "damper and rigid_rotor are required"),
         (
             {"excitation": StepLoadTable(load=(1.0, 0.0))},
-            "excitation must be an unbalance, a blade_loss or a run_up",
+            "excitation.kind must be unbalance, blade_loss or run_up here, got s",
         ),
         ({"rigid_rotor": replace(whole.rigid_rotor, unbalance=1e-4)}, "rigid_rotor.unbalance must be 0"),
     ):

@@ -14,12 +14,15 @@ from rotorfilm import (
     InputError,
     SceneError,
     ShakenBaseRotor,
+    ValidityWarning,
     mount,
     rotor_equilibrium,
     simulate_rotor,
 )
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.excitation_table import MotorTable
+from rotorfilm.scenes.damper.damper_runs import run_damper
+from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
+from rotorfilm.scenes.shaft import rotor_runs
 from rotorfilm.scenes.shaft.rotor_runs import run_rotor
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -38,7 +41,9 @@ def read(data, folder=EXAMPLES):
 def test_ground_of_a_scene_is_that_of_its_record(tmp_path):
     """The same as the parts put together by hand, from a file and from rows."""
     rows = [[0.0, 0.0, 0.0], [0.02, 2.0, 1.0], [0.05, -1.0, 0.0]]
-    (tmp_path / "record.csv").write_text("t,x,y\n" + "\n".join(",".join(map(str, row)) for row in rows))
+    (tmp_path / "record.csv").write_text(
+        "time [s], x [m/s2],y [m/s2]\n" + "\n".join(",".join(map(str, row)) for row in rows)
+    )
     scene = read(shaken(acceleration="record.csv", scale=2.0), tmp_path)
     assert read(shaken(acceleration=rows, scale=2.0)) == scene
     run = run_rotor(scene)
@@ -137,8 +142,72 @@ def test_records_that_are_none(excitation, said):
         read(shaken(**excitation))
 
 
-def test_other_excitations_are_refused():
-    data = shaken()
-    data["excitation"] = {"kind": "step", "load": "1 N"}
-    with pytest.raises(InputError, match=r"excitation\.kind must be"):
-        run_rotor(read(data))
+@pytest.mark.parametrize(
+    ("key", "heading", "said"),
+    [
+        ("acceleration", "time [s],x [mm]", r"column 2 must be x \[m/s2\], got 'x \[mm\]'"),
+        ("acceleration", "time [s],y [m/s2]", r"column 2 must be x \[m/s2\], got 'y \[m/s2\]'"),
+        ("acceleration", "time [ms],x [m/s2]", r"column 1 must be time \[s\], got 'time \[ms\]'"),
+        ("displacement", "time [s],x [m/s2]", r"column 2 must be x \[m\], got"),
+        ("spectrum", "frequency [Hz],density [m2/s3]", r"column 1 must be frequency \[rad/s\], got"),
+        ("spectrum", "frequency [rad/s],x,y", "must have at most 2 columns, got"),
+    ],
+)
+def test_headings_say_what_the_columns_are(tmp_path, key, heading, said):
+    (tmp_path / "record.csv").write_text(f"{heading}\n0.0,0.0\n1.0,2.0\n")
+    with pytest.raises(SceneError, match=rf"scene.toml: excitation\.{key}:? {said}"):
+        read(shaken(**{key: "record.csv"}), tmp_path)
+
+
+@pytest.mark.parametrize("heading", ["", "time [s],x [m/s2]\n", '\ufeff"time  [s]", "x [m/s2]"\n'])
+def test_right_headings_and_none_are_taken(tmp_path, heading):
+    (tmp_path / "record.csv").write_text(f"{heading}0.0,0.0\n1.0,2.0\n", encoding="utf-8")
+    scene = read(shaken(acceleration="record.csv"), tmp_path)
+    assert scene.excitation.acceleration == ((0.0, 1.0), (0.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("excitation", "hint"),
+    [
+        ({"kind": "step", "load": "1 N"}, ""),
+        ({"kind": "sine", "load": "1 N", "frequency": "3 Hz"}, ""),
+        ({"kind": "blade_loss", "unbalance": "1 g mm"}, "; `rotorfilm damper-run` takes it"),
+    ],
+)
+def test_other_excitations_are_refused(excitation, hint):
+    said = f"excitation.kind must be unbalance, run_up, motor or ground here, got {excitation['kind']}{hint}"
+    with pytest.raises(InputError) as error:
+        run_rotor(read(shaken() | {"excitation": excitation}))
+    assert str(error.value) == said
+
+
+@pytest.mark.parametrize("kind", ["motor", "ground"])
+def test_runs_on_a_damper_name_the_command_for_what_they_do_not_take(kind):
+    scene = Scene.load(EXAMPLES / "weak_motor.toml")
+    if kind == "ground":
+        scene = replace(scene, excitation=GroundTable(acceleration=((0.0, 1.0), (0.0, 1.0))))
+    said = f"excitation.kind must be unbalance, blade_loss or run_up here, got {kind}; `rotorfilm rotor-run`"
+    with pytest.raises(InputError, match=said):
+        run_damper(scene)
+
+
+@pytest.mark.closed_form
+def test_displacement_at_rest_is_beside_the_peak():
+    """On ground that does not shake, without unbalance, the peak is the sag, that of the equilibrium."""
+    data = shaken(acceleration=[[0.0, 0.0], [0.02, 0.0]])
+    data["shaft"]["unbalances"] = []
+    scene = read(data)
+    run = run_rotor(scene)
+    rest = rotor_equilibrium(scene.shaft.build(scene.speed), scene.shaft.build_bearings(), scene.speed)
+    sag = np.hypot(*rest.displacement.reshape(2, -1)[:, 2 * 4])  # the disk is at node 4
+    assert run.at_rest["disk"] == pytest.approx(sag, rel=1e-6)
+    assert run.peaks["disk"] == pytest.approx(sag, rel=1e-4)
+    assert sag > 5e-4
+
+
+def test_a_run_with_too_few_samples_a_turn_says_so(monkeypatch):
+    monkeypatch.setattr(rotor_runs, "FEWEST", 11)
+    monkeypatch.setattr(rotor_runs, "MOST", 21)
+    scene = Scene.load(EXAMPLES / "weak_motor.toml")
+    with pytest.warns(ValidityWarning, match=r"21 samples of a run are 1.05 in a turn at the highest speed"):
+        run_rotor(scene)

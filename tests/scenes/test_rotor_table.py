@@ -185,7 +185,9 @@ def test_without_unbalance_there_is_no_response():
 
 def test_what_a_shaft_cannot_be_asked():
     loss = '[excitation]\nkind = "blade_loss"\nunbalance = "500 g mm"\n'
-    with pytest.raises(InputError, match=r"excitation.kind must be 'unbalance' for a shaft"):
+    with pytest.raises(
+        InputError, match=r"excitation.kind must be unbalance, run_up, motor or ground here, got "
+    ):
         solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, loss))
     with pytest.raises(InputError, match="shaft is required for the analyses of a flexible rotor"):
         solve_rotor(bundled_scene())
@@ -323,3 +325,12 @@ def test_a_seal_holds_a_shaft_and_its_mass_is_said_to_be_left_out():
     assert_allclose(answer.value, expected[0].speed, rtol=1e-3)
     mass = own.matrices(speeds.last).M
     assert any(f"{mass:.3g} kg of the fluid are left out" in line for line in answer.remarks)
+
+
+def test_a_shaft_in_a_scene_takes_no_ball_bearings():
+    text = (Path(__file__).parents[2] / "examples" / "flexible_rotor.toml").read_text(encoding="utf-8")
+    wrong = text + '\n[[shaft.bearings]]\nname = "balls"\nnode = 3\nball_bearing = {}\n'
+    with pytest.raises(
+        SceneError, match=r"shaft\.bearings\[2\]\.ball_bearing must be left out: .*TiltingBalls"
+    ):
+        parse_scene(wrong, "balls.toml")

@@ -20,7 +20,7 @@ from ...motion.periodic.harmonics import first_wave, resized, rms
 from ...motion.periodic.orbit_newton import driven, newton_step
 from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
-from ...scenes.excitation_table import UnbalanceTable
+from ...scenes.excitation_table import UnbalanceTable, require_kind
 from ...scenes.film_table import oil_remarks
 from ...scenes.shaft.shaft_remarks import shaft_remarks, stability_remark
 from ..orbit_place import FORCE, PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
@@ -288,6 +288,5 @@ def orbit_place(scene: Scene, quantity: str) -> OrbitPlace:
 def _extra(scene: Scene) -> tuple[UnbalanceTable, ...]:
     if scene.excitation is None:
         return ()
-    if type(scene.excitation) is not UnbalanceTable:
-        raise InputError(f"excitation.kind must be 'unbalance' for an orbit, got {scene.excitation!r}")
+    require_kind(scene.excitation, ("unbalance",))
     return (scene.excitation,)

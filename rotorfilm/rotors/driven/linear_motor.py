@@ -35,7 +35,7 @@ class LinearMotor:
     idle_speed : float or SpeedProfile [rad/s]
         Speed without load. A profile is that of a converter: the slope of the line is then that of its
         largest value, stall_torque / |idle_speed|, and the line is shifted.
-    resistance : float [N m s]
+    resistance : float [N m s/rad]
         Torque per rad/s that resists, of bearings, windage and load.
 
     Raises

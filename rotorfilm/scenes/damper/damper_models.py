@@ -11,12 +11,15 @@ from ...bearings.damper import JFODamper, PorousDamper
 from ...bearings.sprung import Sprung
 from ...errors import InputError
 from ...rotors import RigidRotor
-from ..excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
+from ..excitation_table import BladeLossTable, RunUpTable, UnbalanceTable, require_kind
 from ..families import SceneModels
 from ..schema import require_steps
 
 if TYPE_CHECKING:
     from ..scene import Scene
+
+OTHER_RUNS = dict.fromkeys(("motor", "ground"), "rotorfilm rotor-run")
+"""Command for an excitation that is not of these models."""
 
 
 class DamperScene(NamedTuple):
@@ -57,9 +60,8 @@ def damper_models(scene: Scene) -> DamperScene:
         raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
     rotor, start, duration = scene.rigid_rotor.build(scene.speed, scene.damper.load), 0.0, 0.0
     rotor = replace(rotor, position=scene.damper.offset)
-    if excitation is not None:
-        if not isinstance(excitation, UnbalanceTable):
-            raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")
+    require_kind(excitation, ("unbalance", "blade_loss", "run_up"), OTHER_RUNS)
+    if isinstance(excitation, UnbalanceTable):
         if rotor.unbalance:
             raise InputError(
                 "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "

@@ -47,6 +47,13 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     return 0.0, -magnitude
 
 
+@takes(Quantity("N"), [Quantity("N"), Quantity("N")])
+def read_static_load(where: str, value: Any) -> tuple[float, float]:
+    """Read a load [N] as `read_load` does, or none: preloaded balls carry themselves."""
+    none = not isinstance(value, list) and Quantity("N")(where, value) == 0.0
+    return (0.0, 0.0) if none else read_load(where, value)
+
+
 @takes([Quantity("m"), Quantity("m")])
 def read_place(where: str, value: Any) -> tuple[float, float]:
     """Read a place [x, y] [m]."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ...errors import SceneError, brief
 from .readers import takes
-from .tables import Quantity, text
+from .tables import Quantity, Reader, text
 
 Record = tuple[tuple[float, ...], ...]
 """Columns: the first rises, one or two more."""
@@ -17,13 +18,23 @@ ROWS = 1_000_000
 """Largest number of rows."""
 
 
-@takes(text, [[Quantity("1"), ...], ...])
-def read_record(where: str, value: Any) -> Record:
-    """Read a record: the name of a CSV file, from the folder of the scene on, or a list of rows.
+def record_of(*headings: str) -> Reader:
+    """Return the reader of a record: the name of a CSV file, from the folder of the scene on, or of its rows.
 
-    A first line of a file that is no numbers is a heading. Columns are separated by commas, in SI.
+    Columns are separated by commas, in SI. A first line of a file that is no numbers must be the headings of
+    its columns.
     """
-    rows = value if isinstance(value, list) else _rows_of(where, value)
+
+    @takes(text, [[Quantity("1"), ...], ...])
+    def read(where: str, value: Any) -> Record:
+        rows = value if isinstance(value, list) else _rows_of(where, value, headings)
+        return _columns(where, value, rows)
+
+    return read
+
+
+def _columns(where: str, value: Any, rows: list[Any]) -> Record:
+    """Return the columns of rows; raise SceneError where they are no record."""
     columns = len(rows[0]) if rows and isinstance(rows[0], list) else 0
     if not 2 <= len(rows) <= ROWS or columns not in (2, 3):
         raise SceneError(f"{where} must be 2 to {ROWS} rows of 2 or 3 numbers, got {brief(value)}")
@@ -36,16 +47,29 @@ def read_record(where: str, value: Any) -> Record:
     return table
 
 
-def _rows_of(where: str, value: Any) -> list[Any]:
-    """Return the rows of a CSV file."""
+def _rows_of(where: str, value: Any, headings: Sequence[str]) -> list[Any]:
+    """Return the rows of a CSV file, without its headings."""
     path = Path(where.partition(": ")[0]).parent / text(where, value)
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError, ValueError) as error:
         raise SceneError(f"{where} must be a file of rows of numbers, got {value!r}: {error}") from None
     cells = [line.split(",") for line in lines if line.strip()]
     rows = [[_number(cell) for cell in row] for row in cells]
-    return rows[1:] if rows and not any(_is_number(cell) for cell in rows[0]) else rows
+    if not rows or any(_is_number(cell) for cell in rows[0]):
+        return rows
+    _require_headings(where, cells[0], headings)
+    return rows[1:]
+
+
+def _require_headings(where: str, cells: Sequence[str], headings: Sequence[str]) -> None:
+    """Raise SceneError unless columns are those that are wanted, in their order and units."""
+    if len(cells) > len(headings):
+        raise SceneError(f"{where} must have at most {len(headings)} columns, got {brief(cells)}")
+    for number, (cell, wanted) in enumerate(zip(cells, headings, strict=False), 1):
+        found = " ".join(cell.strip(' "').split())
+        if found != wanted:
+            raise SceneError(f"{where}: column {number} must be {wanted}, got {brief(found)}")
 
 
 def _number(cell: str) -> float | str:

@@ -16,7 +16,7 @@ from ...bearings.rolling import (
     ball_films,
     film_parameter,
 )
-from ...errors import RotorfilmError
+from ...errors import InputError, RotorfilmError
 from ...linear import equilibrium
 from ...model import Array
 
@@ -129,13 +129,24 @@ def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
 
 
 def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> RestingBalls:
-    """Return the equilibrium under a load [N], sought from that of static balls."""
+    """Return the equilibrium under a load [N], sought from that of static balls, or without one the center.
+
+    Raises
+    ------
+    InputError
+        If there is no load, and thrust or preload do not center the shaft.
+    """
+    free = not any(load)
     try:
-        at = equilibrium(still(bearing), load, speed)
-        near = rest_at(still(bearing), at.position, speed)
+        place = np.zeros(2) if free else equilibrium(still(bearing), load, speed).position
+        near = rest_at(still(bearing), place, speed)
         found, left = moved_to(bearing, near, load)
     except RotorfilmError:
         left = math.inf
+    if free and not left <= EXACT:
+        raise InputError(
+            "load must not be zero for balls that neither thrust nor preload centers, got [0, 0]"
+        )
     return found if left <= EXACT else rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
 
 
@@ -145,12 +156,16 @@ def still(bearing: Balls) -> Balls:
 
 
 def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> tuple[RestingBalls, float]:
-    """Return where a richer law takes a rest, by Newton steps, and what of the load is left [1]."""
+    """Return where a richer law takes a rest, by Newton steps, and what of the load is left [1].
+
+    Without a load, what is left over the largest load of a contact.
+    """
     at = rest_at(bearing, near.position, near.speed)
     for _ in range(STEPS):
         step = np.linalg.lstsq(at.stiffness, at.force + load, rcond=1e-9)[0]
         at = rest_at(bearing, at.position + step, near.speed)
-    return at, float(np.hypot(*(at.force + load)) / np.hypot(*load))
+    size = np.hypot(*load) if any(load) else at.contact_load
+    return at, float(np.hypot(*(at.force + load)) / size) if size > 0.0 else math.inf
 
 
 def rest_near(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> RestingBalls:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...errors import ContactError, InputError
+from ...errors import ContactError, InputError, warn_user
 from ...linear import equilibrium, rotor_equilibrium
 from ...model import Array, Reaction
 from ...motion import simulate, simulate_rotor
@@ -16,7 +16,7 @@ from ...progress import Report, silent
 from ...readable.result import Readable
 from ...results import Trajectory
 from ...rotors import MotorDrivenRotor, RigidRotor, ShaftRotor, ShakenBaseRotor, mount
-from ..excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable
+from ..excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -29,6 +29,9 @@ A_TURN = 24
 FEWEST, MOST = 1001, 200_001
 """Samples of a run."""
 
+OTHER_RUNS = {"blade_loss": "rotorfilm damper-run"}
+"""Command for an excitation that is none of these runs."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RotorRun(Readable):
@@ -39,8 +42,10 @@ class RotorRun(Readable):
     trajectory : Trajectory
         Up to contact, if there is one.
     peaks : mapping of str to float [m]
-        Greatest distance of each journal from the center of its bearing, and of each probe from its place in
-        a straight shaft.
+        Greatest distance, among the samples, of each journal from the center of its bearing, and of each
+        probe from its place in a straight shaft.
+    at_rest : mapping of str to float [m]
+        The same at the beginning: how far the weight holds each down.
     end_speed : float [rad/s]
     contact_time : float or None [s]
         When a journal reached the wall; None if none did.
@@ -48,6 +53,7 @@ class RotorRun(Readable):
 
     trajectory: Trajectory
     peaks: Mapping[str, float]
+    at_rest: Mapping[str, float]
     end_speed: float
     contact_time: float | None = None
 
@@ -82,15 +88,20 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     EquilibriumError
         If a film cannot carry its load.
 
+    Warns
+    -----
+    ValidityWarning
+        Where the run is so long that its samples are fewer in a turn.
+
     Notes
     -----
-    A contact ends the run and is no error. A shaft on a motor is integrated by scipy, all else in C.
+    A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
+    A shaft on a motor is integrated by scipy, all else in C.
     """
     report(0.0, "equilibrium")
     parts = _parts(scene)
     report(0.05, "motion")
-    turns = parts.fastest * parts.duration / (2.0 * np.pi)
-    times = np.linspace(0.0, parts.duration, min(max(int(A_TURN * turns) + 1, FEWEST), MOST))
+    times = _times(parts)
     contact = None
     try:
         trajectory = _motion(scene, parts, times)
@@ -100,24 +111,32 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
             raise
         contact = float(trajectory.time[-1])
     report(1.0, "done")
+    sizes = _sizes(trajectory)
     return RotorRun(
         trajectory=trajectory,
-        peaks=_peaks(trajectory),
+        peaks={name: float(size.max()) for name, size in sizes.items()},
+        at_rest={name: float(size[0]) for name, size in sizes.items()},
         end_speed=float(trajectory["speed"][-1]),
         contact_time=contact,
     )
 
 
+def _times(parts: _Parts) -> Array:
+    """Return the times of the samples [s]."""
+    turns = parts.fastest * parts.duration / (2.0 * np.pi)
+    count = max(int(A_TURN * turns) + 1, FEWEST)
+    if count > MOST:
+        warn_user(
+            f"{MOST} samples of a run are {(MOST - 1) / turns:.3g} in a turn at the highest speed, fewer "
+            f"than {A_TURN}: peaks may lie between them; a shorter operation.duration has more"
+        )
+    return np.linspace(0.0, parts.duration, min(count, MOST))
+
+
 def _parts(scene: Scene) -> _Parts:
     """Return the rotor of a scene at rest in its bearings."""
     excitation, speed, duration = scene.excitation, scene.speed, None
-    if not isinstance(excitation, None | RunUpTable | MotorTable | GroundTable) and (
-        type(excitation) is not UnbalanceTable
-    ):
-        raise InputError(
-            'excitation.kind must be "unbalance", "run_up", "motor" or "ground" for a run of a rotor, '
-            f"got {excitation!r}"
-        )
+    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
     fastest = abs(speed)
     if isinstance(excitation, RunUpTable):
         duration = excitation.profile(speed).times[-1]
@@ -193,11 +212,10 @@ def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
     )
 
 
-def _peaks(run: Trajectory) -> dict[str, float]:
-    """Return the greatest size of each displacement (x, y)."""
+def _sizes(run: Trajectory) -> dict[str, Array]:
+    """Return the size of each displacement (x, y) over time."""
     pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
     moved = [name for name in pairs if not name.endswith("force_x")]
     return {
-        name[:-2] or "journal": float(np.hypot(run.signals[name], run.signals[f"{name[:-1]}y"]).max())
-        for name in moved
+        name[:-2] or "journal": np.hypot(run.signals[name], run.signals[f"{name[:-1]}y"]) for name in moved
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -24,7 +24,7 @@ from ...rotors import (
 from ..lubricant_table import LubricantTable
 from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
-from ..reading.tables import Keyed, Quantity, Table, read_table, require_table, text
+from ..reading.tables import Keyed, Quantity, Table, TableList, read_table, require_table, text
 from ..schema import JournalTable
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
@@ -239,3 +239,17 @@ class BearingTable:
     def station(self) -> Station:
         """Return where it is."""
         return made_from(Station, self)
+
+
+class BearingList(TableList):
+    """Reader of `shaft.bearings`."""
+
+    def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
+        """Return the bearings; raise SceneError for one of balls, too."""
+        for k, entry in enumerate(value if isinstance(value, list) else ()):
+            if isinstance(entry, Mapping) and "ball_bearing" in entry:
+                raise SceneError(
+                    f"{where}[{k}].ball_bearing must be left out: a shaft in a scene takes no ball bearings; "
+                    "rotorfilm.TiltingBalls in Python does"
+                )
+        return super().__call__(where, value)

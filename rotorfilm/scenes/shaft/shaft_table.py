@@ -29,7 +29,16 @@ from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Quantity, Table, TableList
 from .compressor_table import CompressorTable
-from .shaft_parts import MATERIAL, PROBE, TILT_SPRING, BearingTable, DiskTable, PieceTable, read_pieces
+from .shaft_parts import (
+    MATERIAL,
+    PROBE,
+    TILT_SPRING,
+    BearingList,
+    BearingTable,
+    DiskTable,
+    PieceTable,
+    read_pieces,
+)
 
 BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
 """Beam elements by their names in scene files."""
@@ -86,7 +95,7 @@ class ShaftTable:
 
     material: Annotated[ElasticMaterial, Table(MATERIAL)]
     elements: Annotated[tuple[PieceTable | Coupling, ...], read_pieces]
-    bearings: Annotated[tuple[BearingTable, ...], TableList(BearingTable)]
+    bearings: Annotated[tuple[BearingTable, ...], BearingList(BearingTable)]
     speeds: Annotated[SpeedRangeTable, Table(SpeedRangeTable)]
     disks: Annotated[tuple[DiskTable, ...], TableList(DiskTable)] = ()
     unbalances: Annotated[tuple[UnbalanceTable, ...], TableList(UnbalanceTable)] = ()

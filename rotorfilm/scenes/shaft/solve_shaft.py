@@ -24,7 +24,7 @@ from ...linear import (
 from ...model import Array
 from ...progress import Report, part_of, silent
 from ...readable.result import Drawable
-from ..excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable
+from ..excitation_table import GroundTable, UnbalanceTable, require_kind
 from ..film_table import oil_remarks
 from .shaft_remarks import shaft_remarks
 
@@ -178,7 +178,6 @@ def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
     found = scene.excitation
     if found is None or isinstance(found, GroundTable):
         return ()
-    if type(found) not in (UnbalanceTable, RunUpTable, MotorTable):
-        raise InputError(f"excitation.kind must be 'unbalance' for a shaft, got {found!r}")
+    require_kind(found, ("unbalance", "run_up", "motor", "ground"))
     assert isinstance(found, UnbalanceTable)
     return (found,)

@@ -10,8 +10,8 @@ from ...films.conserved.oil_spec import OilNumbers
 from ..bearing import JournalBearing
 
 REMEDY = (
-    "a groove or a feed hole (grooves=(Groove(...),) of the bearing), or ends in an oil bath with a cavity "
-    "below ambient (submerged=True, cavitation_pressure=-1e5)"
+    "a groove or a feed hole (grooves=(Groove(...),) of the bearing), circumferential_groove (its width), or "
+    "ends in an oil bath with a cavity below ambient (submerged=True, cavitation_pressure=-1e5)"
 )
 
 
