@@ -199,11 +199,13 @@ def _groove(text: str) -> Groove:
 
 def operation_of(load: str, speed: str) -> tuple[tuple[float, float], float]:
     """Return the load [N] and the speed [rad/s]."""
+    from ..scenes.reading.readers import read_load
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import OperationTable
 
     components = load.split(",")
     options = {"load": components if len(components) > 1 else load, "speed": speed}
+    read_load("--load", options["load"])  # which is not zero, that of an operation may be
     table = read_table(OperationTable, "--", options)
     assert table.load is not None
     return table.load, table.speed
