@@ -226,6 +226,8 @@ def test_what_cracks_refuse():
         rf.CrackedRotor(rotor=JEFFCOTT, crack=rf.ShaftCrack(element=0, depth=1e-3))
     with pytest.raises(rf.InputError, match=r"depth must not exceed the radius 0.025, got 0.03"):
         shaft(rf.ClassicalBeam(), depth=0.03)
+    with pytest.raises(rf.InputError, match=r"poisson_ratio must be above -1 and at most 0.5, got 2.0"):
+        rf.crack_compliance(depth=0.01, radius=0.025, young_modulus=2.1e11, poisson_ratio=2.0)
     with pytest.raises(rf.InputError, match="element must be from 0 to 0"):
         shaft(rf.ClassicalBeam(), elements=1)
     with pytest.raises(rf.InputError, match="edge must not exceed a quarter"):

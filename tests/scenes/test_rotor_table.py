@@ -301,7 +301,7 @@ SEAL = """[[shaft.bearings]]
 name = "wear_ring"
 node = 3
 [shaft.bearings.seal]
-radius = "60 mm"
+diameter = "120 mm"
 length = "25 mm"
 clearance = "0.6 mm"
 pressure_drop = "6 bar"
@@ -320,6 +320,7 @@ def test_a_seal_holds_a_shaft_and_its_mass_is_said_to_be_left_out():
     own = bearings["wear_ring"]
     assert not own.added_mass
     assert own.inlet_swirl == 0.4
+    assert own.radius == 0.06
     answer = given.solve()
     expected = critical_speeds(given.shaft.build(), bearings, speeds.build())
     assert_allclose(answer.value, expected[0].speed, rtol=1e-3)

@@ -176,7 +176,7 @@ class AnnularSeal(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
         """
         stream = steady_flow(self.gap, np.asarray(float(frequency)))
         m, loss = self.friction.exponent, float(stream.friction) * self.length / self.clearance

@@ -26,9 +26,13 @@ from numpy.polynomial.legendre import leggauss
 
 from .seal_flow import SealGap, Stream
 
-_NODES, _WEIGHTS = leggauss(48)
-PLACES, WEIGHTS = 0.5 * (_NODES + 1.0), 0.5 * _WEIGHTS
-"""Gauss's rule over z / length: exact to roundoff for polynomials times exp(-a z/length), a up to 100."""
+_NODES, _WEIGHTS = leggauss(64)
+_CROWDED = 0.5 * (_NODES + 1.0)
+PLACES, WEIGHTS = _CROWDED**4, 2.0 * _WEIGHTS * _CROWDED**3
+"""Gauss's rule over z / length, crowded at the inlet, where swirl decays: polynomials times exp(-a z/length).
+
+Exact to roundoff for a up to 100, as of turbulent flow; 1e-7 at a = 1e4 and 1e-5 at 3e4, as of laminar flow.
+"""
 
 Wide = np.ndarray
 """Real or complex, of any shape."""

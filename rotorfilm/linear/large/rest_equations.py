@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from typing import cast
 
 import numpy as np
 from scipy.linalg import block_diag
 
-from ...bearings.contact_place import minimum_film
+from ...bearings.contact_place import minimum_film, relative_film
 from ...errors import EquilibriumError, InputError
 from ...model import Array, Reaction
 from ...rotors.structure import Structure, across_planes
@@ -174,7 +175,28 @@ class RestEquations:
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
-            f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight"
+            f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight{self._too_far(p)}"
+        )
+
+    def _too_far(self, p: Array) -> str:
+        """Return how far the shaft sags where its journal is closest to contact, if that is out of reach."""
+        if not self.names:
+            return ""
+        films = [relative_film(b, at) for b, at in zip(self.bearings, self.split(p), strict=True)]
+        k = int(np.argmin(films))
+        row, clearance = sum(self.sizes[:k]), self.bearings[k].clearance
+        others = copy(self)
+        others.journals = np.delete(self.journals, np.s_[row : row + self.sizes[k]], axis=0)
+        try:
+            q, _ = others.on_rigid_bearings()
+        except EquilibriumError:
+            return ""
+        sag = math.hypot(*(self.journals[row : row + 2] @ q))
+        if sag <= clearance:
+            return ""
+        return (
+            f"; without the bearing at {self.names[k]!r} the shaft sags {sag:.3g} m there, and its clearance "
+            f"is {clearance:.3g} m"
         )
 
     def _within(self, p: Array, step: Array) -> float:

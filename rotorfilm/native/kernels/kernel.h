@@ -61,6 +61,9 @@ typedef struct rf_kernel_type {
     int (*output)(const void *kernel, const rf_point *at, double *y, rf_message *why);
     int (*jacobian)(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why);
 
+    /* Whether `output` may add a mass to the force of two numbers: mass_xx, mass_xy, mass_yy, where it has five. */
+    int adds_mass;
+
     /* Of kernels with states. At a kink in time the derivative is the one just after it. */
     int (*derivative)(const void *kernel, const rf_point *at, double *dx, rf_message *why);
 

@@ -168,4 +168,5 @@ const rf_kernel_type rf_oil_damper_type = {
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = derivatives,
+    .adds_mass = 1,
 };

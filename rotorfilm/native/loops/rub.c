@@ -45,9 +45,12 @@ int rf_both_at(const void *of, const double *state, double *f, double *jacobian)
     double other[2], slopes[10];
     const int first = both->first(both->of_first, state, f, jacobian);
     const int second = both->second(both->of_second, state, other, jacobian ? slopes : NULL);
+    const int worst = first > second ? first : second;
+    if (worst > RF_OUTSIDE)
+        return worst;
     for (int i = 0; i < 2; ++i)
         f[i] += other[i];
     for (int i = 0; jacobian && i < 10; ++i)
         jacobian[i] += slopes[i];
-    return first > second ? first : second;
+    return worst;
 }

@@ -96,8 +96,13 @@ static int react(const rf_mounted *self, double speed, const double *x, int deri
     return worst;
 }
 
+static int say_unsolved(double t, rf_message *why)
+{
+    return rf_say(why, RF_NOT_FINITE, "the forces with the masses of the oil are not finite at t = %.9g s", t);
+}
+
 /* x' by the forces of the bearings, which become those with their masses. */
-static void set_rates(const rf_mounted *self, const rf_point *at, double *dx)
+static int set_rates(const rf_mounted *self, const rf_point *at, double *dx)
 {
     const size_t n = self->n;
     const rf_spin spin = rf_spin_at(&self->profile, at->t);
@@ -109,8 +114,9 @@ static void set_rates(const rf_mounted *self, const rf_point *at, double *dx)
     rf_add_product(n, 2 * n, spin.speed, self->spin, at->x, rate);
     rf_add_product(n, self->inputs, 1.0, self->push, at->u, rate);
     rf_add_product(n, 2, 1.0, self->unbalance, shake, rate);
-    rf_mounted_load(self, dx);
+    const int status = rf_mounted_load(self, dx);
     rf_add_product(n, 2 * self->bearings, 1.0, self->carry, self->force, rate);
+    return status;
 }
 
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
@@ -119,7 +125,8 @@ static int derivative(const void *kernel, const rf_point *at, double *dx, rf_mes
     const int status = react(self, rf_spin_at(&self->profile, at->t).speed, at->x, 0, why);
     if (status > RF_OUTSIDE)
         return status;
-    set_rates(self, at, dx);
+    if (set_rates(self, at, dx) != RF_OK)
+        return say_unsolved(at->t, why);
     for (size_t i = 0; i < self->n; ++i)
         if (!isfinite(dx[self->n + i]))
             return rf_say(why, RF_NOT_FINITE, "acceleration %zu is not finite at t = %.9g s", i, at->t);
@@ -132,8 +139,8 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     const double speed = rf_spin_at(&self->profile, at->t).speed;
     const int status = react(self, speed, at->x, 0, why);
     double *masses = y + self->sensed + 1 + 2 * self->bearings;
-    if (self->masses && status <= RF_OUTSIDE)
-        set_rates(self, at, self->right);
+    if (self->masses && status <= RF_OUTSIDE && set_rates(self, at, self->right) != RF_OK)
+        return say_unsolved(at->t, why);
     memset(y, 0, self->sensed * sizeof *y);
     rf_add_product(self->sensed, 2 * self->n, 1.0, self->sense, at->x, y);
     y[self->sensed] = speed;
@@ -161,7 +168,7 @@ static void chain(const rf_mounted *self, double *forced)
 }
 
 /* The slopes of the forces by states and inputs, with those of their masses, and the rows of the masses. */
-static void load_slopes(const rf_mounted *self, const rf_point *at, rf_jacobian *answer)
+static int load_slopes(const rf_mounted *self, const rf_point *at, rf_jacobian *answer)
 {
     const size_t n = self->n, twice = 2 * n, m = self->inputs, f = 2 * self->bearings, s = self->sensed + 1;
     const double speed = rf_spin_at(&self->profile, at->t).speed;
@@ -177,7 +184,8 @@ static void load_slopes(const rf_mounted *self, const rf_point *at, rf_jacobian 
                                   : self->push[i * m + (j - twice)];
         for (size_t k = 0; k < f; ++k)
             self->force[k] = forced[k * step];
-        rf_mounted_load(self, dx);
+        if (rf_mounted_load(self, dx) != RF_OK)
+            return RF_NOT_FINITE;
         for (size_t k = 0; k < f; ++k)
             forced[k * step] = self->force[k];
     }
@@ -188,6 +196,7 @@ static void load_slopes(const rf_mounted *self, const rf_point *at, rf_jacobian 
                 for (size_t j = 0; j < twice; ++j)
                     row[j] += self->mass_by[12 * k + 4 * i + c] * self->motion[(4 * k + c) * twice + j];
         }
+    return RF_OK;
 }
 
 static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
@@ -206,12 +215,13 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
     memcpy(answer->C, self->sense, s * twice * sizeof(double));
     memset(answer->C + s * twice, 0, twice * sizeof(double));
     if (self->masses) {
-        set_rates(self, at, self->right);
+        if (set_rates(self, at, self->right) != RF_OK)
+            return say_unsolved(at->t, why);
         rf_mounted_slope_masses(self, self->right, 0.0);
     }
     chain(self, forced);
-    if (self->masses)
-        load_slopes(self, at, answer);
+    if (self->masses && load_slopes(self, at, answer) != RF_OK)
+        return say_unsolved(at->t, why);
     for (size_t i = 0; i < n; ++i) {
         double *row = answer->A + (n + i) * twice;
         answer->A[i * twice + n + i] = 1.0;
@@ -241,7 +251,7 @@ static void drift(const void *kernel, const rf_point *at, double *slope)
     if (a != 0.0 || self->masses) {
         for (size_t k = 0; k < 2 * self->bearings; ++k)
             self->force[k] = a * self->by_speed[k];
-        rf_mounted_load(self, slope);
+        (void)rf_mounted_load(self, slope); /* factorize, before it, has solved the same matrix */
         rf_add_product(n, 2 * self->bearings, 1.0, self->carry, self->force, slope + n);
     }
 }
@@ -254,7 +264,8 @@ static int factorize(void *kernel, const rf_point *at, double shift, rf_message 
     if (status > RF_OUTSIDE)
         return status;
     if (self->masses) {
-        set_rates(self, at, self->right);
+        if (set_rates(self, at, self->right) != RF_OK)
+            return say_unsolved(at->t, why);
         rf_mounted_slope_masses(self, self->right, shift);
     }
     if (shift != self->shift || speed != self->speed)

@@ -37,8 +37,8 @@ void rf_mounted_invert(rf_mounted *self, double shift, double speed);
 int rf_mounted_close_loop(const rf_mounted *self, rf_message *why);
 
 /* A bearing that adds the mass M of its oil to its journal, whose acceleration is a = V x', answers f - M a. With the
-   forces without mass, and x' without any of these forces: make them those with mass. */
-void rf_mounted_load(const rf_mounted *self, const double *dx);
+   forces without mass, and x' without any of these forces: make them those with mass. RF_NOT_FINITE if there are none. */
+int rf_mounted_load(const rf_mounted *self, const double *dx);
 /* The accelerations of the journals by x'. */
 void rf_mounted_accelerate(const rf_mounted *self, const double *dx);
 /* Add M a, or -M a, to forces. */

@@ -1,4 +1,5 @@
 /* The masses that the oil of bearings adds: forces that solve the accelerations of rotor and oil at once. */
+#include <math.h>
 #include <string.h>
 
 #include "../solvers/dense.h"
@@ -35,12 +36,12 @@ void rf_mounted_add_inertia(const rf_mounted *self, double sign, double *forces)
             forces[2 * k + i] += sign * times_mass(self->mass + 3 * k, i, self->acceleration + 2 * k);
 }
 
-void rf_mounted_load(const rf_mounted *self, const double *dx)
+int rf_mounted_load(const rf_mounted *self, const double *dx)
 {
     const size_t n = self->n, f = 2 * self->bearings;
     double *const joint = self->joint;
     if (self->masses == 0)
-        return;
+        return RF_OK;
     rf_mounted_accelerate(self, dx);
     rf_mounted_add_inertia(self, -1.0, self->force);
     memset(joint, 0, f * f * sizeof *joint);
@@ -56,6 +57,10 @@ void rf_mounted_load(const rf_mounted *self, const double *dx)
         joint[j * f + j] += 1.0;
     }
     rf_eliminate(f, joint, 1, self->force);
+    for (size_t k = 0; k < f; ++k)
+        if (!isfinite(self->force[k]))
+            return RF_NOT_FINITE;
+    return RF_OK;
 }
 
 void rf_mounted_slope_masses(const rf_mounted *self, const double *dx, double shift)

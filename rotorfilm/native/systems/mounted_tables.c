@@ -125,7 +125,7 @@ static int take_bearing(rf_mounted_bearing *self, const double *entry, const rf_
     self->kernel = self->type->create(&set, &sizes, why);
     self->parameters = sizes.parameters;
     self->inputs = sizes.inputs;
-    self->heavy = self->kernel && sizes.outputs == 5;
+    self->heavy = self->kernel && self->type->adds_mass && sizes.outputs == 5;
     return self->kernel ? RF_OK : RF_INVALID;
 }
 

@@ -46,7 +46,8 @@ def crack_compliance(
     require_non_negative("depth", depth)
     require_positive("radius", radius)
     require_positive("young_modulus", young_modulus)
-    require_number("poisson_ratio", poisson_ratio)
+    if not -1.0 < require_number("poisson_ratio", poisson_ratio) <= 0.5:
+        raise InputError(f"poisson_ratio must be above -1 and at most 0.5, got {poisson_ratio!r}")
     if depth > DEEPEST * radius:
         raise InputError(f"depth must not exceed the radius {radius!r}, got {depth!r}")
     a = depth / radius

@@ -74,7 +74,8 @@ PROBE = Keyed(Probe, {"node": NODE, "name": text})
 SEAL = Keyed(
     AnnularSeal,
     {
-        **dict.fromkeys(("radius", "length", "clearance"), Quantity("m")),
+        "radius": Quantity("m", twice="diameter"),
+        **dict.fromkeys(("length", "clearance"), Quantity("m")),
         "pressure_drop": Quantity("Pa"),
         "viscosity": Quantity("Pa.s"),
         "density": Quantity("kg/m3"),

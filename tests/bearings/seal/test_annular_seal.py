@@ -1,5 +1,7 @@
 """The annular seal against closed forms of others, and against the perturbed bulk flow solved in full."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,6 +9,7 @@ from scipy.integrate import solve_ivp
 from seal_range import SPEED, BulkFlow, fitted
 
 import rotorfilm as rf
+from rotorfilm.bearings.seal import short_seal
 
 WATER = {"viscosity": 1e-3, "density": 1000.0}
 
@@ -57,6 +60,21 @@ def test_laminar_flow_is_the_short_bearing():
     assert_allclose(M, np.pi * own.density * R * L**3 / (12.0 * c), rtol=2e-2)
     assert_allclose(own.flow(0.0).axial_velocity, c**2 * 1e4 / (12.0 * mu * L), rtol=1e-3)
     assert_allclose(K, -M * (0.5 * SPEED) ** 2 + laminar_rise(own), rtol=5e-2)
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize("viscosity", [0.02, 0.05, 0.2])
+def test_swirl_that_laminar_flow_loses_at_once(viscosity, monkeypatch):
+    # Oil loses its swirl within 1/1600 to 1/26000 of the length.
+    laminar = rf.HirsFriction(coefficient=24.0, exponent=-1.0)
+    size = {"length": 0.02, "clearance": 1e-4, "viscosity": viscosity, "density": 870.0, "inlet_swirl": 0.0}
+    own, speeds = seal(**size, friction=laminar), np.array([100.0, SPEED])
+    found = own.matrices(speeds)
+    nodes, weights = np.polynomial.legendre.leggauss(1500)
+    monkeypatch.setattr(short_seal, "PLACES", (0.5 * (nodes + 1.0)) ** 2)
+    monkeypatch.setattr(short_seal, "WEIGHTS", 0.5 * weights * (nodes + 1.0))
+    for value, reference in zip(found, own.matrices(speeds), strict=True):
+        assert_allclose(value, reference, rtol=1e-5)
 
 
 def laminar_rise(own):
@@ -179,14 +197,18 @@ def test_coefficients_and_damped_modes_carry_the_mass():
     assert [signal.name for signal in light.outputs] == ["force_x", "force_y"]
 
 
-def test_a_shaft_rests_in_a_seal_that_could_not_carry_it():
+def sagging_shaft(mass):
     steel = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
-    shaft = rf.ShaftRotor(
+    return rf.ShaftRotor(
         elements=rf.ShaftElement(length=1.0, outer_diameter=0.06, material=steel).split(4),
         speed=SPEED,
         stations=tuple(rf.Station(node=n, name=name) for n, name in enumerate(("a", "", "seal", "_", "b"))),
-        disks=(rf.Disk(node=2, mass=100.0),),
+        disks=(rf.Disk(node=2, mass=mass),),
     )
+
+
+def test_a_shaft_rests_in_a_seal_that_could_not_carry_it():
+    shaft = sagging_shaft(100.0)
     spring, own = rf.LinearBearing(stiffness=5e7, damping=1e4), seal(0.1, added_mass=False)
     bearings = {"a": spring, "b": spring, "seal": own}
     rest = rf.rotor_equilibrium(shaft, bearings, SPEED)
@@ -197,6 +219,18 @@ def test_a_shaft_rests_in_a_seal_that_could_not_carry_it():
     modes = rf.rotor_modes(shaft, bearings, SPEED, 1e3)
     same = rf.rotor_modes(shaft, {**bearings, "seal": matrices}, SPEED, 1e3)
     assert_allclose(modes.eigenvalues, same.eigenvalues, rtol=1e-8)
+
+
+@pytest.mark.closed_form
+def test_a_shaft_that_sags_beyond_its_seal_is_told_so():
+    spring, own = rf.LinearBearing(stiffness=5e7, damping=1e4), seal(0.1, added_mass=False)
+    message = r"at 'seal' the shaft sags (\S+) m there, and its clearance is 0.0002 m"
+    with pytest.raises(rf.EquilibriumError, match=message) as told:
+        rf.rotor_equilibrium(sagging_shaft(400.0), {"a": spring, "b": spring, "seal": own}, SPEED)
+    bending = 2.1e11 * np.pi * 0.06**4 / 64.0
+    own_weight = 7800.0 * np.pi * 0.03**2 * 9.81
+    sag = 400.0 * 9.81 / (48.0 * bending) + 5.0 / 384.0 * own_weight / bending  # 1 m long, without shear
+    assert_allclose(float(re.search(message, str(told.value))[1]), sag, rtol=0.02)
 
 
 def test_what_is_outside_of_its_range():

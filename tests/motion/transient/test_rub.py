@@ -261,6 +261,19 @@ def test_parallel_reactions_add_up():
         rf.ParallelReaction((film, 3.0))
 
 
+def test_where_one_of_two_touches_its_wall_nothing_is_added():
+    from rotorfilm.motion.compiled.film_calls import kernel_call
+    from rotorfilm.native import Status
+    from rotorfilm.native.library import loops
+
+    film = rf.JournalBearing(radius=0.05, length=0.02, clearance=3e-4, viscosity=0.02)
+    call = kernel_call(rf.ParallelReaction((RING, film)))
+    state, force, slopes = np.array([3.1e-4, 0.0, 0.0, 0.01, 50.0]), np.empty(2), np.empty((2, 5))
+    status = loops()["rf_both_at"](call.data, state.ctypes.data, force.ctypes.data, slopes.ctypes.data)
+    assert status == Status.AT_WALL
+    assert_allclose(slopes, RING.jacobian(state[:2], state[2:4], 50.0), rtol=1e-12, atol=1e-7)
+
+
 def test_what_a_ring_refuses():
     with pytest.raises(rf.InputError, match="gap must be finite and positive"):
         rf.RubRing(gap=0.0, stiffness=1e7, radius=0.05)
