@@ -260,3 +260,14 @@ def test_rigid_supports_of_many_elements():
 def test_one_rigid_bearing_does_not_hold_a_rotor():
     with pytest.raises(rf.InputError, match="stations must hold the rotor"):
         rf.rigid_support_speed(jeffcott(stations=(rf.Station(node=1, name="left"),)))
+
+
+def test_level_two_refuses_what_else_grows():
+    """A bearing that drives whirl against the rotation: the first forward whirl is damped all the more."""
+    against = springs(stiffness=((STIFFNESS, -2e8), (2e8, STIFFNESS)))
+    found = rf.stability_level_two(jeffcott(), against, SPEED)
+    assert found.log_decrement > 0.1
+    assert not found.acceptable
+    assert found.verdict.startswith("not acceptable: final log decrement")
+    assert "another whirl, of " in found.verdict
+    assert found.verdict.endswith("grows at 1200 rad/s")
