@@ -307,6 +307,15 @@ viscosity = "1 mPa s"
 density = 1000
 inlet_swirl = 0.4
 """
+
+
+@pytest.mark.filterwarnings("ignore:left out")
+def test_a_seal_is_no_rigid_support_of_a_compressor():
+    parts = HEAD, SHAFT, DISKS, SPEEDS, SPRINGS
+    bare, sealed = (solve_level_one(scene(*parts, *more, COMPRESSOR)) for more in ((), (SEAL,)))
+    assert sealed.critical_speed_ratio == pytest.approx(bare.critical_speed_ratio, rel=1e-12)
+
+
 ASKED = '[question]\nquantity = "critical_speed"\ntolerance = "1 %"\n'
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -95,6 +96,8 @@ class AnnularSeal(InertialModel):
     inlet_swirl: float = 0.5
     friction: HirsFriction = field(default_factory=HirsFriction)
     added_mass: bool = True
+
+    carries_load: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         positive = ("radius", "length", "clearance", "pressure_drop", "viscosity", "density")

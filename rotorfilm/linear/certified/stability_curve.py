@@ -97,7 +97,7 @@ def _neutral(excited: CrossCoupledRotor, start: ForwardWhirl, anticipated: float
 
 
 def other_growth(excited: CrossCoupledRotor, expected: ForwardWhirl, where: str) -> str:
-    """Return what grows besides the first forward whirl, in words that end with `where`; empty for nothing."""
+    """Return what grows besides the first forward whirl, with the words `where`; empty for nothing."""
     values = excited.motions(expected.cross_coupling).eigenvalues
     grows = (values.real > 1e-9 * np.abs(values)) & (np.abs(values - expected.value) > 1e-6 * np.abs(values))
     if not grows.any():
