@@ -295,6 +295,12 @@ def test_a_bad_compressor(change, message):
         scene(HEAD, SHAFT, SPEEDS, SPRINGS, COMPRESSOR.replace(*change))
 
 
+def test_clearances_of_a_compressor_want_a_journal_bearing():
+    tight = COMPRESSOR.replace('"9000 rpm"', '"9000 rpm"\nsmallest_clearance = "50 um"')
+    with pytest.raises(InputError, match="smallest_clearance must be left out without a journal bearing"):
+        solve_level_one(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, tight))
+
+
 SEAL = """[[shaft.bearings]]
 name = "wear_ring"
 node = 3
