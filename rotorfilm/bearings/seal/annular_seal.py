@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -97,8 +96,6 @@ class AnnularSeal(InertialModel):
     friction: HirsFriction = field(default_factory=HirsFriction)
     added_mass: bool = True
 
-    carries_load: ClassVar[bool] = False
-
     def __post_init__(self) -> None:
         positive = ("radius", "length", "clearance", "pressure_drop", "viscosity", "density")
         require_each(self, require_positive, *positive)
@@ -108,6 +105,11 @@ class AnnularSeal(InertialModel):
         require_number("inlet_swirl", self.inlet_swirl)
         require_kind("friction", self.friction, HirsFriction, "a HirsFriction")
         self._warn()
+
+    @property
+    def carries_load(self) -> bool:
+        """Whether it is a bearing: it is none, and no rigid support of a critical speed."""
+        return False
 
     @property
     def slenderness(self) -> float:
