@@ -61,7 +61,8 @@ def _screening(result: StabilityLevelOne, axes: Axes) -> None:
     right = max(1.2 * most, 1.2 * density)
     border = np.array([0.0, least, most, most]), np.array([*BORDER_RATIO[:1], *BORDER_RATIO, 0.0])
     axes.plot(*border, "k-", linewidth=1.0, label="border of regions A and B")
-    axes.text(0.4 * least, 0.5, "A")
+    low = result.critical_speed_ratio < 1.0 and density < least
+    axes.text(0.4 * least, 1.5 if low else 0.5, "A")
     axes.text(1.05 * most, 0.5, "B")
     if result.average_density is not None:
         axes.plot([density], [result.critical_speed_ratio], "ks", label="this machine")

@@ -16,7 +16,7 @@ from .command import Argument, Option, Said, SignalFile, inside, make_room, writ
 from .solve_command import remark_rows
 
 if TYPE_CHECKING:
-    from ..linear import StabilityLevelOne
+    from ..linear import StabilityCurve, StabilityLevelOne
     from ..scenes.shaft.rotor_runs import RotorRun
     from ..scenes.shaft.solve_shaft import RotorAnswer
 
@@ -51,17 +51,55 @@ def stability_level_one(
 ) -> Said:
     """Screen the stability of a compressor by API 617, level I: log decrement over applied cross-coupling."""
     from ..scenes import Scene
-    from ..scenes.shaft.solve_compressor import solve_level_one
+    from ..scenes.shaft.solve_compressor import level_one_remarks, solve_level_one
 
     given = Scene.load(scene)
     with inside(scene):
-        found = solve_level_one(given)
+        found, remarks = solve_level_one(given), level_one_remarks(given)
+    plain = {**to_plain(found), "remarks": list(remarks)}
     if out is not None:
-        write_level_one(found, out)
-    return Said(to_plain(found), partial(console.print_rows, given.title, found.to_rows()))
+        write_level_one(found, plain, out)
+    rows = level_one_rows(found) + remark_rows(remarks)
+    return Said(plain, partial(console.print_rows, given.title, rows))
 
 
-def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
+def level_one_rows(found: StabilityLevelOne) -> list[tuple[str, str]]:
+    """Return the rows that describe an analysis."""
+    each, density = found.stage_cross_coupling, found.average_density
+    least = min(found.curves, key=lambda curve: curve.anticipated_decrement)
+    zero = min(found.curves, key=lambda curve: curve.zero_cross_coupling)
+    rows = [
+        ("verdict", found.verdict),
+        ("speed", f"{found.speed * RPM:.6g} rpm"),
+        (
+            "anticipated QA",
+            f"{found.anticipated_cross_coupling:.4g} N/m of {len(each)} stage{'s' * (len(each) > 1)}",
+        ),
+        ("acts at", ", ".join(f"node {node} ({100.0 * part:.3g} %)" for node, part in found.nodes.items())),
+        ("decrement of zero at Q0", _neutral(zero)),
+        ("margin Q0/QA", f"{found.margin:.4g}"),
+        ("least log decrement with QA", f"{found.anticipated_decrement:.4g} ({least.name})"),
+        ("critical speed ratio", f"{found.critical_speed_ratio:.4g}"),
+    ]
+    if density is not None:
+        rows.append(("average density", f"{density:.4g} kg/m3"))
+    return rows + [(f"log decrement, {curve.name}", _course(curve)) for curve in found.curves]
+
+
+def _neutral(curve: StabilityCurve) -> str:
+    if math.isinf(curve.zero_cross_coupling):
+        return "none found"
+    return f"{curve.zero_cross_coupling:.4g} N/m ({curve.name})"
+
+
+def _course(curve: StabilityCurve) -> str:
+    """Return how a log decrement goes, from the first to the last cross-coupling."""
+    first, last = curve.log_decrement[0], curve.log_decrement[-1]
+    way = "rising" if last > first else "falling"
+    return f"from {first:.4g} without to {last:.4g} at {curve.cross_coupling[-1]:.4g} N/m ({way})"
+
+
+def write_level_one(found: StabilityLevelOne, plain: dict[str, Any], folder: Path) -> None:
     """Write chart, curves and JSON of an analysis into a folder, which is made if need be."""
     from ..charts import plot_stability_level_one, save
     from ..files import written_together
@@ -74,7 +112,7 @@ def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
     with written_together(folder) as part:
         save(plot_stability_level_one(found)[0], part / "stability_level_one.png")
         write_csv(part / "stability_level_one.csv", columns)
-        console.write_json(part / "stability_level_one.json", to_plain(found))
+        console.write_json(part / "stability_level_one.json", plain)
 
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:

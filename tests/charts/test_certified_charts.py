@@ -1,5 +1,7 @@
 """Charts of certified rotors draw the numbers that they are given."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,6 +46,13 @@ def test_level_one_in_meganewton_per_meter():
     (machine,) = lines(screening)["this machine"].get_xydata()
     np.testing.assert_allclose(machine, [70.0, 2.6])
     assert screening.get_xlim()[1] > 70.0
+
+
+@pytest.mark.parametrize("ratio", [0.5, 0.9, 1.5])
+def test_the_letter_of_region_a_is_beside_the_machine(ratio):
+    _, screening = replace(RESULT, average_density=8.7, critical_speed_ratio=ratio).plot()
+    (letter,) = (text for text in screening.texts if text.get_text() == "A")
+    assert abs(letter.get_position()[1] - ratio) > 0.3
 
 
 def test_margins_in_rpm_and_micrometers():

@@ -9,6 +9,7 @@ import pytest
 
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.shaft.shaft_remarks import shaft_remarks
+from rotorfilm.scenes.shaft.solve_compressor import level_one_remarks
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 SCENE = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
@@ -90,6 +91,18 @@ def test_what_shaft_and_films_leave_out_is_said(run, short):
 
 
 COMPRESSOR = SCENE.with_name("compressor.toml")
+SEAL = """
+[[shaft.bearings]]
+name = "wear_ring"
+node = 5
+[shaft.bearings.seal]
+radius = 0.06
+length = 0.025
+clearance = 6e-4
+pressure_drop = 6e5
+viscosity = 1e-3
+density = 1e3
+"""
 
 
 def test_stability_of_a_compressor(run, tmp_path):
@@ -113,6 +126,46 @@ def test_stability_of_a_compressor(run, tmp_path):
         heading, *rows = list(csv.reader(file))
     assert heading[1] == "smallest clearance log decrement [1]"
     assert [float(row[1]) for row in rows] == pytest.approx(found["curves"][0]["log_decrement"], rel=1e-8)
+
+
+@pytest.fixture(scope="module")
+def sealed(tmp_path_factory):
+    """The compressor with a seal next to its middle."""
+    path = tmp_path_factory.mktemp("scene") / "sealed.toml"
+    path.write_text(COMPRESSOR.read_text() + SEAL)
+    return path
+
+
+def test_stability_of_a_compressor_is_read_by_people(run, sealed, tmp_path):
+    code, out, _ = run("stability-level-one", sealed, "--out", tmp_path / "out")
+    assert code == 0
+    text = " ".join(out.split())
+    found = json.loads((tmp_path / "out" / "stability_level_one.json").read_text())
+    loose = found["curves"][1]
+    assert f"margin Q0/QA {found['margin']:.4g}" in text
+    assert f"least log decrement with QA {loose['anticipated_decrement']:.4g} (largest clearance)" in text
+    first, last = loose["log_decrement"][0], loose["log_decrement"][-1]
+    assert first > last
+    course = f"from {first:.4g} without to {last:.4g} at {loose['cross_coupling'][-1]:.4g} N/m (falling)"
+    assert f"log decrement, largest clearance {course}" in text
+    remarks = list(level_one_remarks(Scene.load(sealed)))
+    assert found["remarks"] == remarks
+    assert all(f"left out {line}" in text for line in remarks)
+
+
+def test_what_is_left_out_of_a_compressor_is_said(sealed):
+    """Heat of the films of the tight bearings, and the mass of a seal that all cases have."""
+    scene = Scene.load(sealed)
+    rotor, speed = scene.shaft.build(), scene.shaft.compressor.speed
+    wanted = {
+        line
+        for case in scene.shaft.compressor.cases(scene.shaft.bearings).values()
+        for line in shaft_remarks(rotor, case, scene.lubricant.properties, speed)
+    }
+    remarks = level_one_remarks(scene)
+    assert {line.split(" clearance: ")[-1] for line in remarks} == wanted
+    assert sum("added mass: " in line and line.startswith("wear_ring") for line in remarks) == 1
+    assert any(line.startswith("smallest clearance: left, at ") and "heat: " in line for line in remarks)
 
 
 def test_help_of_the_stability_has_an_example(run):

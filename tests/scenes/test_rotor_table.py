@@ -297,6 +297,12 @@ def test_a_bad_compressor(change, message):
         scene(HEAD, SHAFT, SPEEDS, SPRINGS, COMPRESSOR.replace(*change))
 
 
+def test_clearances_of_a_compressor_want_a_journal_bearing():
+    tight = COMPRESSOR.replace('"9000 rpm"', '"9000 rpm"\nsmallest_clearance = "50 um"')
+    with pytest.raises(InputError, match="smallest_clearance must be left out without a journal bearing"):
+        solve_level_one(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, tight))
+
+
 SEAL = """[[shaft.bearings]]
 name = "wear_ring"
 node = 3
@@ -309,6 +315,15 @@ viscosity = "1 mPa s"
 density = 1000
 inlet_swirl = 0.4
 """
+
+
+@pytest.mark.filterwarnings("ignore:left out")
+def test_a_seal_is_no_rigid_support_of_a_compressor():
+    parts = HEAD, SHAFT, DISKS, SPEEDS, SPRINGS
+    bare, sealed = (solve_level_one(scene(*parts, *more, COMPRESSOR)) for more in ((), (SEAL,)))
+    assert sealed.critical_speed_ratio == pytest.approx(bare.critical_speed_ratio, rel=1e-12)
+
+
 ASKED = '[question]\nquantity = "critical_speed"\ntolerance = "1 %"\n'
 
 

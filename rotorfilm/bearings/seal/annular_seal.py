@@ -107,6 +107,11 @@ class AnnularSeal(InertialModel):
         self._warn()
 
     @property
+    def carries_load(self) -> bool:
+        """Whether it is a bearing: it is none, and no rigid support of a critical speed."""
+        return False
+
+    @property
     def slenderness(self) -> float:
         """Length / diameter [1]."""
         return self.length / (2.0 * self.radius)

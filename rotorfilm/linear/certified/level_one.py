@@ -10,11 +10,12 @@ import numpy as np
 from ...errors import InputError, require_positive, warn_user
 from ...inputs.kinds import arguments
 from ...model import Array, Reaction
+from ...reactions.carried_load import carries_load
 from ...readable.result import Drawable
-from ...rotors import ShaftRotor
-from .cross_coupling import DisturbingStage, Impeller
+from ...rotors import ShaftRotor, Station
+from .cross_coupling import AxialStage, DisturbingStage, Impeller
 from .forward_whirl import cross_coupled
-from .rigid_support import rigid_support_speed
+from .rigid_support import chosen_stations, rigid_support_speed
 from .screening import Screening, screened
 from .stability_curve import StabilityCurve, stability_curve
 
@@ -45,7 +46,7 @@ class StabilityLevelOne(Drawable):
     anticipated_decrement : float [1]
         delta_A, the smallest of all curves.
     critical_speed_ratio : float [1]
-        CSR: maximum continuous speed / first undamped critical speed on rigid supports.
+        CSR: maximum continuous speed / first undamped critical speed on rigid supports; seals are none.
     average_density : float or None [kg/m3]
         Of the gas; None without impellers.
     nodes : dict of str to float [1]
@@ -77,6 +78,7 @@ def stability_level_one(
     nodes: Mapping[int, float] | None = None,
     stage_speed: float | None = None,
     average_density: float | None = None,
+    supports: Sequence[str] | None = None,
 ) -> StabilityLevelOne:
     """Return the stability analysis of level I of a compressor, by API 617.
 
@@ -93,7 +95,7 @@ def stability_level_one(
     speed : float [rad/s]
         Maximum continuous speed, of either sign.
     stages : sequence of Impeller or AxialStage
-        At least one; a class of one's own with `cross_coupling(speed)` will do.
+        At least one; a class of one's own with `cross_coupling(speed)` will do, with an `average_density`.
     nodes : mapping of int to float, optional
         Where the cross-coupling acts, as parts that are scaled to a sum of 1. By default the node next to the
         middle between the outermost bearings, as for rotors between bearings; overhung rotors want the nodes
@@ -102,7 +104,11 @@ def stability_level_one(
         At which the stages have their power; `speed` unless given.
     average_density : float or None [kg/m3]
         Mean of suction and discharge of the machine; by default of the lowest suction and highest discharge
-        of the impellers.
+        of the impellers, and none where all stages are axial.
+    supports : sequence of str, optional
+        Stations of the bearings, which are rigid for the critical speed ratio and between which the middle
+        is. By default all but those of an `AnnularSeal`, or what else says `carries_load = False`; name them
+        where a `LinearBearing` or a `TabulatedBearing` is no bearing but a seal.
 
     Raises
     ------
@@ -128,24 +134,21 @@ def stability_level_one(
     figure: CSR 2.5 up to 16.53 kg/m3, from there in a line to 2.0 at 60 kg/m3; beyond, all is region B.
     """
     _require_cases(cases, stages, speed)
-    turning = speed if stage_speed is None else stage_speed
-    each = np.array([stage.cross_coupling(turning) for stage in stages])
+    each = _expected(stages, speed if stage_speed is None else stage_speed)
     anticipated = float(each.sum())
-    parts = _shares(rotor, nodes)
+    density = _density(stages, average_density)
+    held = _bearings(rotor, cases) if supports is None else supports
+    parts = _shares(rotor, chosen_stations(rotor, held), nodes)
     curves = tuple(
         stability_curve(name, cross_coupled(rotor, bearings, speed, parts), anticipated)
         for name, bearings in cases.items()
     )
-    impellers = [stage for stage in stages if isinstance(stage, Impeller)]
-    if average_density is None and impellers:
-        lowest = min(one.suction_density for one in impellers)
-        average_density = 0.5 * (lowest + max(one.discharge_density for one in impellers))
     zero = min(curve.zero_cross_coupling for curve in curves)
     found = Screening(
         margin=zero / anticipated,
         anticipated_decrement=min(curve.anticipated_decrement for curve in curves),
-        critical_speed_ratio=abs(speed) / rigid_support_speed(rotor),
-        average_density=average_density,
+        critical_speed_ratio=abs(speed) / rigid_support_speed(rotor, held),
+        average_density=density,
     )
     reasons = [*screened(found), *(f"in {c.name}, {c.other_growth}" for c in curves if c.other_growth)]
     return StabilityLevelOne(
@@ -158,7 +161,7 @@ def stability_level_one(
         margin=found.margin,
         anticipated_decrement=found.anticipated_decrement,
         critical_speed_ratio=found.critical_speed_ratio,
-        average_density=average_density,
+        average_density=density,
         nodes={str(node): part for node, part in parts.items()},
         curves=curves,
     )
@@ -180,10 +183,40 @@ def _require_cases(
     require_positive("|speed|", abs(speed))
 
 
-def _shares(rotor: ShaftRotor, nodes: Mapping[int, float] | None) -> dict[int, float]:
+def _expected(stages: Sequence[DisturbingStage], turning: float) -> Array:
+    """Return the anticipated cross-coupling of each stage, with a sum that is positive."""
+    require_positive("|stage_speed|", abs(turning))
+    each = np.array([stage.cross_coupling(turning) for stage in stages], dtype=float)
+    require_positive("anticipated cross-coupling of all stages", float(each.sum()))
+    return each
+
+
+def _density(stages: Sequence[DisturbingStage], given: float | None) -> float | None:
+    """Return the average density of the gas; None where all stages are axial, which are judged without."""
+    if given is not None:
+        require_positive("average_density", given)
+        return given
+    impellers = [stage for stage in stages if isinstance(stage, Impeller)]
+    if impellers:
+        lowest = min(one.suction_density for one in impellers)
+        return 0.5 * (lowest + max(one.discharge_density for one in impellers))
+    if not all(isinstance(stage, AxialStage) for stage in stages):
+        raise InputError("average_density must be given for stages of one's own, got None")
+    return None
+
+
+def _bearings(rotor: ShaftRotor, cases: Mapping[str, Mapping[str, Reaction]]) -> list[str]:
+    """Return the names of the stations without a seal in any case."""
+    seals = {name for case in cases.values() for name, one in case.items() if not carries_load(one)}
+    return [station.name for station in rotor.stations if station.name not in seals]
+
+
+def _shares(
+    rotor: ShaftRotor, held: Sequence[Station], nodes: Mapping[int, float] | None
+) -> dict[int, float]:
     """Return the parts of the cross-coupling by node, with the sum 1."""
     if nodes is None:
-        return {_middle_node(rotor): 1.0}
+        return {_middle_node(rotor, held): 1.0}
     for node, part in nodes.items():
         require_positive(f"nodes[{node}]", part)
     if not nodes:
@@ -192,10 +225,10 @@ def _shares(rotor: ShaftRotor, nodes: Mapping[int, float] | None) -> dict[int, f
     return {node: part / total for node, part in nodes.items()}
 
 
-def _middle_node(rotor: ShaftRotor) -> int:
+def _middle_node(rotor: ShaftRotor, stations: Sequence[Station]) -> int:
     """Return the node next to the middle between the outermost bearings."""
     places = rotor.positions
-    held = [places[station.node] for station in rotor.stations]
+    held = [places[station.node] for station in stations]
     if len(held) < 2 or max(held) == min(held):
         raise InputError("nodes must be given for a rotor without two bearings, got none")
     middle = 0.5 * (min(held) + max(held))

@@ -10,6 +10,7 @@ from ...model import Reaction
 from ...readable.result import Readable
 from ...rotors import ShaftRotor
 from .forward_whirl import cross_coupled
+from .stability_curve import other_growth
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +22,7 @@ class StabilityLevelTwo(Readable):
     verdict : str
         In plain words.
     acceptable : bool
-        Whether the final log decrement is above .1.
+        Whether the final log decrement is above .1, and nothing else grows.
     log_decrement : float [1]
         delta_f, of the first forward whirl with all that disturbs and damps the rotor.
     frequency : float [rad/s]
@@ -46,6 +47,8 @@ def stability_level_two(
 ) -> StabilityLevelTwo:
     """Return whether the final log decrement of the first forward whirl is what API 617 wants, above .1.
 
+    A rotor of which anything else grows, as a backward whirl or another mode, is not acceptable either.
+
     Parameters
     ----------
     rotor : ShaftRotor
@@ -66,12 +69,15 @@ def stability_level_two(
     API 617, 7th ed. (2002), part 1, 2.6.6, and its successor in the 8th ed. (2014).
     """
     node = rotor.stations[0].node if rotor.stations else 0
-    whirl = cross_coupled(rotor, bearings, speed, {node: 1.0}).first
+    turning = cross_coupled(rotor, bearings, speed, {node: 1.0})
+    whirl = turning.first
+    other = other_growth(turning, whirl, f"at {speed:.4g} rad/s")
     fine = whirl.log_decrement > LEAST_FINAL
-    place, word = ("above", "acceptable") if fine else ("not above", "not acceptable")
+    place, word = "above" if fine else "not above", "acceptable" if fine and not other else "not acceptable"
+    reasons = [f"final log decrement {whirl.log_decrement:.3g}, {place} {LEAST_FINAL}", other]
     return StabilityLevelTwo(
-        verdict=f"{word}: final log decrement {whirl.log_decrement:.3g}, {place} {LEAST_FINAL}",
-        acceptable=fine,
+        verdict=f"{word}: {'; '.join(filter(None, reasons))}",
+        acceptable=fine and not other,
         log_decrement=whirl.log_decrement,
         frequency=whirl.value.imag,
         speed=speed,

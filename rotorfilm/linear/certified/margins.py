@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, minimize_scalar
 
-from ...errors import InputError, require_finite, require_positive
+from ...errors import InputError, require_finite, require_positive, warn_user
 from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable, Readable
@@ -188,17 +188,25 @@ def separation_margins(
     Raises
     ------
     InputError
-        If an argument breaks its rule.
+        If an argument breaks its rule, or the response does not cover the operating range.
+
+    Warns
+    -----
+    ValidityWarning
+        If an amplitude still rises at the last speed, where a peak may follow.
     """
-    require_positive("minimum_speed", minimum_speed)
-    if not maximum_speed >= minimum_speed:
-        raise InputError(f"maximum_speed must be at least {minimum_speed!r}, got {maximum_speed!r}")
     known, speeds = list(response.output_labels), np.asarray(response.frequency)
+    _require_covered(speeds, minimum_speed, maximum_speed)
     chosen = [name for name in known if _is_displacement(name)] if outputs is None else list(outputs)
     if missing := [name for name in chosen if name not in known]:
         raise InputError(f"outputs must be among {known}, got {missing}")
     table = np.asarray(response.frdata)
     curves = {name: table[known.index(name), 0] for name in chosen}
+    for name, curve in curves.items():
+        if abs(curve[-1]) > abs(curve[-2]):
+            warn_user(
+                f"{name} still rises at the last speed, {speeds[-1]:.6g} rad/s; a peak beyond is not seen"
+            )
     operating = minimum_speed, maximum_speed
     peaks = tuple(p for name, curve in curves.items() for p in _peaks(name, speeds, curve, operating))
     bad = [peak for peak in peaks if not peak.acceptable]
@@ -211,6 +219,18 @@ def separation_margins(
         speeds=speeds,
         amplitudes={name: np.abs(curve) for name, curve in curves.items()},
     )
+
+
+def _require_covered(speeds: Array, minimum_speed: float, maximum_speed: float) -> None:
+    """Raise InputError unless an operating range is one, and within the speeds of a response."""
+    require_positive("minimum_speed", minimum_speed)
+    if not maximum_speed >= minimum_speed:
+        raise InputError(f"maximum_speed must be at least {minimum_speed!r}, got {maximum_speed!r}")
+    if speeds[0] > minimum_speed or speeds[-1] < maximum_speed:
+        raise InputError(
+            f"response must cover the operating range, {minimum_speed:.6g} to {maximum_speed:.6g} rad/s, "
+            f"got speeds from {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
+        )
 
 
 def _is_displacement(name: str) -> bool:

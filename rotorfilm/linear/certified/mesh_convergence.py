@@ -30,9 +30,10 @@ class MeshConvergence(Readable):
     frequency : ndarray, shape (n_meshes,) [rad/s]
         Damped frequency of the mode.
     order : float [1]
-        Of convergence, measured on the last three meshes; nan where they differ by roundoff only.
+        Of convergence, measured on the last three meshes; nan where they differ by roundoff only, or the
+        changes alternate or do not shrink, so that nothing converges yet.
     estimate : float [rad/s]
-        By Richardson's extrapolation from the last two with that order.
+        By Richardson's extrapolation from the last two with that order; the last frequency where it is nan.
     relative_error : float [1]
         Of the first mesh, that of the rotor as it is, against the estimate; signed.
     """
@@ -94,9 +95,10 @@ def mesh_convergence(
 
 
 def _extrapolated(last: Sequence[float] | Array, floor: float) -> tuple[float, float]:
-    """Return order and limit of three numbers on halved meshes; nan and the last where they are one."""
+    """Return order and limit of three numbers on halved meshes; nan and the last unless they converge."""
     before, after = last[0] - last[1], last[1] - last[2]
-    if min(abs(before), abs(after)) <= floor * abs(last[2]) or before * after <= 0.0:
+    small = min(abs(before), abs(after)) <= floor * abs(last[2])
+    if small or before * after <= 0.0 or abs(after) >= abs(before):
         return math.nan, float(last[2])
     order = math.log2(before / after)
     return order, float(last[2] - after / (2.0**order - 1.0))

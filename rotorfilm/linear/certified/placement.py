@@ -110,10 +110,10 @@ def _shape(rotor: ShaftRotor, at: RotorEquilibrium, mode: int) -> Array:
 
 def _lobes(shape: Array) -> Iterator[int]:
     """Yield the node that moves most in each part of a shape that moves to one side."""
-    signs = np.sign(shape)
-    changes = np.flatnonzero(signs[1:] * signs[:-1] < 0.0) + 1
+    moving = np.flatnonzero(shape)
+    changes = np.flatnonzero(np.diff(np.sign(shape[moving]))) + 1
     largest = np.abs(shape).max()
-    for part in np.split(np.arange(len(shape)), changes):
+    for part in np.split(moving, changes):
         node = int(part[np.argmax(np.abs(shape[part]))])
         if abs(shape[node]) >= LOBE * largest:
             yield node

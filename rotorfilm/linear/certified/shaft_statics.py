@@ -98,10 +98,10 @@ def _rest(
     nodes = [station.node for station in rotor.stations]
     if len(set(nodes)) < len(nodes):
         raise InputError(f"stations must be on different nodes where they are rigid, got {nodes}")
-    full, free = rotor.assembly, free_coordinates(rotor)
+    full, free = rotor.assembly, free_coordinates(rotor, rotor.stations)
     n = len(full.coordinates)
     both = np.concatenate([free, n + free])
-    require_held(rotor)
+    require_held(rotor, rotor.stations)
     solved = splu(full.stiffness[both][:, both].tocsc()).solve(full.weight[both])
     displacement = np.zeros(2 * n)
     displacement[both] = solved

@@ -74,7 +74,7 @@ def stability_curve(name: str, excited: CrossCoupledRotor, anticipated: float) -
         frequency=np.array([point.value.imag for point in points]),
         zero_cross_coupling=zero,
         anticipated_decrement=expected.log_decrement,
-        other_growth=_other_growth(excited, expected),
+        other_growth=other_growth(excited, expected, "at the anticipated cross-coupling"),
     )
 
 
@@ -96,13 +96,13 @@ def _neutral(excited: CrossCoupledRotor, start: ForwardWhirl, anticipated: float
     return None
 
 
-def _other_growth(excited: CrossCoupledRotor, expected: ForwardWhirl) -> str:
-    """Return what grows besides the first forward whirl, in words; empty for nothing."""
+def other_growth(excited: CrossCoupledRotor, expected: ForwardWhirl, where: str) -> str:
+    """Return what grows besides the first forward whirl, with the words `where`; empty for nothing."""
     values = excited.motions(expected.cross_coupling).eigenvalues
     grows = (values.real > 1e-9 * np.abs(values)) & (np.abs(values - expected.value) > 1e-6 * np.abs(values))
     if not grows.any():
         return ""
     worst = values[grows][np.argmax(values[grows].real)]
     if not oscillates(worst):
-        return "the rotor departs to one side at the anticipated cross-coupling"
-    return f"another whirl, of {worst.imag:.4g} rad/s, grows at the anticipated cross-coupling"
+        return f"the rotor departs to one side {where}"
+    return f"another whirl, of {worst.imag:.4g} rad/s, grows {where}"

@@ -23,8 +23,8 @@ from ..closed_loop import checked_speeds
 if TYPE_CHECKING:
     import control
 
-_FREE = 1e-12
-"""Squared frequency / the largest, below which a motion is that of the shaft as a whole."""
+_SWINGS = 1e-6
+"""Frequency / size of an eigenvalue, above which a motion swings."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +68,7 @@ class TwistSpring(_Spring):
 
 @dataclass(frozen=True, kw_only=True)
 class StraightModes(Readable):
-    """Modes of a shaft along its axis, or about it, by rising frequency.
+    """Modes of a shaft along its axis, or about it, that swing, by rising size of the eigenvalue.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class StraightModes(Readable):
 
 @arguments
 def axial_modes(rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6) -> StraightModes:
-    """Return the lowest modes of a rotor along its axis.
+    """Return the lowest modes of a rotor along its axis that swing; those overdamped are left out.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def axial_modes(rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count
 
 @arguments
 def twist_modes(rotor: ShaftRotor, springs: Sequence[TwistSpring] = (), count: int = 6) -> StraightModes:
-    """Return the lowest torsional modes of a rotor.
+    """Return the lowest torsional modes of a rotor that swing; those overdamped are left out.
 
     Parameters
     ----------
@@ -213,12 +213,20 @@ def _modes(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring], 
     values, vectors = eig(np.vstack([upper, -np.linalg.solve(mass, np.hstack([stiffness, damping]))]))
     size = np.abs(values)
     held = any(spring.stiffness > 0.0 for spring in springs)
-    free = np.zeros(len(size), dtype=bool) if held else size**2 <= _FREE * (size**2).max()
-    chosen = [k for k in np.argsort(size) if not free[k] and values[k].imag > 1e-6 * size[k]]
+    order, swings = np.argsort(size), values.imag > _SWINGS * size
     whole = [] if held else [0.0j]
+    chosen = [k for k in order[_whole_count(values[order[0]]) if whole else 0 :] if swings[k]]
     shapes = [np.ones(n, dtype=complex)] if whole else []
     shapes += [vectors[:n, k] for k in chosen]
     nodes = np.array(shapes).T[: len(rotor.elements) + 1]
     largest = np.array([column[np.argmax(np.abs(column))] for column in nodes.T])
     found = np.array([*whole, *values[chosen]], dtype=complex)[:count]
     return StraightModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
+
+
+def _whole_count(smallest: complex) -> int:
+    """Return how many of the smallest eigenvalues are the motion of a free shaft, one piece, as a whole.
+
+    That is 0 twice, by roundoff two real ones, of which none swings, or a pair. With dampers it is 0 once.
+    """
+    return 1 if smallest.imag == 0.0 else 2

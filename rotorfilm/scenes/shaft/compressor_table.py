@@ -76,7 +76,7 @@ class CompressorTable:
     nodes : tuple of CouplingShare
         Where cross-coupling acts; the node next to mid-span unless given.
     smallest_clearance, largest_clearance : float or None [m]
-        Radial clearances of all journal bearings, each a curve of its own; as they are unless given.
+        Radial clearances of all bearings with a `journal`, each a curve of its own; as they are unless given.
     """
 
     speed: Annotated[float, Quantity("rad/s")]
@@ -107,11 +107,14 @@ class CompressorTable:
         return {one.node: one.share for one in self.nodes} or None
 
     def cases(self, bearings: tuple[BearingTable, ...]) -> dict[str, Mapping[str, Reaction]]:
-        """Return the bearings of each curve, by its name."""
+        """Return the bearings of each curve, by its name; InputError for clearances of no journal bearing."""
         wanted = {"smallest clearance": self.smallest_clearance, "largest clearance": self.largest_clearance}
         given = {name: clearance for name, clearance in wanted.items() if clearance is not None}
         if not given:
             return {"as given": {one.name: one.build() for one in bearings}}
+        if all(one.journal is None for one in bearings):
+            said = " and ".join(name.replace(" ", "_") for name in given)
+            raise InputError(f"{said} must be left out without a journal bearing, got none with journal")
         return {
             name: {one.name: _with_clearance(one, clearance).build() for one in bearings}
             for name, clearance in given.items()

@@ -6,9 +6,13 @@ from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ...linear import StabilityLevelOne, stability_level_one
+from ..film_table import oil_remarks
+from .shaft_remarks import shaft_remarks
 
 if TYPE_CHECKING:
     from ..scene import Scene
+    from .compressor_table import CompressorTable
+    from .shaft_table import ShaftTable
 
 
 def solve_level_one(scene: Scene) -> StabilityLevelOne:
@@ -28,10 +32,7 @@ def solve_level_one(scene: Scene) -> StabilityLevelOne:
     AbsentError
         If it has no forward whirl with a resonance.
     """
-    shaft = scene.shaft
-    if shaft is None or shaft.compressor is None:
-        raise InputError("shaft.compressor is required for stability by API 617, got no such table")
-    table = shaft.compressor
+    shaft, table = _compressor(scene)
     return stability_level_one(
         shaft.build(),
         table.cases(shaft.bearings),
@@ -41,3 +42,36 @@ def solve_level_one(scene: Scene) -> StabilityLevelOne:
         stage_speed=table.stage_speed,
         average_density=table.average_density,
     )
+
+
+def level_one_remarks(scene: Scene) -> tuple[str, ...]:
+    """Return what the physics leaves out and should not at the maximum continuous speed, one line each.
+
+    Where there are several cases, a line that is not of all of them begins with the name of its own.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a table `[shaft.compressor]`.
+
+    Raises
+    ------
+    InputError
+        If the scene has none.
+    """
+    shaft, table = _compressor(scene)
+    rotor, oil = shaft.build(), scene.lubricant.properties
+    said = {
+        name: shaft_remarks(rotor, bearings, oil, table.speed)
+        for name, bearings in table.cases(shaft.bearings).items()
+    }
+    common = [line for line in next(iter(said.values())) if all(line in lines for lines in said.values())]
+    own = [f"{name}: {line}" for name, lines in said.items() for line in lines if line not in common]
+    return (*oil_remarks(scene.tables, scene.lubricant), *common, *own)
+
+
+def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
+    """Return the tables of a compressor; InputError where there are none."""
+    if scene.shaft is None or scene.shaft.compressor is None:
+        raise InputError("shaft.compressor is required for stability by API 617, got no such table")
+    return scene.shaft, scene.shaft.compressor

@@ -1,7 +1,7 @@
 """Stability with applied cross-coupling, as API 617 screens compressors."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -18,6 +18,16 @@ HEAVY = MASS
 IMPELLER = rf.Impeller(
     power="700 kW", diameter="400 mm", width="12 mm", suction_density=20.0, discharge_density=30.0
 )
+
+
+@dataclass(frozen=True)
+class OwnStage:
+    """A stage whose cross-coupling is known."""
+
+    known: float
+
+    def cross_coupling(self, speed):
+        return self.known
 
 
 def jeffcott(**changes):
@@ -221,6 +231,16 @@ def test_level_two():
         ({"nodes": {}}, "nodes must hold at least one node"),
         ({"nodes": {1: -1.0}}, r"nodes\[1\] must be finite and positive"),
         ({"nodes": {9: 1.0}}, "node 0 to 2"),
+        ({"average_density": math.nan}, "average_density must be finite and positive"),
+        ({"average_density": -1.0}, "average_density must be finite and positive"),
+        ({"stage_speed": 0.0}, r"\|stage_speed\| must be finite and positive"),
+        (
+            {"stages": [OwnStage(0.0)], "average_density": 5.0},
+            "anticipated cross-coupling of all stages must",
+        ),
+        ({"stages": [OwnStage(math.nan)], "average_density": 5.0}, "anticipated cross-coupling of all"),
+        ({"stages": [OwnStage(1e6)]}, "average_density must be given"),
+        ({"supports": ["middle"]}, r"supports must be among \['left', 'right'\], got \['middle'\]"),
     ],
 )
 def test_bad_input(change, message):
@@ -260,3 +280,45 @@ def test_rigid_supports_of_many_elements():
 def test_one_rigid_bearing_does_not_hold_a_rotor():
     with pytest.raises(rf.InputError, match="stations must hold the rotor"):
         rf.rigid_support_speed(jeffcott(stations=(rf.Station(node=1, name="left"),)))
+
+
+def test_level_two_refuses_what_else_grows():
+    """A bearing that drives whirl against the rotation: the first forward whirl is damped all the more."""
+    against = springs(stiffness=((STIFFNESS, -2e8), (2e8, STIFFNESS)))
+    found = rf.stability_level_two(jeffcott(), against, SPEED)
+    assert found.log_decrement > 0.1
+    assert not found.acceptable
+    assert found.verdict.startswith("not acceptable: final log decrement")
+    assert "another whirl, of " in found.verdict
+    assert found.verdict.endswith("grows at 1200 rad/s")
+
+
+def test_a_stage_of_ones_own_is_judged_by_margin_and_density(found):
+    """The same cross-coupling, but below half of Q0: a criterion of centrifugal compressors."""
+    own = OwnStage(0.6 * found.zero_cross_coupling)
+    given = jeffcott(), {"as built": springs()}, SPEED, [own]
+    assert "Q0/QA = 1.67, below 2" in rf.stability_level_one(*given, average_density=5.0).verdict
+
+
+@pytest.mark.closed_form
+def test_a_seal_is_no_rigid_support(found):
+    """A seal in the middle leaves the critical speed ratio and mid-span what the bearings make them."""
+    sealed = jeffcott(
+        stations=(*jeffcott().stations, rf.Station(node=1, name="seal"), rf.Station(node=2, name="end"))
+    )
+    seal = rf.AnnularSeal(
+        radius="60 mm",
+        length="25 mm",
+        clearance="0.6 mm",
+        pressure_drop="6 bar",
+        viscosity="1 mPa s",
+        density=1000.0,
+        added_mass=False,
+    )
+    cases = {"as built": springs() | {"seal": seal, "end": seal}}
+    one = rf.stability_level_one(sealed, cases, SPEED, [IMPELLER])
+    assert one.critical_speed_ratio == pytest.approx(SPEED / math.sqrt(SHAFT / HEAVY), rel=1e-7)
+    assert one.nodes == {"1": 1.0}
+    lumped = {"as built": springs() | dict.fromkeys(("seal", "end"), rf.LinearBearing(stiffness=1e5))}
+    named = rf.stability_level_one(sealed, lumped, SPEED, [IMPELLER], supports=["left", "right"])
+    assert named.critical_speed_ratio == pytest.approx(found.critical_speed_ratio, rel=1e-9)

@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import rotorfilm as rf
+from rotorfilm.linear.certified.placement import _lobes
 
 NATURAL, ECCENTRICITY = 300.0, 1e-6
 SPEEDS = np.linspace(30.0, 900.0, 1500)
@@ -102,6 +103,25 @@ def test_bad_margins():
         rf.separation_margins(response, 400.0, 300.0)
     with pytest.raises(rf.InputError, match="outputs must be among"):
         rf.separation_margins(response, 400.0, 500.0, ["probe_z"])
+
+
+def test_a_response_must_cover_the_operating_range():
+    response = as_response(jeffcott(0.05))
+    for ends in ((20.0, 400.0), (400.0, 901.0)):
+        with pytest.raises(rf.InputError, match="response must cover the operating range"):
+            rf.separation_margins(response, *ends)
+
+
+def test_an_amplitude_that_still_rises_is_warned_of():
+    before = SPEEDS[SPEEDS < 0.9 * NATURAL]
+    with pytest.warns(rf.ValidityWarning, match="probe_x still rises at the last speed"):
+        assert not rf.separation_margins(as_response(jeffcott(0.05, before), before), 100.0, 200.0).peaks
+
+
+def test_parts_of_a_shape_with_a_node_at_rest():
+    """A node that does not move at all, between two parts or at a bearing, is of neither."""
+    assert list(_lobes(np.array([0.0, 1.0, 0.0, -2.0, -1.0, 0.0]))) == [1, 3]
+    assert list(_lobes(np.array([-1.0, 0.0, -2.0]))) == [2]
 
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
+from rotorfilm.linear.certified.mesh_convergence import _extrapolated
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
 LENGTH, DIAMETER = 2.0, 0.1
@@ -124,3 +125,12 @@ def test_mesh_convergence_measures_the_order_of_the_element(beam, count):
     assert found.relative_error == pytest.approx(found.frequency[0] / exact - 1.0, rel=0.05)
     with pytest.raises(rf.InputError, match="mode must be at most"):
         rf.mesh_convergence(rotor, stiff, 0.0, 999)
+
+
+@pytest.mark.closed_form
+def test_only_what_converges_is_extrapolated():
+    assert _extrapolated([1.25, 1.0625, 1.015625], 1e-11) == pytest.approx((2.0, 1.0))
+    for diverging in ([1.0, 2.0, 4.0], [1.0, 2.0, 3.0], [1.0, 2.0, 1.5]):
+        order, limit = _extrapolated(diverging, 1e-11)
+        assert math.isnan(order)
+        assert limit == diverging[-1]

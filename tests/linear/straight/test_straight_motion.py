@@ -148,6 +148,21 @@ def test_couplings_are_springs_in_the_line():
         rf.axial_modes(bare)
 
 
+@pytest.mark.closed_form
+@pytest.mark.parametrize("damping", [0.0, 1e-9, 1.0])
+def test_one_very_short_element_hides_no_mode(damping):
+    """Two disks on a shaft with an element of .02 mm: w^2 = 2 k / (I + a sixth of the shaft's)."""
+    pieces = [replace(BAR, length=length, outer_diameter=0.05) for length in (0.6, 2e-5, 0.6)]
+    ends = [rf.Disk(node=k, mass=90.0, polar_inertia=5.0, diametral_inertia=3.0) for k in (0, 3)]
+    rotor = rf.ShaftRotor(elements=tuple(pieces), disks=tuple(ends), speed=0.0)
+    polar = math.pi * 0.05**4 / 32.0
+    wanted = math.sqrt(2.0 * 8e10 * polar / 1.20002 / (5.0 + 7800.0 * polar * 1.20002 / 6.0))
+    found = rf.twist_modes(rotor, [rf.TwistSpring(node=0, stiffness=0.0, damping=damping)], 3)
+    assert found.eigenvalues[0] == 0.0
+    assert found.frequency[1] == pytest.approx(wanted, rel=1e-5)
+    assert found.frequency[2] == pytest.approx(math.pi * TWIST / 1.20002, rel=1e-2)
+
+
 def test_bad_thrust():
     bearing = rf.ThrustBearing(node=9, stiffness=1e8)
     with pytest.raises(rf.InputError, match="node 0 to 8"):
