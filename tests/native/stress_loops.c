@@ -257,7 +257,8 @@ static void try_shaken(rf_response film, const void *of, double odd)
     for (int k = 0; k < 2 * (STEPS + 1); ++k)
         pulls[k] = about(2000.0, odd);
     motion[0] = about(9e-5, odd);
-    rf_shaken rotor = {film, of, fabs(about(50.0, odd)), about(300.0, odd), 1e-4, fabs(about(1e-3, odd)), 0, 0, 0};
+    rf_shaken rotor = {film, of, fabs(about(50.0, odd)), about(300.0, odd), 1e-4, fabs(about(1e-3, odd)), 0, 0, 0,
+                       NULL, NULL};
     const int status = rf_follow_shaken(&rotor, STEPS, pulls, motion);
     if (rotor.done > STEPS || (status == RF_OK) != (rotor.done == STEPS))
         fail("steps of a shaken rotor", (double)rotor.done);

@@ -16,16 +16,16 @@ SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
     "rotorfilm": 74_000,
-    "rotorfilm_states": 64_000,
-    "rotorfilm_systems": 74_000,
+    "rotorfilm_states": 90_000,
+    "rotorfilm_systems": 90_000,
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 92_000,
-    "rotorfilm_grid_systems": 128_000,
+    "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 82_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_oil": 98_000,
-    "rotorfilm_loops": 240_000,
-    "rotorfilm_master": 244_000,
+    "rotorfilm_loops": 250_000,
+    "rotorfilm_master": 264_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

@@ -32,8 +32,8 @@ LEVELS = ((32, 8), 48), ((48, 12), 96), ((72, 16), 192)
 STEP_TIME = 3e-6
 """About what a step takes for each cell [s]."""
 
-FEWEST_TURNS, MOST_TURNS, REPEATED = 12, 96, 1e-3
-"""Turns after which an orbit is looked at first and last, and its change from turn to turn when steady."""
+TURNS, REPEATED = (12, 24, 48, 96), 1e-3
+"""Turns after which an orbit is looked at, and its change from turn to turn when steady."""
 
 
 class FollowedRotor(NamedTuple):
@@ -73,7 +73,7 @@ class ConservedRunRung(BaseRung):
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        seconds = STEP_TIME * math.prod(self.damper.cells) * self.steps * FEWEST_TURNS
+        seconds = STEP_TIME * math.prod(self.damper.cells) * self.steps * TURNS[0]
         return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
 
     @cached_property
@@ -131,15 +131,14 @@ def passing_holes_ladder(scene: Scene, quantity: str, unit: str) -> Ladder:
 
 def _repeated(rung: ConservedRunRung, quantity: str) -> float:
     """Return a quantity of the last turn, once it does so from turn to turn."""
-    turns, period = FEWEST_TURNS, 2.0 * math.pi / abs(rung.rotor.profile.speeds[-1])
-    while turns <= MOST_TURNS:
+    period = 2.0 * math.pi / abs(rung.rotor.profile.speeds[-1])
+    for turns in TURNS:
         found = rung.follow(turns * period)
         last, before = (_of_turn(found, rung.rotor, quantity, back) for back in (1, 2))
         if abs(last - before) <= REPEATED * abs(last):
             return last
-        turns *= 2
     raise ConvergenceError(
-        f"the orbit must repeat itself to {REPEATED:g} within {MOST_TURNS} turns, and changes by "
+        f"the orbit must repeat itself to {REPEATED:g} within {TURNS[-1]} turns, and changes by "
         f"{abs(last / before - 1.0):.2g} from the last but one to the last"
     )
 

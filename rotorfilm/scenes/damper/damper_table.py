@@ -200,7 +200,7 @@ class DamperTable:
                 f"stiffness must be positive for a rotor at an offset, got offset {self.offset!r}: without "
                 "springs a weight lets it down to the wall"
             )
-        if place >= self.clearance:
+        if place and place >= self.clearance:
             raise InputError(f"offset must be below the clearance {self.clearance!r}, got {self.offset!r}")
 
     @property
