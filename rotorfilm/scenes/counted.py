@@ -62,13 +62,13 @@ class Counted(InertialModel):
         """Whether the reaction has an added mass, which comes with its forces."""
         return inertial(self._reaction) is not None
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass [kg], shape (2, 2, ...)."""
-        return self._reaction.mass(position, velocity)  # type: ignore[attr-defined]
+        return self._reaction.mass(position, velocity, speed)  # type: ignore[attr-defined]
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
-        return self._reaction.mass_slopes(position, velocity)  # type: ignore[attr-defined]
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        return self._reaction.mass_slopes(position, velocity, speed)  # type: ignore[attr-defined]
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the inertia of the reaction ends, at a frequency [rad/s]."""

@@ -170,6 +170,6 @@ def _ladder(scene: Scene, value: Callable[[ConservedRunRung], float], unit: str,
     count, rotor = lands(table), models.rotor
     shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
     remarks = rotor_remarks(
-        mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
+        table, mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
     )
     return Ladder(rungs=rungs, unit=unit, remarks=remarks, within=ISOTHERMAL)

@@ -57,13 +57,13 @@ class JudgedDamper(InertialModel):
         """Whether the inertia of the oil counts."""
         return self.damper.has_inertia
 
-    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass of the damper [kg], shape (2, 2, ...)."""
-        return self.damper.mass(position, velocity)
+        return self.damper.mass(position, velocity, speed)
 
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
-        return self.damper.mass_slopes(position, velocity)
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        return self.damper.mass_slopes(position, velocity, speed)
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the inertia of the damper ends; see `SqueezeFilmDamper`."""
