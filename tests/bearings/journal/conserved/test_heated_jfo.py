@@ -18,9 +18,12 @@ from rotorfilm import (
     LayeredTemperature,
     MeanTemperature,
     Oil,
+    RigidRotor,
     coefficients,
     equilibrium,
+    export_fmu,
     heated_equilibrium,
+    simulate,
 )
 from rotorfilm.charts.heat_charts import plot_heated_film
 from rotorfilm.errors import FilmContactError, InputError
@@ -189,6 +192,17 @@ def test_what_breaks_a_rule_is_named():
         film.solve(POSITION, 0.0)
     with pytest.raises(FilmContactError, match="inside the clearance"):
         film.solve([c, 0.0], OMEGA)
+
+
+def test_a_viscosity_field_does_not_step_in_time(tmp_path):
+    frozen = heated().solve(POSITION, OMEGA).film
+    rotor = RigidRotor(mass=500.0, speed=OMEGA, position=tuple(POSITION))
+    with pytest.raises(InputError, match="film must have one viscosity for steps in time and FMUs"):
+        simulate(rotor, frozen, duration=1e-3)
+    with pytest.raises(InputError, match="film must have one viscosity for steps in time and FMUs"):
+        export_fmu(frozen, tmp_path / "frozen.fmu")
+    with pytest.raises(InputError, match="temperature must not be set on a film of frozen temperature"):
+        frozen.at_temperature(T_S)
 
 
 def test_it_rests_where_one_temperature_has_it_about_and_is_drawn():
