@@ -194,6 +194,19 @@ def test_what_breaks_a_rule_is_named():
         film.solve([c, 0.0], OMEGA)
 
 
+def test_the_film_that_steps_begin_with_stands():
+    groove = {"grooves": (TOP,)}
+    film = JFOFilm(
+        bearing=JournalBearing(radius=R, length=0.05, clearance=1e-4, viscosity=0.02, **groove),
+        cells=(36, 4),
+        supply_flow=5e-7,
+    )
+    u = [0.51e-4 * np.cos(4.6753), 0.51e-4 * np.sin(4.6753), 0.0, 0.0, -300.0]
+    first = film.start(u)
+    _, output, _ = film.step(first, 0.0, u, 1e-2)
+    np.testing.assert_allclose(output[:2], first.output[:2], rtol=1e-9)
+
+
 def test_a_viscosity_field_does_not_step_in_time(tmp_path):
     frozen = heated().solve(POSITION, OMEGA).film
     rotor = RigidRotor(mass=500.0, speed=OMEGA, position=tuple(POSITION))
