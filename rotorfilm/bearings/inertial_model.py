@@ -61,17 +61,21 @@ class InertialModel(StaticReaction):
             *(Signal(name=name, unit="kg", nominal=nominal, description=text) for name in MASS_OUTPUTS),
         )
 
-    def force_along(self: _Heavy, position: Array, velocity: Array, acceleration: Array) -> Array:
+    def force_along(
+        self: _Heavy, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
         """Return the force in a motion, that of the added mass included, shape (2, n) [N].
 
         Parameters
         ----------
         position, velocity, acceleration : ndarray, shape (2, n) [m], [m/s], [m/s2]
+        speed : array_like, shape () or (n,) [rad/s]
+            Angular speed about +z.
         """
-        force = self.force(position, velocity, 0.0)
+        force = self.force(position, velocity, speed)
         if not self.has_inertia:
             return force
-        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, 0.0), acceleration)
+        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, speed), acceleration)
 
     def output(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""

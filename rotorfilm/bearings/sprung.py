@@ -109,14 +109,14 @@ class Sprung(InertialModel):
         if heavy is not None:
             heavy.require_range(frequency)
 
-    def force_along(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+    def force_along(
+        self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
         """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `InertialModel`."""
         along: Any = getattr(self.reaction, "force_along", None)
         if along is None:
-            film = self.reaction.force(position, velocity, 0.0)
-        else:
-            film = np.asarray(along(position, velocity, acceleration))
-        return film - self.stiffness * position
+            return super().force_along(position, velocity, acceleration, speed)
+        return np.asarray(along(position, velocity, acceleration, speed)) - self.stiffness * position
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the reaction with these springs; None where it takes none."""

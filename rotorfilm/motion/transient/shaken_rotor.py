@@ -115,9 +115,11 @@ class ShakenRotor(NamedTuple):
             return TangentsAlong(
                 film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
             )
-        slopes = slopes - np.einsum("ijk...,j...->ik...", heavy.mass_slopes(q, v)[:, :, :4], a)
-        force = film.force_along(q, v, a)  # type: ignore[misc]  # heavy and film are one
-        return TangentsAlong(force, -slopes[:, :2], -slopes[:, 2:], heavy.mass(q, v))
+        by_motion = heavy.mass_slopes(q, v, speeds)[:, :, :4]
+        slopes = slopes - np.einsum("ijk...,j...->ik...", by_motion, a)
+        force = film.force_along(q, v, a, speeds)  # type: ignore[misc]  # heavy and film are one
+        mass = heavy.mass(q, v, speeds)
+        return TangentsAlong(force, -slopes[:, :2], -slopes[:, 2:], mass)
 
     def propagated(
         self, states: StatesAlong, own: Reaction | RestTangent, rich: Reaction

@@ -9,7 +9,8 @@
 #define MOST_GROWTH 2.0 /* of a step over the last one, up to which differences take both (stable to 2.41) */
 #define EMPTY (-1e-9)   /* content below which a difference took more oil from a cell than it had */
 #define STILL 1e-13     /* change of theta at which the steady film stands */
-#define MOST_STILL 80   /* solutions on the way there, of which ... */
+#define STILL_ENOUGH 1e-9 /* change that it must have come below at the end */
+#define MOST_STILL 1000 /* solutions on the way there, 60 as a rule, hundreds at times; of which ... */
 #define WEIGHT 0.7      /* ... each counts so much */
 
 static size_t neighbor(const rf_oil_shape *shape, size_t i, int forward)
@@ -118,10 +119,11 @@ static int settle(rf_oil_equations *equations, const rf_oil_shape *shape, const 
                   double *carried, double *last, rf_oil_found *found)
 {
     const size_t all = shape->lines * shape->nodes;
+    double most = 0.0;
     rf_oil_work work;
     rf_store_oil(equations, gap, 0.0);
     for (int k = 0; k < MOST_STILL; ++k) {
-        double most = 0.0;
+        most = 0.0;
         memcpy(last, found->theta, all * sizeof *last);
         rf_sharpen_oil(shape, gap, rate, last, carried);
         for (size_t q = 0; q < all; ++q)
@@ -137,7 +139,7 @@ static int settle(rf_oil_equations *equations, const rf_oil_shape *shape, const 
         if (most <= STILL)
             break;
     }
-    return RF_OK;
+    return most <= STILL_ENOUGH ? RF_OK : RF_STUCK;
 }
 
 int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_found *found)

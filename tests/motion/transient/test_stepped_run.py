@@ -243,6 +243,23 @@ def test_the_error_of_steps_is_that_of_their_differences(ratio):
     assert error.largest == pytest.approx(expected, rel=5e-3)
 
 
+@pytest.mark.closed_form
+def test_the_error_of_a_round_orbit_of_the_steps_is_twice_what_it_is_off():
+    # BDF2 of x' = i x: (3 - 2 i h) g^2 - 4 g + 1 = 0 from step to step.
+    count, circle = 200, Circle(1.0)
+    h, error = 2.0 * np.pi / count, StepError(circle)
+    g = (2.0 + np.sqrt(1.0 + 2j * h)) / (3.0 - 2j * h)
+    places = 0.3 * c * g ** np.arange(-1, count + 1)
+    moments = [
+        Moment(n * h, np.array([z.real, z.imag, 0, 0]), np.array([-z.imag, z.real, 0, 0]), (), np.zeros(0))
+        for n, z in enumerate(places)
+    ]
+    for three in zip(moments, moments[1:], moments[2:], strict=False):
+        error.add(*three)
+    assert error.largest == pytest.approx(0.3 * 4.0 * np.pi / 3.0 * h**2, rel=5e-3)
+    assert error.largest == pytest.approx(2.0 * abs(places[-1] - places[1]) / c, rel=5e-3)
+
+
 def test_a_run_tells_the_error_of_its_steps(rest):
     times = np.linspace(0.0, TURN, 13)
     runs = [simulate(rotor(rest), FILM, duration=TURN, times=times, max_step=TURN / n) for n in (48, 96, 192)]

@@ -88,9 +88,11 @@ class JudgedDamper(InertialModel):
         centered = self._short.force(np.zeros_like(e), w, b, self.frequency)
         return np.asarray(found - centered - more * v - added * a)
 
-    def force_along(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+    def force_along(
+        self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
         """Return the force in a motion with all of the inertia, shape (2, n) [N]; see `InertialModel`."""
-        own = self.damper.force_along(position, velocity, acceleration)
+        own = self.damper.force_along(position, velocity, acceleration, speed)
         return own + self.left_out(position, velocity, acceleration)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:

@@ -27,8 +27,8 @@ class Fluidity(NamedTuple):
     dragged: Array
     sheared: Array
 
-    def at_faces(self) -> Fluidity:
-        """Return the means of both sides at the faces after the lines."""
+    def mean_at_faces(self) -> Fluidity:
+        """Return the means of both sides at the faces after the lines, openings or not."""
         return Fluidity(*(0.5 * (field + np.roll(field, -1, axis=0)) for field in self))
 
 

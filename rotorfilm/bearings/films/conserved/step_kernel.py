@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import ConvergenceError, FilmContactError
+from ....errors import ConvergenceError, FilmContactError, InputError
 from ....model import Array
 from ....native.film_kernels import Status
 from ....native.layouts.conserved_structs import (
@@ -57,7 +57,17 @@ class ShapeNumbers(NamedTuple):
 
 @lru_cache(maxsize=64)
 def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, ShapeNumbers]:
-    """Return a film as C reads it, and the arrays that it must outlive."""
+    """Return a film as C reads it, and the arrays that it must outlive.
+
+    Raises
+    ------
+    InputError
+        If its viscosity is not the same everywhere.
+    """
+    if film.fluidity is not None:
+        raise InputError(
+            "film must have one viscosity for steps in time and FMUs, got that of a frozen temperature field"
+        )
     cells, supply = film.cells, film.supply
     kept = ShapeNumbers(
         spacing=_float(cells.spacing),

@@ -18,9 +18,12 @@ from rotorfilm import (
     LayeredTemperature,
     MeanTemperature,
     Oil,
+    RigidRotor,
     coefficients,
     equilibrium,
+    export_fmu,
     heated_equilibrium,
+    simulate,
 )
 from rotorfilm.charts.heat_charts import plot_heated_film
 from rotorfilm.errors import FilmContactError, InputError
@@ -189,6 +192,30 @@ def test_what_breaks_a_rule_is_named():
         film.solve(POSITION, 0.0)
     with pytest.raises(FilmContactError, match="inside the clearance"):
         film.solve([c, 0.0], OMEGA)
+
+
+def test_the_film_that_steps_begin_with_stands():
+    groove = {"grooves": (TOP,)}
+    film = JFOFilm(
+        bearing=JournalBearing(radius=R, length=0.05, clearance=1e-4, viscosity=0.02, **groove),
+        cells=(36, 4),
+        supply_flow=5e-7,
+    )
+    u = [0.51e-4 * np.cos(4.6753), 0.51e-4 * np.sin(4.6753), 0.0, 0.0, -300.0]
+    first = film.start(u)
+    _, output, _ = film.step(first, 0.0, u, 1e-2)
+    np.testing.assert_allclose(output[:2], first.output[:2], rtol=1e-9)
+
+
+def test_a_viscosity_field_does_not_step_in_time(tmp_path):
+    frozen = heated().solve(POSITION, OMEGA).film
+    rotor = RigidRotor(mass=500.0, speed=OMEGA, position=tuple(POSITION))
+    with pytest.raises(InputError, match="film must have one viscosity for steps in time and FMUs"):
+        simulate(rotor, frozen, duration=1e-3)
+    with pytest.raises(InputError, match="film must have one viscosity for steps in time and FMUs"):
+        export_fmu(frozen, tmp_path / "frozen.fmu")
+    with pytest.raises(InputError, match="temperature must not be set on a film of frozen temperature"):
+        frozen.at_temperature(T_S)
 
 
 def test_it_rests_where_one_temperature_has_it_about_and_is_drawn():

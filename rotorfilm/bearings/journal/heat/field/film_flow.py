@@ -116,7 +116,9 @@ def film_flow(
     full = np.pad(found.solution.full, ((0, 0), (0, 1)), mode="edge")
     pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
     H, at_lines = thickness(eccentricity, cells.face), thickness(eccentricity, cells.theta)
-    drag = speed * _driven(cells, full, H, at_lines, speed) * film.fluidity.at_faces().dragged * cells.width
+    drag = (
+        speed * _driven(cells, full, H, at_lines, speed) * film.fluidity.mean_at_faces().dragged * cells.width
+    )
     pressed = np.zeros(cells.shape)
     pressed[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1]
     axial = np.zeros(cells.shape)

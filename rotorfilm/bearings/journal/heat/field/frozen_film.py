@@ -111,7 +111,7 @@ class FrozenFilm(StaticReaction):
             Velocity / clearance.
         speed : float [rad/s]
         """
-        cells, normal, faces = self.cells, self.cells.normal(), self.fluidity.at_faces()
+        cells, normal, faces = self.cells, self.cells.normal(), self.fluidity.mean_at_faces()
         width, H = cells.width[:-1], thickness(eccentricity, cells.face)
         across = cells.slenderness**-2 * ((cells.face - np.roll(cells.face, 1)) % (2.0 * np.pi))
         dragged = speed * H[:, None] * faces.dragged[:, :-1]
@@ -168,7 +168,7 @@ class FrozenFilm(StaticReaction):
 
     def _dragged_in(self, H: Array) -> Array:
         """Return what walls at unit speed drag into each cell, over thickness H (N,) at the faces."""
-        dragged = H[:, None] * self.fluidity.at_faces().dragged[:, :-1] * self.cells.width[:-1]
+        dragged = H[:, None] * self.fluidity.mean_at_faces().dragged[:, :-1] * self.cells.width[:-1]
         return np.roll(dragged, 1, axis=0) - dragged
 
 
