@@ -289,4 +289,5 @@ def _extra(scene: Scene) -> tuple[UnbalanceTable, ...]:
     if scene.excitation is None:
         return ()
     require_kind(scene.excitation, ("unbalance",))
+    assert isinstance(scene.excitation, UnbalanceTable)
     return (scene.excitation,)
