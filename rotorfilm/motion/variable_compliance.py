@@ -53,7 +53,7 @@ class VariableCompliance(Drawable):
         A, B of K = mean + A cos(2 pi angle/pitch) + B sin(2 pi angle/pitch): the parametric excitation.
     ball_pass_frequency : float [rad/s]
         At the speed of the shaft: balls times the speed of the cage.
-    load : (float, float) [N]
+    load : ndarray, shape (2,) [N]
     speed : float [rad/s]
     """
 
@@ -64,7 +64,7 @@ class VariableCompliance(Drawable):
     mean_stiffness: Array
     first_harmonic: Array
     ball_pass_frequency: float
-    load: tuple[float, float]
+    load: Array
     speed: float
 
 
@@ -112,6 +112,6 @@ def variable_compliance(
         mean_stiffness=stiffness.mean(axis=0),
         first_harmonic=2.0 / samples * np.stack([first.real, -first.imag]),
         ball_pass_frequency=2.0 * np.pi / bearing.pitch * bearing.cage_ratio * abs(speed),
-        load=load,
+        load=np.asarray(load, dtype=float),
         speed=speed,
     )

@@ -42,6 +42,7 @@ NO_RESULTS = {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "ComparedFilm"),
         *("FilmField", "RungName", "BushRun", "RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
+        *("RestingBalls", "BuiltDamperFilm"),
         *("HeatCase", "HeatRung", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel", "ComparedPad"),
         *("FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
         *(
