@@ -15,11 +15,13 @@ import contextlib
 import io
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from rotor_size import FILMS, SPRINGS, STEEL, THRESHOLD, timed
+import rotor_size
+from rotor_size import FILMS, SPRINGS, THRESHOLD, timed
 
 from rotorfilm.linear import (
     base_response,
@@ -32,7 +34,7 @@ from rotorfilm.linear import (
     stability_changes,
     unbalance_response,
 )
-from rotorfilm.rotors import ClassicalBeam, Disk, ShaftElement, ShaftRotor, Station, Unbalance
+from rotorfilm.rotors import ClassicalBeam, ShaftRotor
 
 SPEED, TOP = 300.0, 700.0
 CHART, RESPONSE, SEARCH = (
@@ -73,20 +75,8 @@ def main() -> None:
 
 
 def shaft(count: int) -> ShaftRotor:
-    """Return the rotor in so many elements."""
-    disk: dict[str, Any] = {"density": 7810.0, "width": 0.07, "inner_diameter": 0.05}
-    small, large = count // 3, 2 * count // 3
-    return ShaftRotor(
-        elements=ShaftElement(length=1.5, outer_diameter=0.05, material=STEEL).split(count),
-        disks=(
-            Disk.solid(small, outer_diameter=0.28, **disk),
-            Disk.solid(large, outer_diameter=0.35, **disk),
-        ),
-        stations=(Station(node=0, name="left"), Station(node=count, name="right")),
-        unbalances=(Unbalance(node=small, unbalance=1e-3),),
-        beam=ClassicalBeam(),
-        speed=0.0,
-    )
+    """Return the rotor in so many elements, of the beam that ROSS has."""
+    return replace(rotor_size.shaft(count), beam=ClassicalBeam())
 
 
 def rows(count: int) -> list[Row]:
