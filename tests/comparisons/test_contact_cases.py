@@ -179,6 +179,7 @@ def test_cases_run_by_a_plan(monkeypatch):
 
 
 @pytest.mark.literature
+@pytest.mark.long
 def test_published_step_halves_the_travelling_film_and_hides_the_decay():
     # Case 4.1 on 24 cells: decay times 3.2 and 6.0 by the published steps, 50 to 70 by the equations.
     contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(24, 24)))
@@ -211,6 +212,7 @@ def test_limits_are_those_of_the_scheme(monkeypatch):
     assert len(plot_contact_limits(result)) == 2
 
 
+@pytest.mark.long
 def test_ladder_ranks_time_schemes_and_reduced_laws():
     result = contact_precision(32, duration=2.0, tolerance=1e-4, orders=(2, 5))
     rungs = {(rung.family, rung.label): rung for rung in result.rungs}

@@ -72,7 +72,7 @@ def grooved(quantity, tolerance):
     return parse_scene(text, "test")
 
 
-@pytest.mark.parametrize("scene", [plain, grooved])
+@pytest.mark.parametrize("scene", [plain, pytest.param(grooved, marks=pytest.mark.long)])
 def test_tolerance_decides_the_thermal_rung(scene):
     true = scene("eccentricity_ratio", 0.01).ask()
     assert true.model.startswith("T3")
@@ -316,6 +316,7 @@ def growth_of(rest, mass):
     return float(np.linalg.eigvals(matrix).real.max())
 
 
+@pytest.mark.long
 def test_whirl_threshold_on_a_temperature_field_is_where_its_own_coefficients_lose_stability():
     scene = plain("whirl_threshold", 0.5)
     rungs = {rung.name: rung for rung in ladder_of(scene).rungs}
@@ -337,7 +338,10 @@ def test_whirl_threshold_on_a_temperature_field_is_where_its_own_coefficients_lo
         assert about.error / 2.0 < true < 2.0 * about.error
 
 
-@pytest.mark.parametrize("quantity", ["critical_speed", "whirl_threshold", "unbalance_amplitude"])
+@pytest.mark.parametrize(
+    "quantity",
+    ["critical_speed", pytest.param("whirl_threshold", marks=pytest.mark.long), "unbalance_amplitude"],
+)
 def test_shaft_has_all_levels_of_heat_and_their_errors(quantity):
     scene = parse_scene(SHAFT.format(oil="grade = 46", viscosity="", quantity=quantity), "test")
     rungs = ladder_of(scene).rungs

@@ -129,6 +129,7 @@ def test_middle_branch_is_a_saddle_and_the_outer_ones_are_stable(support, rotor)
     assert growing[0].real == pytest.approx(middle.growth_rate, rel=1e-9)
 
 
+@pytest.mark.long
 def test_saddle_by_simulation_from_both_sides(support, rotor, whirl):
     shaft, film = rotor(0.385), support(0.08, 0.4)
     low, middle, high = synchronous_orbits(shaft, film).at(shaft.unbalance)
