@@ -1,7 +1,10 @@
-"""Dampers that conserve their oil: the table of docs/damper.md, its picture, and what grids are good for."""
+"""Dampers that conserve their oil: the table of docs/damper.md, its picture, and what grids are good for.
 
+python benchmarks/conserved_damper.py [PICTURE.png]
+"""
+
+import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 
@@ -44,7 +47,7 @@ def table() -> None:
         print(f"{name:30}: conserved {conserved.round(4)}, Reynolds {reynolds.round(4)}, full {whole:.4f}")
 
 
-def picture(folder: Path) -> None:
+def picture(path: str | None = None) -> None:
     """Draw the cavity of an eccentric orbit over a turn, and print what its mass is worth."""
     damper, angle = JFODamper(**SIZES, supply=IN_OIL), 2.0 * np.pi * np.arange(1, 193) / 192
     q = c * np.array([0.25 + 0.55 * np.cos(angle), 0.55 * np.sin(angle)])
@@ -54,7 +57,8 @@ def picture(folder: Path) -> None:
     apart = np.hypot(*(turn.force - reynolds)).max() / np.hypot(*reynolds).max()
     work = -np.sum(reynolds * v) * turn.time[0]
     print(f"eccentric orbit: {apart:.3f} of the peak, work {turn.work / work - 1.0:+.4f}, {turn.turns} turns")
-    turn.plot().figure.savefig(folder / "damper_turn.png", dpi=90)
+    if path is not None:
+        turn.plot().figure.savefig(path, dpi=90)
 
 
 def grids(count: int = 60) -> None:
@@ -123,7 +127,7 @@ def estimates(count: int = 30) -> None:
 
 if __name__ == "__main__":
     table()
-    picture(Path(__file__).parents[1] / "docs")
+    picture(*sys.argv[1:2])
     grids()
     warnings.simplefilter("ignore")
     estimates()

@@ -1,8 +1,12 @@
-"""The picture of docs/pads.md: clearances, offset and orientation of bearings made of pads."""
+"""Draw the picture of docs/pads.md: clearances, offset and orientation of bearings made of pads.
+
+python docs/draw_pads.py pads.png
+"""
 
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -82,4 +86,4 @@ def draw(path: Path) -> Path:
 
 
 if __name__ == "__main__":
-    draw(Path(__file__).with_name("pads.png"))
+    draw(Path(sys.argv[1]))

@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import draw_pictures
 import interface_tasks
 import pytest
 
@@ -53,6 +54,22 @@ def test_what_is_absent_is_said_to_be_not_covered():
     assert len(absent) >= 8
     for words in absent:
         assert words.split(",")[0].lower() in said, words
+
+
+def test_every_picture_is_drawn_by_one_command_and_shown():
+    drawn = Counter(f"{name}.png" for names in draw_pictures.DRAWN.values() for name in names) + Counter(
+        ["chart_ross.png"]
+    )
+    assert drawn == Counter(path.name for path in (ROOT / "docs").glob("*.png"))
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
+    shown = {
+        name
+        for page in pages
+        for name in re.findall(r"!\[.*?\]\((?:docs/)?(\w+\.png)\)", page.read_text(encoding="utf-8"))
+    }
+    assert shown == set(drawn)
+    for command in draw_pictures.DRAWN:
+        assert all(Path(word).is_file() for word in draw_pictures.program(command) if word.endswith(".py"))
 
 
 def test_the_interface_page_shows_every_public_name_once():
