@@ -1,6 +1,8 @@
 """Dampers that conserve their oil: the table of docs/damper.md, its picture, and what grids are good for.
 
-python benchmarks/conserved_damper.py [PICTURE.png]
+    python benchmarks/conserved_damper.py [PICTURE.png]
+
+With a picture, it draws this alone.
 """
 
 import sys
@@ -47,7 +49,7 @@ def table() -> None:
         print(f"{name:30}: conserved {conserved.round(4)}, Reynolds {reynolds.round(4)}, full {whole:.4f}")
 
 
-def picture(path: str | None = None) -> None:
+def orbit(path: str | None = None) -> None:
     """Draw the cavity of an eccentric orbit over a turn, and print what its mass is worth."""
     damper, angle = JFODamper(**SIZES, supply=IN_OIL), 2.0 * np.pi * np.arange(1, 193) / 192
     q = c * np.array([0.25 + 0.55 * np.cos(angle), 0.55 * np.sin(angle)])
@@ -126,8 +128,10 @@ def estimates(count: int = 30) -> None:
 
 
 if __name__ == "__main__":
+    if sys.argv[1:]:
+        sys.exit(orbit(sys.argv[1]))
     table()
-    picture(*sys.argv[1:2])
+    orbit()
     grids()
     warnings.simplefilter("ignore")
     estimates()

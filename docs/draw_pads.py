@@ -1,6 +1,8 @@
 """Draw the picture of docs/pads.md: clearances, offset and orientation of bearings made of pads.
 
-python docs/draw_pads.py pads.png
+    python docs/draw_pads.py pads.png
+
+The clearances are a hundred times those of a bearing.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
     python tools/draw_pictures.py [PICTURE ...]
 
-Without names it draws all but `chart_ross.png`: `benchmarks/beside_ross.py` does, with a Python that has ROSS.
+Without names it draws all but `chart_ross.png`, which `benchmarks/beside_ross.py` draws, for it needs ROSS.
 Charts of cost are to be drawn while nothing else runs.
 """
 
