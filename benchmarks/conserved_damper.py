@@ -129,7 +129,8 @@ def estimates(count: int = 30) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:]:
-        sys.exit(orbit(sys.argv[1]))
+        orbit(sys.argv[1])
+        sys.exit()
     table()
     orbit()
     grids()

@@ -158,7 +158,7 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
         left.errorbar(1e6 * cost, median, yerr=[[0.0], [high - median]], fmt="o", capsize=5, label=name)
     left.set(xscale="log", yscale="log", xlabel="time of one force in a batch, us")
     left.set(ylabel="force error (dot: median, bar: 99 %)", title="L/D = .25, Phi = .001")
-    left.legend(fontsize=7)
+    left.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     left.xaxis.set_minor_formatter(NullFormatter())
     gradings = np.linspace(0.0, 4.0, 81)
     full = damper(0.25, 0.02, extent=FullFilm())

@@ -69,12 +69,12 @@ def draw(own: dict[int, list[float]], path: str) -> None:
     """Draw the times of the columns [s] over the number of elements."""
     from rotorfilm.charts import new_figure, save
 
-    axes = new_figure(size=(6.4, 4.0)).subplots()
+    axes = new_figure(size=(8.4, 4.0)).subplots()
     names = ("modes", "Campbell, 50 speeds", "critical speeds", "unbalance, 200 speeds", "threshold on films")
     for name, times in zip(names, np.transpose(list(own.values())), strict=True):
         axes.loglog(list(own), times, marker="o", label=name)
     axes.set(xlabel="elements", ylabel="CPU time [s]", title="Cost of analyses over the size of a rotor")
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
     save(axes, Path(path))
 
 

@@ -25,8 +25,8 @@ line = state.pressure[:, 0], state.thickness[:, 0]
 above.plot(grid.x, line[0], color="#c0392b", label="pressure p / p_H")
 above.plot(grid.x, np.sqrt(np.maximum(1.0 - grid.x**2, 0.0)), "k:", lw=1, label="dry contact (Hertz)")
 above.plot(grid.x, line[1], color="#2c3e50", label="film thickness H")
-above.set(xlim=(-2.5, 1.5), ylim=(0, 1.2), xlabel="x / a, rolling direction", title="along the middle, y = 0")
-above.legend(fontsize=8)
+above.set(xlim=(-2.5, 1.5), ylim=(0, 1.6), xlabel="x / a, rolling direction", title="along the middle, y = 0")
+above.legend(fontsize=8, loc="upper center")
 
 omega = np.geomspace(0.05, 6.0, 200)
 answer = [(law.C @ np.linalg.solve(1j * w * np.eye(law.order) - law.A, law.B) + law.D)[0, 0] for w in omega]

@@ -30,11 +30,14 @@ def response(speed: float) -> rf.CrackedResponse:
 
 
 natural = rf.rotor_modes(shaft, springs, 1.0).frequency[0]
-shares = np.linspace(0.3, 0.56, 40)
+shares = np.unique(
+    [*np.linspace(0.3, 0.56, 27), *np.linspace(0.32, 0.35, 25), *np.linspace(0.485, 0.515, 31)]
+)
 series = np.array([np.abs(response(share * natural).series["disk_y"]) for share in shares])
-axes = new_axes("Motion of the disk [um] over speed / critical speed")
+axes = new_axes("Motion of the disk of a cracked shaft")
 for times in (1, 2, 3):
     axes.semilogy(shares, 1e6 * series[:, times], label=f"{times} per turn")
+axes.set(xlabel="speed / critical speed", ylabel="amplitude of disk_y [um]")
 axes.legend()
 axes.figure.savefig("cracked_shaft.png")
 peak = shares[series[:, 2].argmax()]

@@ -26,7 +26,7 @@ rotor = rf.JeffcottRotor(
 bearing = rf.LinearBearing(stiffness=2e7, damping=3e3)
 ring = rf.RubRing(gap=3e-4, stiffness=4e6, radius=0.1, friction_coefficient=0.02, dissipation=0.2)
 
-axes = new_axes("Radius of the disk [mm] over the speed [rad/s]")
+axes = new_axes("A run-up past the critical speed, free and in a ring")
 for label, station in (
     ("free", rf.LinearBearing(stiffness=0.0, damping=0.0)),
     ("in a ring of 0.3 mm", ring),
@@ -34,6 +34,7 @@ for label, station in (
     run = rf.simulate(rf.mount(rotor, {"disk": station}), bearing, duration=2.0, samples=2001, rtol=1e-6)
     axes.plot(run["speed"], 1e3 * np.hypot(run["disk_x"], run["disk_y"]), label=label)
 contacts = rf.ring_contacts(run, ring, "disk")
+axes.set(xlabel="speed [rad/s]", ylabel="radius of the disk [mm]")
 axes.legend()
 axes.figure.savefig("rub.png")
 first, last = (profile.speed(t) for t in (contacts.begin[0], contacts.end[-1]))

@@ -27,6 +27,11 @@ def new_figure(*, size: tuple[float, float]) -> Figure:
     return figure
 
 
+def legend_beside(axes: Axes) -> None:
+    """Put the legend to the right of the picture: inside, it would lie on curves that are everywhere."""
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
+
+
 def save(axes: Axes, path: Path, *, dpi: int = 130) -> Path:
     """Write the figure of `axes`, all of its Axes, as PNG and return the path."""
     figure = axes.get_figure()

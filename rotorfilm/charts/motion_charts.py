@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from ..comparisons.journal.journal_rungs import FilmFamily
 from ..results import Trajectory
-from .canvas import new_axes
+from .canvas import legend_beside, new_axes
 from .palette import DASHES, FAMILY_COLORS, FAMILY_WIDTHS, WITHIN
 
 
@@ -43,8 +43,7 @@ def plot_orbits(
         x0, y0 = center
         axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium", zorder=3)
     axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
-    # Beside the picture: inside, it would lie on the orbits or the equilibrium within them.
-    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
+    legend_beside(axes)
     return axes
 
 

@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..linear import Campbell, CriticalSpeed, RotorModes
 from ..model import Array
 from ..rotors import ShaftRotor
-from .canvas import new_axes, new_figure
+from .canvas import legend_beside, new_axes, new_figure
 
 RPM = math.pi / 30.0
 HERTZ = 2.0 * math.pi
@@ -135,8 +135,7 @@ def plot_unbalance_response(
         below.plot(speeds, np.degrees(np.unwrap(np.angle(phasor))), label=name)
     above.set(ylabel="amplitude [um]", title="Unbalance response")
     below.set(xlabel="speed [rpm]", ylabel="phase [deg]")
-    # Beside the picture: curves of many outputs are everywhere in it.
-    above.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
+    legend_beside(above)
     for part in (above, below):
         part.grid(visible=True, alpha=0.3)
     return above, below

@@ -8,7 +8,7 @@ from ...bearings.contact import ContactState
 from ...comparisons.contact.contact_cases import CaseRun, CaseSolution, ContactCases
 from ...comparisons.contact.contact_statements import CaseSection, SolutionKind
 from ...model import Array
-from ..canvas import new_figure
+from ..canvas import legend_beside, new_figure
 
 TITLES = {
     CaseSection.FREE: "figure 3: approach and pressure 20 % too small",
@@ -26,7 +26,7 @@ LATEST = 40.0
 
 def plot_contact_cases(cases: ContactCases) -> list[Axes]:
     """Draw figures 2 to 7: published scheme dashed, converged solid."""
-    figure = new_figure(size=(11.0, 17.0))
+    figure = new_figure(size=(11.5, 17.0))
     figure.suptitle("Panovko (2011), figures 2 to 7. Solid: converged; dashed: published scheme, dt = 0.2")
     rows = iter(figure.subplots(6, 2))
     axes = [*_draw_rest(next(rows), cases)]
@@ -47,7 +47,7 @@ def _draw_waves(row: list[Axes], cases: ContactCases, heaviest: CaseRun) -> list
     for solution, run in zip(cases.solutions, heaviest.runs, strict=True):
         for number, state in enumerate(run.snapshots):
             _draw_along(row, solution, state, f"C{number}", f"t = {state.t:g}")
-    row[1].legend(fontsize=8)
+    legend_beside(row[1])
     return _dressed(row, ("figure 4: case 4.1, W = 1, y = 0", ""), ("pressure p", "film H"), "x")
 
 
@@ -65,7 +65,7 @@ def _draw_series(row: list[Axes], cases: ContactCases, section: CaseSection) -> 
             early = run.time <= LATEST
             values = (run.central_film[early], -run.delta[early])
             _draw(row, solution, run.time[early], values, f"C{number}", curve.name)
-    row[1].legend(fontsize=8)
+    legend_beside(row[1])
     return _dressed(row, (TITLES[section], ""), ("central film H0", "approach -delta"), "time")
 
 

@@ -59,6 +59,8 @@ def _finish(axes: Axes, panel: Panel) -> None:
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label, yscale="log", title=panel.title)
     if panel.logarithmic:
         axes.set_xscale("log")
+    else:
+        axes.locator_params(axis="x", nbins=6)  # numbers that do not touch
     if panel.level is not None:
         axes.axhline(panel.level, color="k", linewidth=1.0, linestyle="--", label=f"failed: {panel.level:g}")
     axes.grid(visible=True, alpha=0.3)
