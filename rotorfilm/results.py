@@ -202,7 +202,10 @@ class Trajectory(Drawable):
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of one signal, shape (n,)."""
-        return self.signals[name]
+        try:
+            return self.signals[name]
+        except KeyError:
+            raise KeyError(f"signal must be one of {', '.join(self.signals)}, got {name!r}") from None
 
     @property
     def position(self) -> Array:

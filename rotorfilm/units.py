@@ -106,6 +106,7 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "g": Unit(1e-3, {"kg": 1}),
     "MPa": Unit(1e6, {"kg": 1, "m": -1, "s": -2}),
     "1/GPa": Unit(1e-9, {"kg": -1, "m": 1, "s": 2}),
+    "MN": Unit(1e6, {"kg": 1, "m": 1, "s": -2}),
     "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),
     "mPa s": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
     "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
@@ -173,7 +174,7 @@ def parse_quantity(text: str | float, unit: str, *, absolute: bool = False) -> f
     if match is None:
         raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {brief(text)}")
     name = (match[2] or unit).translate(_MICRO)
-    name = name if name in DISPLAY_UNITS else si_name(name)
+    name = next((known for known in (name, si_name(name), spaced(name)) if known in DISPLAY_UNITS), name)
     if name not in DISPLAY_UNITS:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
@@ -193,6 +194,11 @@ def parse_quantity(text: str | float, unit: str, *, absolute: bool = False) -> f
 def si_name(unit: str) -> str:
     """Return the key of `UNITS` of a unit as docstrings spell it, `"Pa s"` for `"Pa.s"`."""
     return unit.replace(" ", ".")
+
+
+def spaced(unit: str) -> str:
+    """Return a unit as people write it, `"mPa s"` for `"mPa.s"`."""
+    return unit.replace(".", " ")
 
 
 def _weight_hint(value: float, name: str, unit: str) -> str:

@@ -55,6 +55,8 @@ def test_exponents_add_up_as_the_definitions_say(product, factors):
         ("-90 deg", "rad", -0.5 * math.pi),
         ("0.1 Pa s", "Pa.s", 0.1),
         ("12 mPa s", "Pa.s", 0.012),
+        ("12 mPa.s", "Pa.s", 0.012),
+        ("5 MN", "N", 5e6),
         ("2147 g mm", "kg.m", 2.147e-3),
         # ISO 80000: 1 in = 25.4 mm, 1 lb = 0.453 592 37 kg, g_n = 9.806 65 m/s2
         ("4 in", "m", 0.1016),

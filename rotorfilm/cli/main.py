@@ -98,7 +98,11 @@ def main(arguments: list[str] | None = None) -> None:
             warnings.showwarning = _show_warning  # type: ignore[assignment]
             _run(words)
     except (RotorfilmError, OSError, MemoryError) as error:
-        message = f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)
+        message = (
+            f"not enough memory: {error}"
+            if isinstance(error, MemoryError)
+            else str(error).removeprefix("--: ")
+        )
         console.complain("error", message)
         if "--json" in words:
             console.print_json({"error": type(error).__name__, "message": message})

@@ -226,6 +226,8 @@ def plain_rotor_run(run: RotorRun) -> dict[str, Any]:
     return {
         "peaks": dict(run.peaks),
         "at_rest": dict(run.at_rest),
+        "vibrations": dict(run.vibrations),
+        "vibration_speeds": dict(run.vibration_speeds),
         "end_speed": run.end_speed,
         "contact_time": run.contact_time,
         "end": float(run.trajectory.time[-1]),
@@ -245,6 +247,13 @@ def rotor_run_rows(run: RotorRun) -> list[tuple[str, str]]:
                 f"{size * 1e6:.4g} um, at rest {run.at_rest[name] * 1e6:.4g} um",
             )
             for name, size in run.peaks.items()
+        ),
+        *(
+            (
+                f"largest vibration of {name}",
+                f"{size * 1e6:.4g} um about its rest, at {run.vibration_speeds[name] * RPM:.5g} rpm",
+            )
+            for name, size in run.vibrations.items()
         ),
         ("contact", "none" if run.contact_time is None else f"at {run.contact_time:.6g} s"),
         ("work", calls),

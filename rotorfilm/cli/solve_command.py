@@ -36,7 +36,7 @@ def solve(
     if loaded.question is not None:
         return _question(scene, loaded, explain)
     if explain:
-        raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
+        raise InputError(f"--explain needs a scene with a [question], got {str(scene)!r}, which has none")
     if loaded.bush is not None and not loaded.has_film:
         with inside(scene):
             melting = loaded.melting()

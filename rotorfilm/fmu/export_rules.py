@@ -10,6 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from ..errors import FmuError, InputError, require_finite
+from ..inputs.si_arguments import quantity
 from ..model import Array, Dynamic, Model, Stepped
 from ..native.journal_spec import sized_spec
 from ..native.spec import NativeSpec
@@ -123,16 +124,18 @@ def _first_output(model: Model | Stepped, inputs: Array) -> Array:
     return model.output(0.0, state, inputs)
 
 
-def start_values(model: Model | Stepped, start: Mapping[str, float]) -> dict[str, float]:
+def start_values(model: Model | Stepped, start: Mapping[str, float | str]) -> dict[str, float]:
     """Return the start value of each input; raise InputError for one that there is not."""
-    names = [signal.name for signal in model.inputs]
+    found = dict.fromkeys((signal.name for signal in model.inputs), 0.0)
+    signals = {signal.name: signal for signal in model.inputs}
     for name, value in start.items():
-        if name not in names:
+        if name not in found:
             raise InputError(
-                f"start must have keys from the inputs {names}, got {name!r}{_state_hint(model, name)}"
+                f"start must have keys from the inputs {list(found)}, got {name!r}{_state_hint(model, name)}"
             )
-        require_finite(f"start[{name!r}]", value)
-    return {name: float(start.get(name, 0.0)) for name in names}
+        said = f"start[{name!r}]"
+        found[name] = float(require_finite(said, quantity(said, value, signals[name].unit)))
+    return found
 
 
 def _state_hint(model: Model | Stepped, name: str) -> str:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import BallBearing, back_to_back, export_fmu
+from rotorfilm import BallBearing, InputError, back_to_back, export_fmu
 from rotorfilm.fmu import check_fmu
+from rotorfilm.fmu.export_rules import start_values
 
 ONE = BallBearing(
     balls=11,
@@ -54,8 +55,14 @@ def test_forces_and_derivatives_are_those_of_python(version, model, exchange, op
 
 @versions
 def test_a_ball_bearing_is_native_by_default_and_passes_all_checks(version, tmp_path):
-    path = export_fmu(DEEP, tmp_path / "b.fmu", version, start={"x": 2e-6, "y": -7e-6, "speed": 300.0})
+    path = export_fmu(DEEP, tmp_path / "b.fmu", version, start={"x": "2 um", "y": -7e-6, "speed": 300.0})
     assert [item.check for item in check_fmu(path) if item.passed is False] == []
+
+
+def test_start_values_take_units():
+    assert start_values(DEEP, {"x": "2 um"})["x"] == 2e-6
+    with pytest.raises(InputError, match=r"start\['x'\].*measured in m"):
+        start_values(DEEP, {"x": "2 N"})
 
 
 @versions

@@ -292,7 +292,7 @@ def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path,
     assert "NOT met by any rung" in shown.out
     code, shown = run(str(ROOT / "examples" / "friswell.toml"), "--explain")
     assert code == 2
-    assert "--explain must be given with a scene that has a [question]" in shown.err
+    assert "--explain needs a scene with a [question]" in shown.err
 
 
 HOT = """schema = 1

@@ -202,7 +202,17 @@ def test_displacement_at_rest_is_beside_the_peak():
     sag = np.hypot(*rest.displacement.reshape(2, -1)[:, 2 * 4])  # the disk is at node 4
     assert run.at_rest["disk"] == pytest.approx(sag, rel=1e-6)
     assert run.peaks["disk"] == pytest.approx(sag, rel=1e-4)
+    assert run.vibrations["disk"] < 1e-4 * sag
     assert sag > 5e-4
+
+
+def test_vibration_is_about_the_place_at_rest_and_its_speed_is_told():
+    run = run_rotor(Scene.load(EXAMPLES / "critical_run_up.toml"))
+    x, y, speed = (run.trajectory[name] for name in ("disk_x", "disk_y", "speed"))
+    far = [np.hypot(x[k] - x[0], y[k] - y[0]) for k in range(x.size)]
+    assert run.vibrations["disk"] == pytest.approx(max(far), rel=1e-12)
+    assert run.vibration_speeds["disk"] == speed[far.index(max(far))]
+    assert abs(run.peaks["disk"] - run.at_rest["disk"]) < run.vibrations["disk"] < run.peaks["disk"]
 
 
 def test_a_run_with_too_few_samples_a_turn_says_so(monkeypatch):

@@ -15,6 +15,7 @@ from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
 from ...reactions.added_mass import require_turned, require_turning
 from ...results import Trajectory
+from ...rotors import mount
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
 from ..compiled.compiled_form import compiled_form
@@ -29,7 +30,7 @@ from .stepped_run import simulate_steps
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Reaction | SteppedReaction | Mapping[str, SteppedReaction],
+    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
     *,
     duration: float,
     samples: int = 1001,
@@ -51,10 +52,10 @@ def simulate(
     ----------
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
-    reaction : Reaction, JFOFilm, or mapping of str to JFOFilm
+    reaction : Reaction, JFOFilm, or mapping of str to either
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
-        balance of its heat gets it as a state. Films that remember begin steady; a flexible rotor takes one
-        for each station by name.
+        balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
+        for each station by name; `mount` takes those of some stations where the last is of another kind.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -93,15 +94,27 @@ def simulate(
     require_positive("duration", duration)
     require_positive("rtol", rtol)
     require_longest_step(max_step)
+    grid = sample_times(duration, samples, times)
+    if isinstance(reaction, Mapping) and not any(
+        isinstance(film, SteppedReaction) for film in reaction.values()
+    ):
+        if method is not None:
+            raise InputError(f"method must be None where every station has its film, got {method!r}")
+        return simulate_rotor(
+            mount(rotor, reaction),
+            duration=duration,
+            times=grid,
+            initial_state=initial_state,
+            rtol=rtol,
+            max_step=max_step,
+        )
     if isinstance(reaction, SteppedReaction | Mapping):
         if method is not None:
             raise InputError(f"method must be None for films that step by themselves, got {method!r}")
-        grid = sample_times(duration, samples, times)
         return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
     film: Reaction = in_time(reaction)
     system = Coupled(rotor, film)
     require_turning(film, rotor)
-    grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     if method is None and (mounted := compiled_form(rotor, film)) is not None:
         labels = [*names(rotor.outputs), *FORCE_OUTPUTS]

@@ -46,6 +46,10 @@ class RotorRun(Readable):
         probe from its place in a straight shaft.
     at_rest : mapping of str to float [m]
         The same at the beginning: how far the weight holds each down.
+    vibrations : mapping of str to float [m]
+        Greatest distance of each, among the samples, from its place at the beginning.
+    vibration_speeds : mapping of str to float [rad/s]
+        Speed of the shaft at that sample.
     end_speed : float [rad/s]
     contact_time : float or None [s]
         When a journal reached the wall; None if none did.
@@ -54,6 +58,8 @@ class RotorRun(Readable):
     trajectory: Trajectory
     peaks: Mapping[str, float]
     at_rest: Mapping[str, float]
+    vibrations: Mapping[str, float]
+    vibration_speeds: Mapping[str, float]
     end_speed: float
     contact_time: float | None = None
 
@@ -111,11 +117,14 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
             raise
         contact = float(trajectory.time[-1])
     report(1.0, "done")
-    sizes = _sizes(trajectory)
+    places = _places(trajectory)
+    moved = {name: np.hypot(*(place - place[:, :1])) for name, place in places.items()}
     return RotorRun(
         trajectory=trajectory,
-        peaks={name: float(size.max()) for name, size in sizes.items()},
-        at_rest={name: float(size[0]) for name, size in sizes.items()},
+        peaks={name: float(np.hypot(*place).max()) for name, place in places.items()},
+        at_rest={name: float(np.hypot(*place[:, 0])) for name, place in places.items()},
+        vibrations={name: float(far.max()) for name, far in moved.items()},
+        vibration_speeds={name: float(trajectory["speed"][far.argmax()]) for name, far in moved.items()},
         end_speed=float(trajectory["speed"][-1]),
         contact_time=contact,
     )
@@ -212,10 +221,10 @@ def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
     )
 
 
-def _sizes(run: Trajectory) -> dict[str, Array]:
-    """Return the size of each displacement (x, y) over time."""
+def _places(run: Trajectory) -> dict[str, Array]:
+    """Return each displacement (x, y) over time, shape (2, n)."""
     pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
     moved = [name for name in pairs if not name.endswith("force_x")]
     return {
-        name[:-2] or "journal": np.hypot(run.signals[name], run.signals[f"{name[:-1]}y"]) for name in moved
+        name[:-2] or "journal": np.stack([run.signals[name], run.signals[f"{name[:-1]}y"]]) for name in moved
     }

@@ -24,6 +24,7 @@ from rotorfilm import (
     mount,
     reduce_rotor,
     rotor_equilibrium,
+    simulate,
     simulate_rotor,
 )
 from rotorfilm.motion.compiled.march import March
@@ -182,3 +183,17 @@ def test_few_shapes_are_within_their_tolerance_of_all():
         assert 0.0 < np.abs(few[name] - whole[name]).max() < 1e-5 * FILM.clearance
     with pytest.raises(InputError, match="condensation must"):
         simulate_rotor(both(rotor, FILM), condensation=-1.0, **arguments)
+
+
+def test_films_by_station_are_mounted_and_run():
+    rotor, films = (
+        overhung(SpeedProfile(times=(0.0, 0.1), speeds=(100.0, 150.0))),
+        {"left": FILM, "right": FILM},
+    )
+    run = simulate(rotor, films, duration="50 ms", samples=11, rtol=1e-6)
+    same = simulate_rotor(mount(rotor, films), duration=0.05, samples=11, rtol=1e-6)
+    np.testing.assert_array_equal(run["left_y"], same["left_y"])
+    with pytest.raises(KeyError, match=r"signal must be one of .*left_x.* got 'leftx'"):
+        run["leftx"]
+    with pytest.raises(InputError, match="method must be None where every station has its film"):
+        simulate(rotor, films, duration=0.05, method=object)
