@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.inertial_model import added_mass
 from ..errors import InputError
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
@@ -17,7 +18,7 @@ from ..rotors.stations import station_name
 from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
-from .large.driven import DrivenResponse
+from .large.driven import DrivenResponse, with_rates
 from .large.second_order import second_order, small_motion
 from .large.tilting import film_rows
 from .large.work import SOLVED, counted, with_work
@@ -51,22 +52,7 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
         bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N].
     """
-    s = rotor.structure
-    if s.hysteresis is not None:
-        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    system = second_order(s, at)
-    push = np.vstack([np.zeros_like(s.journals.T), np.linalg.solve(s.mass, s.journals.T)])
-    sense, labels = _outputs(rotor, at)
-    return control_system(
-        system.state_matrix(),
-        push,
-        sense,
-        np.zeros((len(sense), push.shape[1])),
-        inputs=names(rotor.inputs),
-        outputs=labels,
-        states=names(rotor.states),
-        name=name,
-    )
+    return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
 
 
 BASE = ("base_acceleration_x", "base_acceleration_y")
@@ -91,19 +77,7 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
         [m/s2]. Outputs: as of `rotor_system`, displacements from the ground.
     """
-    inner = rotor_system(rotor, at, name)
-    moved = translations(rotor)
-    push = np.vstack([np.zeros_like(moved), -moved])
-    return control_system(
-        inner.A,
-        push,
-        inner.C,
-        np.zeros((len(inner.C), push.shape[1])),
-        inputs=BASE,
-        outputs=inner.output_labels,
-        states=inner.state_labels,
-        name=name,
-    )
+    return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
 
 @arguments
@@ -136,7 +110,7 @@ def base_response(
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency in grid:
         moved = np.linalg.solve(small_motion(s, at, frequency).dynamic_stiffness(frequency), push)
-        responses.append(sense @ np.concatenate([moved, 1j * frequency * moved]))
+        responses.append(sense @ with_rates(moved, frequency))
     import control
 
     found = control.FrequencyResponseData(
@@ -264,13 +238,39 @@ def rotor_transmissibility(
     return with_work(found, work)
 
 
+def _state_space(
+    rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array, inputs: Sequence[str], name: str | None
+) -> control.StateSpace:
+    """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
+    if rotor.structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+    system = second_order(rotor.structure, at)
+    n = len(system.mass)
+    motion = system.state_matrix()
+    push = np.vstack([np.zeros_like(loads), np.linalg.solve(system.mass, loads)])
+    sense, labels = _outputs(rotor, at)
+    by_state, by_acceleration = sense[:, : 2 * n], sense[:, 2 * n :]
+    return control_system(
+        motion,
+        push,
+        by_state + by_acceleration @ motion[n:],
+        by_acceleration @ push[n:],
+        inputs=inputs,
+        outputs=labels,
+        states=names(rotor.states),
+        name=name,
+    )
+
+
 def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
-    """Return rows over (q, q') and names of all outputs."""
+    """Return rows over (q, q', q'') and names of all outputs."""
     s = rotor.assembly
-    rows: Sequence[Array] = [output_rows(s)]
+    own = output_rows(s)
+    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
         felt = film_rows(s, name, len(film.stiffness))
-        rows = [*rows, np.hstack([film.stiffness[:2] @ felt, film.damping[:2] @ felt])]
+        parts = (film.stiffness, film.damping, added_mass(film))
+        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
         labels += [station_name(name, signal) for signal in HOUSING]
     return np.vstack(rows), labels

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ...bearings.seal import AnnularSeal
 from ...errors import ContactError, InputError, warn_user
 from ...linear import equilibrium, rotor_equilibrium
 from ...model import Array, Reaction
@@ -91,7 +92,8 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Warns
     -----
     ValidityWarning
-        Where the run is so long that its samples are fewer in a turn.
+        Where the run is so long that its samples are fewer in a turn, and of seals, whose added mass is
+        left out.
 
     Notes
     -----
@@ -156,9 +158,18 @@ def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
     assert scene.shaft is not None
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
-    rotor, bearings = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
     still = rotor_equilibrium(rotor, bearings, scene.speed).displacement
     return replace(rotor, initial=(*still, *0.0 * still)), bearings
+
+
+def _massless(name: str, bearing: Reaction) -> Reaction:
+    """Return a bearing that the compiled integration takes: a seal without its added mass, and a warning."""
+    if not isinstance(bearing, AnnularSeal):
+        return bearing
+    warn_user(f"the added mass of the seal {name!r} is left out of a run over time")
+    return replace(bearing, added_mass=False)
 
 
 def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
