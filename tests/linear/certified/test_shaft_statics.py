@@ -83,6 +83,32 @@ def test_tension_straightens():
     assert -found.sag[1, middle] == pytest.approx(string - beam, rel=2e-3)
 
 
+SEAL = rf.AnnularSeal(
+    radius=0.06, length=0.02, clearance=3e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0
+)
+
+
+@pytest.mark.closed_form
+def test_stations_of_seals_hold_nothing():
+    """Named, the bearings alone carry the bar, as without the stations of its seals."""
+    seals = (rf.Station(node=4, name="wear_ring"), rf.Station(node=6, name="throttle"))
+    sealed = replace(shaft(), stations=(*shaft().stations, *seals))
+    found, bare = rf.shaft_statics(sealed, supports=["left", "right"]), rf.shaft_statics(shaft())
+    assert set(found.loads) == {"left", "right"}
+    assert found.loads["left"][1] == pytest.approx(-WEIGHT * LENGTH / 2.0, rel=1e-9)
+    np.testing.assert_allclose(found.sag, bare.sag, atol=1e-14)
+    with pytest.raises(rf.InputError, match=r"supports must be among .*, got \['middle'\]"):
+        rf.shaft_statics(sealed, supports=["left", "middle"])
+
+
+def test_seals_alone_do_not_carry_a_shaft():
+    with pytest.raises(rf.InputError, match=r"must hold one that carries a load, got seals only at \['left'"):
+        rf.shaft_statics(shaft(), dict.fromkeys(("right", "left"), SEAL), 100.0)
+    with pytest.raises(rf.InputError, match="supports must be None beside bearings"):
+        spring = rf.LinearBearing(stiffness=1e8)
+        rf.shaft_statics(shaft(), dict.fromkeys(("right", "left"), spring), 100.0, ["left"])
+
+
 def test_what_does_not_hold_and_two_on_a_node():
     one = replace(shaft(), stations=(rf.Station(node=4, name="only"),))
     with pytest.raises(rf.InputError, match="stations must hold the rotor"):
