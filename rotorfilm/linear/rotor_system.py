@@ -21,7 +21,7 @@ from .closed_loop import HOUSING, checked_speeds
 from .large.driven import DrivenResponse, with_rates
 from .large.second_order import second_order, small_motion
 from .large.tilting import film_rows
-from .large.work import SOLVED, counted, with_work
+from .large.work import SOLVED, counted, tally, with_work
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 
@@ -50,7 +50,8 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     control.StateSpace
         Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
         opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
-        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N].
+        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
+        the counters `work` of `unbalance_response`.
     """
     return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
 
@@ -75,7 +76,7 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground.
+        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground. With its counters `work`.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
@@ -244,22 +245,26 @@ def _state_space(
     """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
     if rotor.structure.hysteresis is not None:
         raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    system = second_order(rotor.structure, at)
-    n = len(system.mass)
-    motion = system.state_matrix()
-    push = np.vstack([np.zeros_like(loads), np.linalg.solve(system.mass, loads)])
+    mass, damping, stiffness = second_order(rotor.structure, at)
+    n = len(mass)
+    with counted(*SOLVED) as work:
+        tally("factorizations")
+        motion, pushed = np.split(
+            np.linalg.solve(mass, np.hstack([-stiffness, -damping, loads])), [2 * n], axis=1
+        )
     sense, labels = _outputs(rotor, at)
     by_state, by_acceleration = sense[:, : 2 * n], sense[:, 2 * n :]
-    return control_system(
-        motion,
-        push,
-        by_state + by_acceleration @ motion[n:],
-        by_acceleration @ push[n:],
+    system = control_system(
+        np.vstack([np.eye(n, 2 * n, n), motion]),
+        np.vstack([np.zeros_like(pushed), pushed]),
+        by_state + by_acceleration @ motion,
+        by_acceleration @ pushed,
         inputs=inputs,
         outputs=labels,
         states=names(rotor.states),
         name=name,
     )
+    return with_work(system, work)
 
 
 def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:

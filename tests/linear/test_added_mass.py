@@ -9,6 +9,8 @@ from scipy.linalg import eig
 from scipy.optimize import brentq
 
 import rotorfilm as rf
+from rotorfilm.linear.large.defects import WholeRotor
+from rotorfilm.linear.large.second_order import second_order
 
 SPEED = 300.0
 SEAL = rf.AnnularSeal(
@@ -215,3 +217,22 @@ def test_threshold_on_a_seal_that_swirls():
 def test_motion_too_fast_for_the_fluid_is_told():
     with pytest.warns(rf.ValidityWarning, match="transit time of the seal"):
         rf.rotor_equilibrium(pump(), held(), 1e5)
+
+
+@pytest.mark.closed_form
+def test_what_errors_are_estimated_from_has_the_mass():
+    """L(s) x, its adjoint and L'(s) x of the whole rotor beside dense ones; one motion, two masses."""
+    rotor, bearings, s = pump(), held(), -30.0 + 470.0j
+    at = rf.rotor_equilibrium(rotor, bearings, SPEED)
+    whole, (M, C, K) = WholeRotor(rotor.assembly, at, SPEED), dense(rotor, bearings, SPEED)
+    x = np.random.default_rng(2).normal(size=(len(M), 2)) + 0.3j
+    L = s**2 * M + s * C + K
+    for found, wanted in (
+        (whole.forces(s, x), L @ x),
+        (whole.adjoint_forces(s, x), L.conj().T @ x),
+        (whole.slope(s, x), (2.0 * s * M + C) @ x),
+    ):
+        assert_allclose(found, wanted, rtol=1e-12, atol=1e-9 * np.abs(wanted).max())
+    system = second_order(rotor.structure, at)
+    moved = system.weighing(2.0 * rotor.structure.mass)
+    assert_allclose(moved.state_matrix(), system.state_matrix(), rtol=1e-7, atol=1e-3)

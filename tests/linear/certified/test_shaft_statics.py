@@ -104,9 +104,9 @@ def test_stations_of_seals_hold_nothing():
 def test_seals_alone_do_not_carry_a_shaft():
     with pytest.raises(rf.InputError, match=r"must hold one that carries a load, got seals only at \['left'"):
         rf.shaft_statics(shaft(), dict.fromkeys(("right", "left"), SEAL), 100.0)
+    springs = dict.fromkeys(("right", "left"), rf.LinearBearing(stiffness=1e8))
     with pytest.raises(rf.InputError, match="supports must be None beside bearings"):
-        spring = rf.LinearBearing(stiffness=1e8)
-        rf.shaft_statics(shaft(), dict.fromkeys(("right", "left"), spring), 100.0, ["left"])
+        rf.shaft_statics(shaft(), springs, 100.0, ["left"])
 
 
 def test_what_does_not_hold_and_two_on_a_node():
