@@ -8,6 +8,7 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm.linear.certified.mesh_convergence import _extrapolated
+from rotorfilm.reactions.carried_load import carries_load
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
 LENGTH, DIAMETER = 2.0, 0.1
@@ -99,6 +100,16 @@ def test_stations_of_seals_hold_nothing():
     np.testing.assert_allclose(found.sag, bare.sag, atol=1e-14)
     with pytest.raises(rf.InputError, match=r"supports must be among .*, got \['middle'\]"):
         rf.shaft_statics(sealed, supports=["left", "middle"])
+
+
+def test_what_carries_a_load():
+    """A seal does not, nor two of them; springs or a bearing beside one do."""
+    light, spring = replace(SEAL, added_mass=False), rf.LinearBearing(stiffness=1e8)
+    carrying = [spring, rf.Sprung(reaction=light, stiffness=1e7), rf.ParallelReaction((spring, SEAL))]
+    assert [carries_load(one) for one in (*carrying, SEAL, rf.ParallelReaction((SEAL, light)))] == [
+        *(True, True, True),
+        *(False, False),
+    ]
 
 
 def test_seals_alone_do_not_carry_a_shaft():
