@@ -103,7 +103,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     report(0.0, "equilibrium")
     parts = _parts(scene)
     report(0.05, "motion")
-    times = _times(parts)
+    times = run_times(parts.duration, parts.fastest)
     contact = None
     try:
         trajectory = _motion(scene, parts, times)
@@ -123,22 +123,21 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     )
 
 
-def _times(parts: _Parts) -> Array:
-    """Return the times of the samples [s]."""
-    turns = parts.fastest * parts.duration / (2.0 * np.pi)
+def run_times(duration: float, fastest: float) -> Array:
+    """Return the times [s] of the samples of a run up to a speed [rad/s]; warn of few in a turn."""
+    turns = fastest * duration / (2.0 * np.pi)
     count = max(int(A_TURN * turns) + 1, FEWEST)
     if count > MOST:
         warn_user(
             f"{MOST} samples of a run are {(MOST - 1) / turns:.3g} in a turn at the highest speed, fewer "
             f"than {A_TURN}: peaks may lie between them; a shorter operation.duration has more"
         )
-    return np.linspace(0.0, parts.duration, min(count, MOST))
+    return np.linspace(0.0, duration, min(count, MOST))
 
 
-def _parts(scene: Scene) -> _Parts:
-    """Return the rotor of a scene at rest in its bearings."""
+def run_span(scene: Scene) -> tuple[float, float]:
+    """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
     excitation, speed, duration = scene.excitation, scene.speed, None
-    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
     fastest = abs(speed)
     if isinstance(excitation, RunUpTable):
         duration = excitation.profile(speed).times[-1]
@@ -148,10 +147,18 @@ def _parts(scene: Scene) -> _Parts:
     given = None if scene.operation is None else scene.operation.duration
     if isinstance(excitation, GroundTable) and given is None:
         duration = excitation.end
+    return duration or scene.duration, fastest
+
+
+def _parts(scene: Scene) -> _Parts:
+    """Return the rotor of a scene at rest in its bearings."""
+    excitation = scene.excitation
+    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
+    duration, fastest = run_span(scene)
     rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
     if isinstance(excitation, RunUpTable):
-        rotor = replace(rotor, speed=excitation.profile(speed))
-    return _Parts(rotor, bearings, duration or scene.duration, fastest)
+        rotor = replace(rotor, speed=excitation.profile(scene.speed))
+    return _Parts(rotor, bearings, duration, fastest)
 
 
 def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
