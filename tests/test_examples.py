@@ -24,7 +24,6 @@ SCRIPTS = [*sorted(EXAMPLES.glob("*.py")), STUDIES / "damper_paper.py"]
 SCENES = sorted(EXAMPLES.glob("*.toml"))
 WARNS = {
     "rotor_questions.toml": "left out: (drive|impeller)_end, at 251.3 rad/s: (heat|cavitation)",
-    "wear_ring.toml": "left out: wear_ring, at .* rad/s: added mass",
 }
 """Scenes whose answer comes with a limit of the physics."""
 

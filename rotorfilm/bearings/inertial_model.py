@@ -29,6 +29,11 @@ class InertialCoefficients(Coefficients):
     mass: Array
 
 
+def added_mass(film: Coefficients) -> Array:
+    """Return the added mass of a film [kg], in the shape of its K and C: zeros where those are all."""
+    return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
+
+
 class _Heavy(Protocol):
     @property
     def nominal_force(self) -> float: ...

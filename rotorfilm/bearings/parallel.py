@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, require_tuple, require_vector
 from ..model import Array, Reaction, largest_eccentricity_ratio, require_reaction
 from ..reactions.added_mass import inertial
+from ..reactions.carried_load import carries_load
 from ..signals import Signal
 from .contact_place import minimum_film
 from .inertial_model import InertialModel
@@ -62,6 +63,11 @@ class ParallelReaction(InertialModel):
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed, as of the reaction with the smallest nominal displacement."""
         return min((reaction.inputs for reaction in self.reactions), key=lambda signals: signals[0].nominal)
+
+    @property
+    def carries_load(self) -> bool:
+        """Whether one of them is a bearing, not a seal."""
+        return any(map(carries_load, self.reactions))
 
     @property
     def has_inertia(self) -> bool:

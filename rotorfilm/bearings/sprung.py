@@ -60,6 +60,11 @@ class Sprung(InertialModel):
         return self.reaction.clearance
 
     @property
+    def carries_load(self) -> bool:
+        """Whether it is a bearing: its springs carry the rotor, whatever is beside them."""
+        return True
+
+    @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the reaction is meant."""
         return largest_eccentricity_ratio(self.reaction)

@@ -19,7 +19,7 @@ from ..rotors.structure import Structure
 from .critical.crossings import crossings
 from .large.condensed import MARGIN, models, usual_frequency
 from .large.likeness import matches
-from .large.work import COUNTS, CountedTuple, counted
+from .large.work import COUNTS, CountedArray, CountedTuple, counted, counted_array, tally
 from .rotor_modes import (
     RotorModes,
     Whirls,
@@ -197,7 +197,7 @@ def critical_speeds(
 
 
 @arguments
-def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> Array:
+def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> CountedArray:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.
 
     Parameters
@@ -211,8 +211,9 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
 
     Returns
     -------
-    ndarray, shape (count, n) [rad/s]
-        nan where the rotor has fewer.
+    CountedArray, shape (count, n) [rad/s]
+        nan where the rotor has fewer. Its attribute `work` counts eigenproblems in the shapes kept and
+        factorizations of all coordinates.
 
     Raises
     ------
@@ -228,11 +229,12 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     grid = require_finite("stiffness", stiffness)
     if grid.ndim != 1 or np.any(grid <= 0.0):
         raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")
-    for model in models(rotor, usual_frequency(rotor, 0.0)):
-        found = _forward_speeds(model.structure, grid, count)
-        if model.space is None or np.nanmax(found, initial=0.0) <= model.space.cut / MARGIN:
-            break
-    return found
+    with counted("eigenproblems", "factorizations") as work:
+        for model in models(rotor, usual_frequency(rotor, 0.0)):
+            found = _forward_speeds(model.structure, grid, count)
+            if model.space is None or np.nanmax(found, initial=0.0) <= model.space.cut / MARGIN:
+                break
+    return counted_array(found, work)
 
 
 def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
@@ -249,6 +251,7 @@ def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
         # In units of what holds each, shapes that press on stiff bearings drown no other.
         scale = 1.0 / np.sqrt(np.where(pressed * spring > 0.0, pressed * spring + np.abs(np.diag(own)), 1.0))
         held = own * np.outer(scale, scale) + np.diag(pressed * spring * scale**2)
+        tally("eigenproblems")
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
         inverse = eigh(inertia * np.outer(scale, scale), held, eigvals_only=True)[::-1]
         speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])

@@ -11,6 +11,7 @@ from ..bearings.linear import LinearBearing
 from ..errors import EquilibriumError, FilmContactError, require_number
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
+from ..reactions.added_mass import inertial
 from ..readable.result import Readable
 from ..results import Coefficients
 from ..rotors import FlexibleRotor, require_flexible
@@ -38,7 +39,8 @@ class RotorEquilibrium(Readable):
     ----------
     speed : float [rad/s]
     coefficients : dict of str to Coefficients
-        Stiffness, damping and journal position of each bearing, by station.
+        Stiffness, damping and journal position of each bearing, by station; of one with an added mass that
+        too, as `InertialCoefficients`.
     loads : dict of str to ndarray, shape (2,) [N]
         Static load on each bearing, by station; shape (4,) with the moments about x, y [N m] of one that
         resists tilts.
@@ -88,6 +90,11 @@ def rotor_equilibrium(
     UndefinedDerivativeError
         If a film has no derivative at the equilibrium.
 
+    Warns
+    -----
+    ValidityWarning
+        Where motion at the frequency of the rotation is too fast for the added mass of a film.
+
     Notes
     -----
     With the displacement q of the rotor and p of the journals in their bearings,
@@ -115,6 +122,9 @@ def rest(
         return _at_speed(near, speed)
     tally("equilibria")
     require_bearings(bearings)
+    for bearing in bearings.values():
+        if heavy := inertial(bearing):
+            heavy.require_range(abs(speed))
     system = RestEquations(structure, bearings, speed)
     found = None if near is None else _from_near(system, near)
     if found is not None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.inertial_model import added_mass
 from ..errors import InputError
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
@@ -17,10 +18,10 @@ from ..rotors.stations import station_name
 from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
-from .large.driven import DrivenResponse
+from .large.driven import DrivenResponse, with_rates
 from .large.second_order import second_order, small_motion
 from .large.tilting import film_rows
-from .large.work import SOLVED, counted, with_work
+from .large.work import SOLVED, counted, tally, with_work
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 
@@ -49,24 +50,10 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     control.StateSpace
         Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
         opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
-        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N].
+        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
+        the counters `work` of `unbalance_response`.
     """
-    s = rotor.structure
-    if s.hysteresis is not None:
-        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    system = second_order(s, at)
-    push = np.vstack([np.zeros_like(s.journals.T), np.linalg.solve(s.mass, s.journals.T)])
-    sense, labels = _outputs(rotor, at)
-    return control_system(
-        system.state_matrix(),
-        push,
-        sense,
-        np.zeros((len(sense), push.shape[1])),
-        inputs=names(rotor.inputs),
-        outputs=labels,
-        states=names(rotor.states),
-        name=name,
-    )
+    return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
 
 
 BASE = ("base_acceleration_x", "base_acceleration_y")
@@ -89,21 +76,9 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground.
+        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground. With its counters `work`.
     """
-    inner = rotor_system(rotor, at, name)
-    moved = translations(rotor)
-    push = np.vstack([np.zeros_like(moved), -moved])
-    return control_system(
-        inner.A,
-        push,
-        inner.C,
-        np.zeros((len(inner.C), push.shape[1])),
-        inputs=BASE,
-        outputs=inner.output_labels,
-        states=inner.state_labels,
-        name=name,
-    )
+    return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
 
 @arguments
@@ -136,7 +111,7 @@ def base_response(
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency in grid:
         moved = np.linalg.solve(small_motion(s, at, frequency).dynamic_stiffness(frequency), push)
-        responses.append(sense @ np.concatenate([moved, 1j * frequency * moved]))
+        responses.append(sense @ with_rates(moved, frequency))
     import control
 
     found = control.FrequencyResponseData(
@@ -264,13 +239,43 @@ def rotor_transmissibility(
     return with_work(found, work)
 
 
+def _state_space(
+    rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array, inputs: Sequence[str], name: str | None
+) -> control.StateSpace:
+    """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
+    if rotor.structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+    mass, damping, stiffness = second_order(rotor.structure, at)
+    n = len(mass)
+    with counted(*SOLVED) as work:
+        tally("factorizations")
+        motion, pushed = np.split(
+            np.linalg.solve(mass, np.hstack([-stiffness, -damping, loads])), [2 * n], axis=1
+        )
+    sense, labels = _outputs(rotor, at)
+    by_state, by_acceleration = sense[:, : 2 * n], sense[:, 2 * n :]
+    system = control_system(
+        np.vstack([np.eye(n, 2 * n, n), motion]),
+        np.vstack([np.zeros_like(pushed), pushed]),
+        by_state + by_acceleration @ motion,
+        by_acceleration @ pushed,
+        inputs=inputs,
+        outputs=labels,
+        states=names(rotor.states),
+        name=name,
+    )
+    return with_work(system, work)
+
+
 def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
-    """Return rows over (q, q') and names of all outputs."""
+    """Return rows over (q, q', q'') and names of all outputs."""
     s = rotor.assembly
-    rows: Sequence[Array] = [output_rows(s)]
+    own = output_rows(s)
+    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
         felt = film_rows(s, name, len(film.stiffness))
-        rows = [*rows, np.hstack([film.stiffness[:2] @ felt, film.damping[:2] @ felt])]
+        parts = (film.stiffness, film.damping, added_mass(film))
+        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
         labels += [station_name(name, signal) for signal in HOUSING]
     return np.vstack(rows), labels

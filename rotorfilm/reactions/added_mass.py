@@ -108,6 +108,7 @@ def require_massless(name: str, reaction: Any) -> None:
     if inertial(reaction) is not None:
         raise InputError(
             f"{name} must not add its oil's mass to the rotor here, got {reaction!r}: simulate, "
-            "synchronous_orbits, orbit_system, closed_loop, transmissibility and mount take that mass; "
+            "synchronous_orbits, orbit_system, closed_loop, transmissibility, mount and the analyses of "
+            "flexible rotors take that mass; "
             "density 0 of a damper, added_mass=False of a seal leave it out"
         )

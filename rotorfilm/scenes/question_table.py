@@ -30,6 +30,7 @@ QUANTITIES = {
     "unbalance_phase": "of the synchronous orbit after the unbalance [rad]",
     "unbalance_force": "largest force on the bearing in the synchronous orbit [N]",
     "blade_loss_peak": "largest distance from the center after a lost blade, or over a run-up [m]",
+    "peak_displacement": "largest of a flexible rotor in a run-up, after a lost blade, in an earthquake [m]",
     "jump_up": "unbalance at which the orbit in a damper jumps to the larger one [kg m]",
     "jump_down": "unbalance at which the orbit in a damper falls to the smaller one [kg m]",
     "transmissibility": "force on the housing / centrifugal force of the unbalance",

@@ -1,21 +1,25 @@
 """Critical speeds that are proven to be all, and what the proof stands on."""
 
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
+from scipy.linalg import eigh
 
 from rotorfilm import ConvergenceError
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.linear import (
+    base_system,
     critical_speed_map,
     critical_speeds,
     rotor_equilibrium,
     rotor_modes,
+    rotor_system,
     rotor_threshold,
     stability_changes,
     unbalance_response,
@@ -190,6 +194,26 @@ def test_analyses_count_their_work():
     assert found.work["eigenproblems"] <= 2 * (len(speeds) - 1)
     assert 0 < found.work["factorizations"] <= 8 * (len(found) + 1)
     assert stability_changes(rotor, FILMS, speeds[:2]).work["equilibria"] >= 2
+    at = rotor_equilibrium(long_rotor(6), SPRINGS, 100.0)
+    for system in (rotor_system(long_rotor(6), at), base_system(long_rotor(6), at)):
+        assert system.work == {"equilibria": 0, "solutions": 0, "factorizations": 1}
+
+
+def test_a_map_counts_its_eigenproblems(monkeypatch):
+    """Beside those that numpy is asked for; the shapes of a rotor are found once."""
+    asked = []
+
+    def counting(*given, **options):
+        asked.append(1)
+        return eigh(*given, **options)
+
+    monkeypatch.setattr(sys.modules[critical_speed_map.__module__], "eigh", counting)
+    rotor = long_rotor(30)
+    found = critical_speed_map(rotor, [1e6, 1e7, 1e8], 2)
+    assert found.work["eigenproblems"] == len(asked) >= 3
+    assert found.work["factorizations"] > 0
+    assert critical_speed_map(rotor, [1e6], 2).work["factorizations"] == 0
+    assert (found * 2.0).work == {}
 
 
 @pytest.mark.closed_form

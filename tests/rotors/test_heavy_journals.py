@@ -152,11 +152,10 @@ def test_a_shaft_with_a_free_station_has_the_derivatives_of_its_equations():
 @pytest.mark.parametrize(
     "ask",
     [
-        lambda damper: rf.campbell(shaft_of(), {"left": damper}, [100.0]),
         lambda damper: rf.whirl_threshold(damper, load=[0.0, -10.0], mass=MASS),
         lambda damper: rf.coefficient_table(damper, [0.0, -10.0], [100.0]),
     ],
-    ids=["campbell", "whirl_threshold", "coefficient_table"],
+    ids=["whirl_threshold", "coefficient_table"],
 )
 def test_what_knows_no_added_mass_refuses_it(ask):
     with pytest.raises(InputError, match="must not add its oil's mass to the rotor here"):

@@ -23,6 +23,7 @@ from rotorfilm.rotors import (
     mount,
     reduce_rotor,
 )
+from rotorfilm.rotors.shaft.reduce_rotor import POINTS, _felt
 from rotorfilm.signals import names
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
@@ -88,6 +89,16 @@ def test_more_modes_make_less_error(reduced):
 
 
 @pytest.mark.closed_form
+def test_it_counts_its_work(reduced, monkeypatch):
+    """Beside the calls themselves: the whole rotor is solved once at each frequency."""
+    calls = []
+    own = _felt
+    monkeypatch.setattr("rotorfilm.rotors.shaft.reduce_rotor._felt", lambda *a: calls.append(a[0]) or own(*a))
+    found = reduce_rotor(shaft(), frequency=FREQUENCY)
+    assert found.work == {"eigenproblems": found.rotor.modes + 1, "solutions": len(calls)}
+    assert sum(len(one.weight) == len(shaft().structure.weight) for one in calls) == 2 * POINTS
+
+
 def test_static_deflection_is_exact():
     """Also with no modes at all: the shapes under the weight and under slow motion are in the basis."""
     full = shaft(speed=0.0)

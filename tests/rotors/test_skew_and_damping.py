@@ -111,6 +111,22 @@ def test_proportional_damping_of_free_modes():
 
 
 @pytest.mark.closed_form
+def test_proportional_damping_of_elements():
+    """Without disks that of all elements is that of the rotor; with one it damps no disk."""
+    alpha, beta = 4.0, 2e-5
+    pieces = tuple(replace(e, mass_damping=alpha, stiffness_damping=beta) for e in FREE.elements)
+    found, w = ratios(replace(FREE, elements=pieces, disks=()), {}, 3)
+    np.testing.assert_allclose(found, alpha / (2.0 * w) + beta * w / 2.0, rtol=1e-6)
+    on_disk, w = ratios(replace(FREE, elements=pieces), {}, 1)
+    shape = rf.rotor_modes(FREE, {}, 0.0).shapes[:, :1]
+    whole, shaft = (one.structure.mass for one in (FREE, replace(FREE, disks=())))
+    moving, own = ((shape.conj().T @ mass @ shape).real[0, 0] for mass in (whole, shaft))
+    np.testing.assert_allclose(on_disk, alpha / (2.0 * w) * own / moving + beta * w / 2.0, rtol=1e-3)
+    with pytest.raises(rf.InputError, match="layers must have equal mass_damping"):
+        rf.LayeredElement(layers=(FREE.elements[0], pieces[0]))
+
+
+@pytest.mark.closed_form
 def test_modal_damping_on_bearings():
     wanted = (0.01, 0.02, 0.005)
     damped = rf.ModallyDampedRotor(

@@ -1,6 +1,7 @@
 """Rotors saved by ROSS."""
 
 import math
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -44,6 +45,8 @@ def written(folder, *parts):
     path.write_text('ross_version = "2.0.0"\n[parameters]\n' + "".join(parts))
     return path
 
+
+LINKED_TO_2 = bearing(9, 1, "kxx = [ 1e6,]\nkyy = [ 1e6,]\ncxx = [ 0.0,]\nn_link = 2\n")
 
 COUPLING = """["CouplingElement_C"]
 n = 1
@@ -145,7 +148,7 @@ def test_shaft_without_shear(tmp_path):
 @pytest.mark.parametrize(
     ("parts", "match"),
     [
-        ([element(0, 0, "beta = 5.0\n")], "beta must be 0, got 5.0"),
+        ([element(0, 0, "beta = 5.0\ntorque = 1.0\n")], "beta must be 0 beside an axial force or a torque"),
         (
             [element(0, 0).replace("cowper", "hutchinson")],
             "shear_method_calc must be 'cowper', got 'hutchinson'",
@@ -191,13 +194,48 @@ def test_weight_hangs_along_minus_y(tmp_path):
     assert np.sum(rotor.structure.weight[size:][0:14:2]) == pytest.approx(-9.80665 * rotor.mass)
 
 
-@pytest.mark.parametrize("key", ["alpha", "beta", "default_damping_ratio"])
-def test_damping_of_the_whole_rotor_is_refused(tmp_path, key):
-    file = tmp_path / "rotor.toml"
-    parts = "".join([element(0, 0), disk(0, 0, 0.2), bearing(0, 1)])
-    file.write_text(f"[parameters]\n{key} = 0.01\n\n{parts}")
-    with pytest.raises(InputError, match=rf"^{key} must be 0, got 0\.01 among the parameters of"):
+@pytest.mark.parametrize(
+    ("key", "value"), [("modal_damping_ratio", "[0.01, 0.02]"), ("default_damping_ratio", "0.01")]
+)
+def test_modal_damping_is_refused(tmp_path, key, value):
+    file = with_parameters(tmp_path, f"{key} = {value}", element(0, 0), disk(0, 0, 0.2), bearing(0, 1))
+    with pytest.raises(
+        InputError, match=rf"^{key} must be 0, got {re.escape(value)} among the parameters of"
+    ):
         read_ross(file)
+
+
+def with_parameters(folder, lines, *parts):
+    file = folder / "rotor.toml"
+    file.write_text(f"[parameters]\n{lines}\n\n" + "".join(parts))
+    return file
+
+
+@pytest.mark.closed_form
+def test_proportional_damping_of_the_whole_rotor(tmp_path):
+    """alpha M + beta K, disks and the mass of a support included; that of elements does not count beside."""
+    mass = '["PointMass_M"]\nn = 2\nmx = 12.0\nmy = 12.0\n'
+    ground = bearing(1, 2, "kxx = [ 2e7,]\nkyy = [ 3e7,]\ncxx = [ 1e3,]\ncyy = [ 2e3,]\n")
+    parts = [element(0, 0, "alpha = 7.0\n"), disk(0, 0, 0.2), bearing(0, 0), LINKED_TO_2, ground, mass]
+    s = read_ross(with_parameters(tmp_path, "alpha = 8.0\nbeta = 1e-5", *parts)).rotor.structure
+    bare = read_ross(with_parameters(tmp_path, "alpha = 0.0", element(0, 0), *parts[1:])).rotor.structure
+    bending = bare.stiffness.copy()
+    bending[4], bending[9] = 0.0, 0.0  # of the support
+    assert bare.damping[4, 4] == 1e3
+    assert_allclose(s.damping, bare.damping + 8.0 * bare.mass + 1e-5 * bending, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.closed_form
+def test_proportional_damping_of_elements(tmp_path):
+    """Each has its own, and disks have none: the sum of own matrices."""
+    pieces = [element(0, 0, "alpha = 7.0\nbeta = 1e-5\n"), element(1, 1, "beta = 3e-5\n", odl=0.06, odr=0.06)]
+    rotor = read_ross(written(tmp_path, *pieces, disk(0, 1, 0.3))).rotor
+    first, second = (piece.matrices(rotor.beam) for piece in rotor.elements)
+    wanted = np.zeros((12, 12))
+    wanted[:4, :4] = wanted[6:10, 6:10] = 7.0 * first.mass + 1e-5 * first.stiffness
+    wanted[2:6, 2:6] += 3e-5 * second.stiffness
+    wanted[8:12, 8:12] += 3e-5 * second.stiffness
+    assert_allclose(rotor.structure.damping, wanted, rtol=1e-12, atol=1e-12)
 
 
 def test_the_force_beyond_the_linear_one_completes_it():

@@ -111,6 +111,7 @@ ROTORS = {
     "tapered": lambda: ross.Rotor(cones(), disks(), bearings()),
     "supports": on_supports,
     "coupling": coupled,
+    "proportional elements": lambda: ross.Rotor(shaft(alpha=8.0501, beta=1e-5), disks(), bearings()),
     "table": lambda: ross.Rotor(shaft(), disks(), over_speed()),
 }
 
@@ -157,6 +158,20 @@ def test_eigenvalues_are_those_of_ross(tmp_path, name, suffix):
         slow = wanted[np.abs(wanted) < 2e4]
         assert len(slow) >= 8
         assert_allclose(nearest(found, slow), slow, rtol=2e-9)
+
+
+@pytest.mark.skipif("alpha" not in signature(ross.Rotor).parameters, reason="of ROSS 3.1")
+@pytest.mark.parametrize("name", ["supports", "coupling"])
+def test_proportional_damping_of_the_whole_rotor(tmp_path, name):
+    """That of ROSS's own matrices, those of disks, flanges and housings included."""
+    bare = ROTORS[name]()
+    parts = bare.shaft_elements, bare.disk_elements, bare.bearing_elements, bare.point_mass_elements
+    rotor = ross.Rotor(*parts, alpha=8.0501, beta=1e-5)
+    rotor.save(tmp_path / "rotor.toml")
+    wanted = theirs(rotor, SPEEDS[0])
+    slow = wanted[np.abs(wanted) < 2e4]
+    assert len(slow) >= 8
+    assert_allclose(nearest(ours(tmp_path / "rotor.toml", SPEEDS[0])[1], slow), slow, rtol=2e-9)
 
 
 @pytest.mark.parametrize("name", ["cross-coupled", "supports", "torque"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,11 @@ from scipy.sparse.linalg import splu
 from ...errors import InputError
 from ...inputs.kinds import arguments
 from ...model import Array, Reaction
+from ...reactions.carried_load import carries_load
 from ...readable.result import Drawable
-from ...rotors import ShaftRotor
+from ...rotors import ShaftRotor, Station
 from ..rotor_rest import rotor_equilibrium
-from .rigid_support import free_coordinates, require_held
+from .rigid_support import chosen_stations, free_coordinates, require_held
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +49,10 @@ class ShaftStatics(Drawable):
 
 @arguments
 def shaft_statics(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction] | None = None, speed: float = 0.0
+    rotor: ShaftRotor,
+    bearings: Mapping[str, Reaction] | None = None,
+    speed: float = 0.0,
+    supports: Sequence[str] | None = None,
 ) -> ShaftStatics:
     """Return sag, shear force, bending moment and bearing loads of a shaft under its weight.
 
@@ -56,14 +60,18 @@ def shaft_statics(
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction, optional
-        By station, at rest at the speed; rigid bearings and housings at all stations by default.
+        By station, at rest at the speed; by default rigid bearings and housings at `supports`.
     speed : float [rad/s]
         Of the films.
+    supports : sequence of str, optional
+        Names of the stations with rigid bearings, where none are given: all by default, so that those of
+        seals are to be left out here.
 
     Raises
     ------
     InputError
-        If an argument breaks its rule, or rigid bearings do not hold the rotor.
+        If an argument breaks its rule, rigid bearings do not hold the rotor, or none of the bearings is meant
+        to carry a load, as seals are not.
     EquilibriumError
         If it does not rest in its bearings.
 
@@ -72,7 +80,10 @@ def shaft_statics(
     The forces at the ends of an element are K u less the consistent weight between them: where statics
     determines shear force and bending moment they are exact at the nodes, with disks and couplings as well.
     """
-    displacement, loads = _rest(rotor, bearings, speed)
+    if bearings is None:
+        displacement, loads = _on_rigid(rotor, chosen_stations(rotor, supports))
+    else:
+        displacement, loads = _on_bearings(rotor, bearings, speed, supports)
     x, y = np.split(displacement, 2)
     ends = np.array(list(_end_forces(rotor, x + 1j * y))).reshape(-1, 2)
     lengths = [element.length for element in rotor.elements]
@@ -88,25 +99,35 @@ def shaft_statics(
     )
 
 
-def _rest(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction] | None, speed: float
+def _on_bearings(
+    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float, supports: Sequence[str] | None
 ) -> tuple[Array, dict[str, Array]]:
     """Return the displacement of all coordinates, and the loads on the bearings."""
-    if bearings is not None:
-        at = rotor_equilibrium(rotor, bearings, speed)
-        return at.displacement, {name: load[:2] for name, load in at.loads.items()}
-    nodes = [station.node for station in rotor.stations]
+    if supports is not None:
+        raise InputError(f"supports must be None beside bearings, which hold the rotor, got {supports!r}")
+    if bearings and not any(carries_load(one) for one in bearings.values()):
+        raise InputError(
+            f"bearings must hold one that carries a load, got seals only at {sorted(bearings)}: give the "
+            "bearings of the rotor too, or none and in `supports` the stations that hold it"
+        )
+    at = rotor_equilibrium(rotor, bearings, speed)
+    return at.displacement, {name: load[:2] for name, load in at.loads.items()}
+
+
+def _on_rigid(rotor: ShaftRotor, holding: Sequence[Station]) -> tuple[Array, dict[str, Array]]:
+    """Return the same on rigid bearings at some stations."""
+    nodes = [station.node for station in holding]
     if len(set(nodes)) < len(nodes):
         raise InputError(f"stations must be on different nodes where they are rigid, got {nodes}")
-    full, free = rotor.assembly, free_coordinates(rotor, rotor.stations)
+    full, free = rotor.assembly, free_coordinates(rotor, holding)
     n = len(full.coordinates)
     both = np.concatenate([free, n + free])
-    require_held(rotor, rotor.stations)
+    require_held(rotor, holding)
     solved = splu(full.stiffness[both][:, both].tocsc()).solve(full.weight[both])
     displacement = np.zeros(2 * n)
     displacement[both] = solved
     left = full.weight - full.stiffness @ displacement
-    return displacement, {s.name: left[[2 * s.node, 2 * s.node + n]] for s in rotor.stations}
+    return displacement, {s.name: left[[2 * s.node, 2 * s.node + n]] for s in holding}
 
 
 def _end_forces(rotor: ShaftRotor, motion: np.ndarray) -> Iterator[tuple[complex, complex]]:

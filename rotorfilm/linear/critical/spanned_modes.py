@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import eig
 
+from ...bearings.inertial_model import added_mass
 from ...rotors.structure import Structure
 from ..large.condensed import Condensed
 from ..large.defects import WholeRotor, whirl_errors
@@ -77,8 +78,9 @@ class SpannedModes:
 
     @cached_property
     def systems(self) -> tuple[SecondOrder, ...]:
-        """Equations of small motion at the three speeds, as synchronous motion has them."""
-        return tuple(synchronous(self.model.structure, at) for at in self.rests)
+        """Equations of small motion at the three speeds, as synchronous motion has them, of one mass."""
+        found = [synchronous(self.model.structure, at) for at in self.rests]
+        return tuple(system.weighing(found[1].mass) for system in found)
 
     @cached_property
     def modes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -154,11 +156,11 @@ class SpannedModes:
         changed = forward * (value * (structure.gyroscopic @ right) + structure.circulation @ right)
         share = (turn - self.middle) / self.half**2
         for name, film in middle.coefficients.items():
-            ends = low.coefficients[name], high.coefficients[name]
-            force = np.zeros(film.stiffness.shape, dtype=complex)
-            for factor, kind in ((1.0, "stiffness"), (value, "damping")):
-                first, last, own = (getattr(one, kind) for one in (*ends, film))
-                force += factor * ((last - first) / (2.0 * self.half) + (last + first - 2.0 * own) * share)
+            first, own, last = (
+                one.stiffness + value * one.damping + value**2 * added_mass(one)
+                for one in (low.coefficients[name], film, high.coefficients[name])
+            )
+            force = (last - first) / (2.0 * self.half) + (last + first - 2.0 * own) * share
             rows = film_rows(structure, name, len(film.stiffness))
             changed = changed + rows.T @ (force @ (rows @ right))
         return np.asarray(changed)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.inertial_model import added_mass
 from ...errors import ConvergenceError
 from ...rotors.structure import Structure
 from ..large.inertia_count import negative_count
@@ -14,7 +15,7 @@ from ..rotor_rest import RotorEquilibrium
 
 
 def is_undamped(structure: Structure, low: RotorEquilibrium, high: RotorEquilibrium) -> bool:
-    """Return whether small motion has no damping, and a symmetric stiffness that keeps with the speed."""
+    """Return whether small motion has no damping, and symmetric matrices that keep with the speed."""
     if structure.hysteresis is not None or _is_any(structure.damping) or _is_any(structure.circulation):
         return False
     if _is_any(structure.stiffness - structure.stiffness.T, 1e-13 * abs(structure.stiffness).max()):
@@ -25,6 +26,7 @@ def is_undamped(structure: Structure, low: RotorEquilibrium, high: RotorEquilibr
         and not other.damping.any()
         and np.array_equal(film.stiffness, film.stiffness.T)
         and np.array_equal(film.stiffness, other.stiffness)
+        and np.array_equal(added_mass(film), added_mass(other))
         for film, other in pairs
     )
 
@@ -55,8 +57,8 @@ def require_all_undamped(
 
 def _below(structure: Structure, at: RotorEquilibrium) -> int:
     """Return how many critical speeds are below the speed of a rest."""
-    stiffness = second_order(structure, at).stiffness
+    mass, _, stiffness = second_order(structure, at)
     forward = -1.0 if at.speed < 0.0 else 1.0
-    inertia = structure.mass - 1j * forward * structure.gyroscopic
+    inertia = mass - 1j * forward * structure.gyroscopic
     own = 0.5 * (stiffness + stiffness.T)
     return negative_count(own, at.speed**2, inertia) - negative_count(own, 0.0, inertia)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.linalg import block_diag
 
+from ...bearings.inertial_model import added_mass
 from ...model import Array
 from ...rotors.structure import Structure
 from ..rotor_rest import RotorEquilibrium
@@ -31,12 +32,16 @@ class WholeRotor:
         self.films = [
             block_diag(none, *(film.stiffness for film in found)),
             block_diag(none, *(film.damping for film in found)),
+            block_diag(none, *map(added_mass, found)),
         ]
 
     def forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L(s) x, shape (N, m), of motions x at one s [1/s] or one for each."""
         m, c, k = self.shaft
-        film = (self.films[0] + 0.0j) @ (self.rows @ motion) + self.films[1] @ (self.rows @ motion) * values
+        seen = self.rows @ motion
+        film = (
+            (self.films[0] + 0.0j) @ seen + self.films[1] @ seen * values + self.films[2] @ seen * values**2
+        )
         return np.asarray((m @ motion) * values**2 + (c @ motion) * values + k @ motion + self.rows.T @ film)
 
     def adjoint_forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
@@ -44,6 +49,7 @@ class WholeRotor:
         m, c, k = self.shaft
         back, seen = np.conj(values), self.rows @ motion
         film = self.films[0].conj().T @ seen + self.films[1].conj().T @ seen * back
+        film = film + self.films[2].T @ seen * back**2
         shaft = (m.T @ motion) * back**2 + (c.T @ motion) * back + k.conj().T @ motion
         return np.asarray(shaft + self.rows.T @ film)
 
@@ -55,7 +61,8 @@ class WholeRotor:
 
     def slope(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L'(s) x, shape (N, m)."""
-        film = self.rows.T @ (self.films[1] @ (self.rows @ motion))
+        seen = self.rows @ motion
+        film = self.rows.T @ (self.films[1] @ seen + self.films[2] @ seen * (2.0 * values))
         return np.asarray((self.shaft.mass @ motion) * (2.0 * values) + self.shaft.damping @ motion + film)
 
 

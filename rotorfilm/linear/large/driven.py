@@ -43,7 +43,7 @@ class DrivenResponse:
         return []
 
     def at(self, speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray]:
-        """Return the rest at a speed and the phasors of (q, q') at exp(i speed t), shape (2 N, k).
+        """Return the rest at a speed and the phasors of (q, q', q'') at exp(i speed t), shape (3 N, k).
 
         Parameters
         ----------
@@ -79,5 +79,9 @@ class _Driven:
             dual = lu_solve(factor, self.left_out.seen.T, trans=2)
             if self.left_out.error(at, speed, amplitudes, few, dual) > TOLERANCE:
                 return None
-        motion = self.model.lifted(few)
-        return at, np.concatenate([motion, 1j * speed * motion])
+        return at, with_rates(self.model.lifted(few), speed)
+
+
+def with_rates(motion: np.ndarray, frequency: float) -> np.ndarray:
+    """Return phasors of (q, q', q'') at exp(i frequency t), shape (3 N, ...), of those of q."""
+    return np.concatenate([motion, 1j * frequency * motion, -(frequency**2) * motion])

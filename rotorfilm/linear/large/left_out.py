@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.inertial_model import added_mass
 from ...model import Array
 from ...rotors.structure import Structure, across_planes, both_planes
 from ..rotor_rest import RotorEquilibrium
@@ -78,13 +79,14 @@ class LeftOut:
         return float(FASTER * change / seen) if seen else 0.0
 
     def _films(self, at: RotorEquilibrium, frequency: float) -> np.ndarray:
-        """Return K + i frequency C of all stations, over their displacements and tilts."""
+        """Return K + i frequency C - frequency^2 M of all stations, over their displacements and tilts."""
         found = np.zeros((len(self.felt), len(self.felt)), dtype=complex)
         for name, film in at.coefficients.items():
             k = 2 * self.stations.index(name)
             places = [k, k + 1, k + 2 * len(self.stations), k + 1 + 2 * len(self.stations)]
             own = places[: len(film.stiffness)]
             found[np.ix_(own, own)] += film.stiffness + 1j * frequency * film.damping
+            found[np.ix_(own, own)] -= frequency**2 * added_mass(film)
         return found
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from scipy import sparse
 
 from ...bearings.at_frequency import MemoryCoefficients
+from ...bearings.inertial_model import added_mass
 from ...model import Array
 from ...rotors.sparse_chain import is_sparse
 from ...rotors.structure import Structure, across_planes, both_planes
@@ -27,6 +28,13 @@ class SecondOrder(NamedTuple):
     damping: Array
     stiffness: np.ndarray
 
+    def weighing(self, mass: Array) -> SecondOrder:
+        """Return the same motion with another mass matrix, what multiplies it taken to the other side."""
+        if mass is self.mass:
+            return self
+        share = np.linalg.solve(self.mass.T, mass.T).T
+        return SecondOrder(mass, share @ self.damping, share @ self.stiffness)
+
     def state_matrix(self) -> np.ndarray:
         """Return A of (q, q')' = A (q, q'), shape (2 N, 2 N)."""
         n = len(self.mass)
@@ -39,14 +47,17 @@ class SecondOrder(NamedTuple):
 
 
 def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
-    """Return the equations of small motion about an equilibrium, at its speed."""
+    """Return the equations of small motion about an equilibrium, at its speed, with the mass of its films."""
+    mass = structure.mass
     damping = _turned(structure.damping, at.speed, structure.gyroscopic)
     stiffness = _turned(structure.stiffness, at.speed, structure.circulation)
     for name, film in at.coefficients.items():
         rows = film_rows(structure, name, len(film.stiffness))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
-    return SecondOrder(structure.mass, damping, stiffness)
+        if (added := added_mass(film)).any():
+            mass = mass + _at_journal(structure, rows, added)
+    return SecondOrder(mass, damping, stiffness)
 
 
 def _turned(still: Any, speed: float, turning: Any) -> Any:
@@ -57,7 +68,7 @@ def _turned(still: Any, speed: float, turning: Any) -> Any:
 
 
 def _at_journal(structure: Structure, rows: Array, film: Array) -> Any:
-    """Return what K or C of a film is in the coordinates of the rotor, sparse if its matrices are."""
+    """Return what K, C or M of a film is in the coordinates of the rotor, sparse if its matrices are."""
     if not sparse.issparse(structure.mass):
         return rows.T @ film @ rows
     few = sparse.csr_array(rows)

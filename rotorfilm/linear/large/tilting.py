@@ -41,7 +41,7 @@ def require_bearings(bearings: object) -> None:
     """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
     if isinstance(bearings, Mapping):
         bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
-    require_reactions("bearings", bearings, JournalForce)
+    require_reactions("bearings", bearings, JournalForce, heavy=True)
 
 
 def film_rows(structure: Structure, name: str, size: int) -> Array:

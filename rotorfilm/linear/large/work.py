@@ -8,6 +8,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 Item = TypeVar("Item")
 
 COUNTS = ("equilibria", "eigenproblems", "factorizations")
@@ -53,6 +56,29 @@ class CountedTuple(tuple[Item, ...]):
         made = super().__new__(cls, tuple(found))
         made.work = dict(work)
         return made
+
+
+class CountedArray(np.ndarray):
+    """Numbers that an analysis found, and what they took.
+
+    Attributes
+    ----------
+    work : dict of str to int
+        As `RotorModes.work`; empty in what is made of such an array.
+    """
+
+    work: dict[str, int]
+
+    def __array_finalize__(self, found: Any) -> None:
+        """Count nothing for what is made of an array."""
+        self.work = {}
+
+
+def counted_array(found: ArrayLike, work: Counter[str]) -> CountedArray:
+    """Return an array of what was found, with the counters."""
+    made = np.asarray(found).view(CountedArray)
+    made.work = dict(work)
+    return made
 
 
 def with_work(found: Any, work: Counter[str]) -> Any:

@@ -6,6 +6,7 @@ from ...scenes.families import Family
 from ...scenes.shaft.shaft_table import ShaftTable
 from ..orbit_place import UNITS as ORBITS
 from .shaft_orbits import shaft_orbit_ladder
+from .shaft_peaks import PEAK, shaft_peak_ladder
 from .shafts import EVENTS, shaft_ladder
 
 FAMILY = Family(
@@ -13,6 +14,7 @@ FAMILY = Family(
     ladders={
         **dict.fromkeys(EVENTS, shaft_ladder),
         **dict.fromkeys(ORBITS, shaft_orbit_ladder),
+        PEAK: shaft_peak_ladder,
     },
     command="rotorfilm rotor",
 )

@@ -22,7 +22,7 @@ from ..structure import (
     displacements,
     unbalance_columns,
 )
-from .beam import Beam
+from .beam import Beam, BeamMatrices
 from .elements import Coupling, ShaftPiece
 from .parts import Disk, Probe, Station, Support, TiltSpring, Unbalance
 
@@ -58,6 +58,8 @@ def assemble(
     held, damping = _ground(tilt_springs, supported, size)
     if mass_damping or stiffness_damping:
         damping = damping + both_planes(mass_damping * mass + stiffness_damping * stiffness)
+    if any(element.mass_damping or element.stiffness_damping for element in elements):
+        damping = damping + both_planes(_element_damping(elements, beam, size))
     first, housings = size - len(supported), _housings(stations, size)
     masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
     mass = both_planes(mass + summed(size, masses))
@@ -103,21 +105,42 @@ def _inner(element: ShaftPiece, beam: Beam) -> int:
 
 def chain_matrices(elements: Sequence[ShaftPiece], disks: Sequence[Disk], beam: Beam, size: int) -> list[Any]:
     """Return mass, polar, stiffness, geometric stiffness and twist of one plane, disks included."""
-    known: dict[ShaftPiece, list[Array]] = {}
     parts: list[tuple[list[int], list[Array]]] = []
-    inside = 2 * (len(elements) + 1)
-    for number, element in enumerate(elements):
-        if element not in known:
-            scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
-            known[element] = [a * part for a, part in zip(scales, element.matrices(beam), strict=True)]
-        inner = _inner(element, beam)
-        parts.append(([*range(2 * number, 2 * number + 4), *range(inside, inside + inner)], known[element]))
-        inside += inner
+    for places, element, found in _placed(elements, beam):
+        scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
+        parts.append((places, [a * part for a, part in zip(scales, found, strict=True)]))
     for disk in disks:
         inertia, none = np.diag([disk.mass, disk.diametral_inertia]), np.zeros((2, 2))
         polar = np.diag([0.0, disk.polar_inertia])
         parts.append(([2 * disk.node, 2 * disk.node + 1], [inertia, polar, none, none, none]))
     return [summed(size, ((places, part[k]) for places, part in parts)) for k in range(5)]
+
+
+def _placed(
+    elements: Sequence[ShaftPiece], beam: Beam
+) -> Iterator[tuple[list[int], ShaftPiece, BeamMatrices]]:
+    """Yield the coordinates of each element in a plane, the element, and its matrices."""
+    known: dict[ShaftPiece, BeamMatrices] = {}
+    inside = 2 * (len(elements) + 1)
+    for number, element in enumerate(elements):
+        if element not in known:
+            known[element] = element.matrices(beam)
+        inner = _inner(element, beam)
+        yield (
+            [*range(2 * number, 2 * number + 4), *range(inside, inside + inner)],
+            element,
+            known[element],
+        )
+        inside += inner
+
+
+def _element_damping(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> Any:
+    """Return the proportional damping of the elements that have one of their own, in one plane."""
+    parts = [
+        (places, element.mass_damping * found.mass + element.stiffness_damping * found.stiffness)
+        for places, element, found in _placed(elements, beam)
+    ]
+    return summed(size, parts)
 
 
 def _ground(springs: Sequence[TiltSpring], supported: Sequence[Station], size: int) -> tuple[Any, Any]:

@@ -56,6 +56,9 @@ class ShaftElement:
         Static tension; negative for compression.
     torque : float [N m]
         Static torque, which follows the tilt of the shaft.
+    mass_damping, stiffness_damping : float [1/s, s]
+        Proportional damping alpha M + beta K of this piece alone against the ground, besides that of the
+        rotor.
 
     Raises
     ------
@@ -72,9 +75,13 @@ class ShaftElement:
     end_inner_diameter: float | None = None
     axial_force: float = 0.0
     torque: float = 0.0
+    mass_damping: float = 0.0
+    stiffness_damping: float = 0.0
 
     def __post_init__(self) -> None:
         require_positive("length", self.length)
+        require_non_negative("mass_damping", self.mass_damping)
+        require_non_negative("stiffness_damping", self.stiffness_damping)
         require_number("axial_force", self.axial_force)
         require_number("torque", self.torque)
         outer, inner = self._ends
@@ -149,7 +156,7 @@ class LayeredElement:
     Parameters
     ----------
     layers : tuple of ShaftElement
-        Of equal length.
+        Of equal length and proportional damping.
     """
 
     layers: tuple[ShaftElement, ...]
@@ -158,6 +165,11 @@ class LayeredElement:
         lengths = {layer.length for layer in self.layers}
         if len(lengths) != 1:
             raise InputError(f"layers must be of equal length, got {sorted(lengths)}")
+        dampings = {(layer.mass_damping, layer.stiffness_damping) for layer in self.layers}
+        if len(dampings) != 1:
+            raise InputError(
+                f"layers must have equal mass_damping, stiffness_damping, got {sorted(dampings)}"
+            )
 
     @property
     def length(self) -> float:
@@ -173,6 +185,16 @@ class LayeredElement:
     def torque(self) -> float:
         """Static torque of all layers [N m]."""
         return sum(layer.torque for layer in self.layers)
+
+    @property
+    def mass_damping(self) -> float:
+        """Proportional damping of each layer by its mass [1/s]."""
+        return self.layers[0].mass_damping
+
+    @property
+    def stiffness_damping(self) -> float:
+        """Proportional damping of each layer by its stiffness [s]."""
+        return self.layers[0].stiffness_damping
 
     def matrices(self, beam: Beam) -> BeamMatrices:
         """Return the matrices of one plane."""
@@ -207,6 +229,8 @@ class Coupling:
     length = 0.0
     axial_force = 0.0
     torque = 0.0
+    mass_damping = 0.0
+    stiffness_damping = 0.0
 
     def __post_init__(self) -> None:
         require_positive("stiffness", self.stiffness)

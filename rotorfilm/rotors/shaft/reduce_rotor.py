@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,8 @@ from ...model import Array
 from ...readable.result import Readable
 from ..structure import FlexibleRotor, Structure
 from .reduced_rotor import ReducedRotor
+
+_Felt = tuple[NDArray[np.complex128], ...]
 
 POINTS = 40
 """Frequencies at which the rotors are compared."""
@@ -34,11 +37,15 @@ class Reduction(Readable):
         with the whole rotor, at rest and at the speed of the highest frequency.
     frequency : float [rad/s]
         Highest frequency, and speed, of the comparison.
+    work : dict of str to int
+        Eigenproblems of the rotor held at its journals, one for each number of modes that was tried;
+        solutions at one frequency and speed, of the whole rotor and of those.
     """
 
     rotor: ReducedRotor
     error: float
     frequency: float
+    work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
 @arguments
@@ -65,31 +72,38 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     require_positive("tolerance", tolerance)
     s = rotor.structure
     most = len(s.coordinates) - len(s.stations) - len(s.supports)
+    wanted = list(_felt_over(s, frequency))
     for modes in range(most + 1):
         small = ReducedRotor(rotor=rotor, modes=modes, speed=rotor.speed, gravity=rotor.gravity)
-        error = reduction_error(rotor.structure, small.structure, frequency)
+        error = _error(wanted, small.structure, frequency)
+        work = {"eigenproblems": modes + 1, "solutions": (modes + 2) * len(wanted)}
+        last = Reduction(rotor=small, error=error, frequency=frequency, work=work)
         if error <= tolerance:
-            return Reduction(rotor=small, error=error, frequency=frequency)
-    last = Reduction(rotor=small, error=error, frequency=frequency)
+            return last
     raise ConvergenceError(
         f"tolerance must be within reach, got {tolerance!r} and an error of {error:.3g}", last
     )
 
 
-def reduction_error(full: Structure, small: Structure, frequency: float) -> float:
+def _error(wanted: Sequence[_Felt], small: Structure, frequency: float) -> float:
     """Return the error of `Reduction` of one structure as a model of another with the same stations."""
     worst = 0.0
-    for speed in (0.0, frequency):
-        for omega in frequency * np.arange(1, POINTS + 1) / POINTS:
-            s = omega * complex(DAMPING_RATIO, 1.0)
-            for right, wrong in zip(_felt(full, s, speed), _felt(small, s, speed), strict=True):
-                size = float(np.linalg.norm(right))
-                if size > 0.0:
-                    worst = max(worst, float(np.linalg.norm(right - wrong)) / size)
+    for both in zip(wanted, _felt_over(small, frequency), strict=True):
+        for right, wrong in zip(*both, strict=True):
+            size = float(np.linalg.norm(right))
+            if size > 0.0:
+                worst = max(worst, float(np.linalg.norm(right - wrong)) / size)
     return worst
 
 
-def _felt(structure: Structure, s: complex, speed: float) -> tuple[NDArray[np.complex128], ...]:
+def _felt_over(structure: Structure, frequency: float) -> Iterator[_Felt]:
+    """Yield what the bearings feel at all frequencies and speeds of the comparison."""
+    for speed in (0.0, frequency):
+        for omega in frequency * np.arange(1, POINTS + 1) / POINTS:
+            yield _felt(structure, omega * complex(DAMPING_RATIO, 1.0), speed)
+
+
+def _felt(structure: Structure, s: complex, speed: float) -> _Felt:
     """Return the dynamic stiffness at the journals, and the forces of the unbalance on held journals."""
     whole = (
         s * s * structure.mass

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from ...errors import SceneError, brief
 from ...linear.equilibrium import UNLOADED
-from .tables import Quantity, Reader, choose
+from .tables import Quantity, Reader, choose, text
 
 R = TypeVar("R", bound=Reader)
 
@@ -61,6 +61,14 @@ def read_place(where: str, value: Any) -> tuple[float, float]:
         raise SceneError(f"{where} must be two lengths [x, y], got {brief(value)}")
     x, y = (Quantity("m")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
     return x, y
+
+
+@takes([text, ...])
+def read_names(where: str, value: Any) -> tuple[str, ...]:
+    """Read a list of names, one at least."""
+    if not isinstance(value, list) or not value:
+        raise SceneError(f"{where} must be a list of names, got {brief(value)}")
+    return tuple(text(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from ...errors import InputError, require_positive
 from ...limits import SHAFT_ELEMENTS
 from ...linear import AxialStage, DisturbingStage, Impeller
 from ...model import Reaction
-from ..reading.readers import Count
+from ..reading.readers import Count, read_names
 from ..reading.tables import Keyed, Quantity, TableList
 from .shaft_parts import BearingTable
 
@@ -75,6 +75,9 @@ class CompressorTable:
         Of the gas; by default of the lowest suction and the highest discharge.
     nodes : tuple of CouplingShare
         Where cross-coupling acts; the node next to mid-span unless given.
+    supports : tuple of str
+        Names of the bearings that are rigid for the critical speed ratio, and between which mid-span is; all
+        but seals unless given.
     smallest_clearance, largest_clearance : float or None [m]
         Radial clearances of all bearings with a `journal`, each a curve of its own; as they are unless given.
     """
@@ -85,6 +88,7 @@ class CompressorTable:
     stage_speed: Annotated[float | None, Quantity("rad/s")] = None
     average_density: Annotated[float | None, Quantity("kg/m3")] = None
     nodes: Annotated[tuple[CouplingShare, ...], TableList(CouplingShare)] = ()
+    supports: Annotated[tuple[str, ...], read_names] = ()
     smallest_clearance: Annotated[float | None, Quantity("m")] = None
     largest_clearance: Annotated[float | None, Quantity("m")] = None
 

@@ -16,6 +16,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
@@ -34,11 +36,8 @@ from ...rotors import (
 )
 from .ross_coefficients import RossTable, over_speed, read_bearing
 
-ABSENT = ("alpha", "beta")
-"""Numbers of a shaft element that must be zero: what a ShaftRotor cannot have."""
-
-MODAL = "default_damping_ratio"
-"""Damping ratio that ROSS 3 gives all modes of a rotor, among its parameters."""
+MODAL = ("modal_damping_ratio", "default_damping_ratio")
+"""Damping ratios that ROSS 3 gives the modes of a rotor, among its parameters."""
 
 PRESENT = ("rotary_inertia", "gyroscopic")
 """Effects that a ShaftRotor always has."""
@@ -74,14 +73,19 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
     Raises
     ------
     InputError
-        If the file is no such file, or has something that a ShaftRotor cannot represent: proportional
-        damping, no rotary inertia, bearing masses, couplings that damp, supports over speed.
+        If the file is no such file, or has something that a ShaftRotor cannot represent: modal damping, no
+        rotary inertia, bearing masses, couplings that damp, supports over speed, damping by the stiffness of
+        an axial force or a torque.
 
     Notes
     -----
     A bearing with `n_link`, the point mass and the bearing on that node become a `Support` in series. Two
     shaft elements between the same nodes become one `LayeredElement`, whose layers stay together along their
     whole length; those of ROSS are tied at the nodes only, which is a little softer on a coarse mesh.
+
+    Proportional damping `alpha`, `beta` of the whole rotor becomes that of the `ShaftRotor`, and of its
+    supports; that of shaft elements is theirs, without disks. As in ROSS, that of the rotor is instead of
+    theirs.
     """
     file = Path(path)
     form, read = ("JSON", json.loads) if file.suffix.lower() == ".json" else ("TOML", tomllib.loads)
@@ -97,16 +101,19 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
 
 def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor:
     tables = {name: table for name, table in data.items() if isinstance(table, dict) and name != "parameters"}
-    _require_undamped(file, data.get("parameters", {}))
+    alpha, beta = _whole_damping(file, data.get("parameters", {}))
     couplings = _of(tables, "CouplingElement")
     pieces: list[tuple[int, ShaftElement | Coupling]] = [
-        *((table["n"], _element(name, table)) for name, table in _of(tables, "ShaftElement").items()),
+        *(
+            (table["n"], _element(name, table, beta, own=not (alpha or beta)))
+            for name, table in _of(tables, "ShaftElement").items()
+        ),
         *((table["n"], _coupling(name, table)) for name, table in couplings.items()),
     ]
     chain = _chain(file, pieces)
     known = ("ShaftElement_", "CouplingElement_", "DiskElement_", "PointMass_")
     rest = {n: t for n, t in over_speed(data, tables).items() if not n.startswith(known)}
-    housings = _supports(chain, _of(tables, "PointMass"), rest)
+    housings = _supports(chain, _of(tables, "PointMass"), rest, alpha)
     stations = {
         _identifier(name, k): (name, table)
         for k, (name, table) in enumerate(rest.items())
@@ -122,15 +129,18 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
         ),
         speed=speed,
         beam=ClassicalBeam(),
+        mass_damping=alpha,
+        stiffness_damping=beta,
     )
     return RossRotor(rotor=rotor, bearings=bearings)
 
 
-def _require_undamped(file: Path, parameters: RossTable) -> None:
-    """Raise where the whole rotor has a damping that no element has."""
-    for key in (*ABSENT, MODAL):
-        if parameters.get(key, 0.0):
+def _whole_damping(file: Path, parameters: RossTable) -> tuple[float, float]:
+    """Return alpha [1/s] and beta [s] of the whole rotor; raise where its modes have ratios instead."""
+    for key in MODAL:
+        if np.any(parameters.get(key) or 0.0):
             raise InputError(f"{key} must be 0, got {parameters[key]!r} among the parameters of {file}")
+    return float(parameters.get("alpha", 0.0)), float(parameters.get("beta", 0.0))
 
 
 def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, Any]]:
@@ -168,10 +178,14 @@ def _coupling(name: str, table: RossTable) -> Coupling:
     return Coupling(stiffness=table["kt_x"], tilt_stiffness=table["kr_x"])
 
 
-def _element(name: str, table: RossTable) -> ShaftElement:
-    for key in ABSENT:
-        if table.get(key, 0.0):
-            raise InputError(f"{key} must be 0, got {table[key]!r} in {name!r}")
+def _element(name: str, table: RossTable, beta: float, *, own: bool) -> ShaftElement:
+    """Return an element with its own proportional damping, or beside beta [s] of the whole rotor."""
+    alpha, beta = (table.get("alpha", 0.0), table.get("beta", 0.0)) if own else (0.0, beta)
+    if beta and (table.get("axial_force") or table.get("torque")):
+        raise InputError(
+            f"beta must be 0 beside an axial force or a torque, whose stiffness ROSS damps too, got {beta!r} "
+            f"in {name!r}"
+        )
     for key in PRESENT:
         if not table.get(key, True):
             raise InputError(f"{key} must be true, got {table[key]!r} in {name!r}")
@@ -193,6 +207,8 @@ def _element(name: str, table: RossTable) -> ShaftElement:
         shear_coefficient=None if shears else math.inf,
         axial_force=table.get("axial_force", 0.0),
         torque=table.get("torque", 0.0),
+        mass_damping=alpha if own else 0.0,
+        stiffness_damping=beta if own else 0.0,
     )
 
 
@@ -219,8 +235,12 @@ def _supports(
     chain: tuple[ShaftElement | LayeredElement | Coupling, ...],
     masses: Mapping[str, RossTable],
     bearings: Mapping[str, RossTable],
+    alpha: float,
 ) -> dict[int, Support]:
-    """Return the housings that carry bearings, by the node that ROSS gives them beyond the shaft's."""
+    """Return the housings that carry bearings, by the node that ROSS gives them beyond the shaft's.
+
+    Their masses have the proportional damping alpha [1/s] of the whole rotor.
+    """
     found = {}
     for mass_name, mass in masses.items():
         node = mass["n"]
@@ -238,7 +258,8 @@ def _supports(
         spring = read_bearing(*below[0])
         if not isinstance(spring, LinearBearing):
             raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
-        found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=spring.damping)
+        damping = np.asarray(spring.damping) + alpha * mass["mx"] * np.eye(2)
+        found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=damping.tolist())
     return found
 
 

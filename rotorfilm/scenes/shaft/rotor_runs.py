@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ...bearings.seal import AnnularSeal
 from ...errors import ContactError, InputError, warn_user
 from ...linear import equilibrium, rotor_equilibrium
 from ...model import Array, Reaction
@@ -97,7 +98,8 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Warns
     -----
     ValidityWarning
-        Where the run is so long that its samples are fewer in a turn.
+        Where the run is so long that its samples are fewer in a turn, and of seals, whose added mass is
+        left out.
 
     Notes
     -----
@@ -107,7 +109,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     report(0.0, "equilibrium")
     parts = _parts(scene)
     report(0.05, "motion")
-    times = _times(parts)
+    times = run_times(parts.duration, parts.fastest)
     contact = None
     try:
         trajectory = _motion(scene, parts, times)
@@ -130,22 +132,21 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     )
 
 
-def _times(parts: _Parts) -> Array:
-    """Return the times of the samples [s]."""
-    turns = parts.fastest * parts.duration / (2.0 * np.pi)
+def run_times(duration: float, fastest: float) -> Array:
+    """Return the times [s] of the samples of a run up to a speed [rad/s]; warn of few in a turn."""
+    turns = fastest * duration / (2.0 * np.pi)
     count = max(int(A_TURN * turns) + 1, FEWEST)
     if count > MOST:
         warn_user(
             f"{MOST} samples of a run are {(MOST - 1) / turns:.3g} in a turn at the highest speed, fewer "
             f"than {A_TURN}: peaks may lie between them; a shorter operation.duration has more"
         )
-    return np.linspace(0.0, parts.duration, min(count, MOST))
+    return np.linspace(0.0, duration, min(count, MOST))
 
 
-def _parts(scene: Scene) -> _Parts:
-    """Return the rotor of a scene at rest in its bearings."""
+def run_span(scene: Scene) -> tuple[float, float]:
+    """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
     excitation, speed, duration = scene.excitation, scene.speed, None
-    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
     fastest = abs(speed)
     if isinstance(excitation, RunUpTable):
         duration = excitation.profile(speed).times[-1]
@@ -155,19 +156,36 @@ def _parts(scene: Scene) -> _Parts:
     given = None if scene.operation is None else scene.operation.duration
     if isinstance(excitation, GroundTable) and given is None:
         duration = excitation.end
+    return duration or scene.duration, fastest
+
+
+def _parts(scene: Scene) -> _Parts:
+    """Return the rotor of a scene at rest in its bearings."""
+    excitation = scene.excitation
+    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
+    duration, fastest = run_span(scene)
     rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
     if isinstance(excitation, RunUpTable):
-        rotor = replace(rotor, speed=excitation.profile(speed))
-    return _Parts(rotor, bearings, duration or scene.duration, fastest)
+        rotor = replace(rotor, speed=excitation.profile(scene.speed))
+    return _Parts(rotor, bearings, duration, fastest)
 
 
 def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
     assert scene.shaft is not None
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
-    rotor, bearings = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
     still = rotor_equilibrium(rotor, bearings, scene.speed).displacement
     return replace(rotor, initial=(*still, *0.0 * still)), bearings
+
+
+def _massless(name: str, bearing: Reaction) -> Reaction:
+    """Return a bearing that the compiled integration takes: a seal without its added mass, and a warning."""
+    if not isinstance(bearing, AnnularSeal):
+        return bearing
+    warn_user(f"the added mass of the seal {name!r} is left out of a run over time")
+    return replace(bearing, added_mass=False)
 
 
 def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:

@@ -82,7 +82,7 @@ SEAL = Keyed(
         **dict.fromkeys(("inlet_loss", "inlet_swirl"), Quantity("1")),
     },
 )
-"""`seal` of a bearing: an annular seal, whose added mass linear analyses of a shaft do not take."""
+"""`seal` of a bearing: an annular seal, with its added mass."""
 
 ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
 """With it the parts of a shaft check their own keys, before the shaft has its material."""
@@ -199,7 +199,6 @@ class BearingTable:
     stiffness : float [N/m] or 2 x 2 numbers, or None
     damping : float [N s/m] or 2 x 2 numbers
     seal : AnnularSeal or None
-        Without its added mass.
     support : Support or None
         Its housing; rigid unless given.
     """
@@ -230,7 +229,7 @@ class BearingTable:
     def build(self) -> JournalBearing | LinearBearing | AnnularSeal:
         """Return the bearing."""
         if self.seal is not None:
-            return replace(self.seal, added_mass=False)
+            return self.seal
         if self.journal is not None:
             self.journal.require_law("a shaft")
             return self.journal.bearing()

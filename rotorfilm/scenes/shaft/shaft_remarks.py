@@ -55,14 +55,6 @@ UNSTABLE = Remark(
 )
 
 
-SEAL_MASS = Remark(
-    "share",
-    0.0,
-    "at {speed:.4g} rad/s: added mass: {mass:.3g} kg of the fluid are left out, {share:.2g} % of the rotor",
-)
-"""What linear analyses of a shaft do not take."""
-
-
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
@@ -71,10 +63,6 @@ def shaft_remarks(
     stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
     loads = rotor_equilibrium(rotor, stiff, speed).loads
     lines = list(beam_remarks(rotor))
-    for name, seal in seals.items():
-        mass = float(seal.matrices(speed).M)
-        numbers = {"mass": mass, "share": 100.0 * abs(mass) / rotor.mass, "speed": speed}
-        lines += [f"{name}, {line}" for line in said([SEAL_MASS], numbers)]
     for name, bearing in bearings.items():
         if isinstance(bearing, JournalBearing):
             x, y = loads[name].tolist()

@@ -120,7 +120,18 @@ class ShaftTable:
                 require_node(f"{name}[{k}].node", part.node, self)
         for k, share in enumerate(self.compressor.nodes if self.compressor else ()):
             require_node(f"compressor.nodes[{k}].node", share.node, self)
+        self._require_supports()
         self.build()
+
+    def _require_supports(self) -> None:
+        """Raise InputError unless a compressor names bearings of this shaft."""
+        known = [bearing.name for bearing in self.bearings]
+        for k, name in enumerate(self.compressor.supports if self.compressor else ()):
+            if name not in known:
+                raise InputError(
+                    f"compressor.supports[{k}] must be a bearing of the shaft, {', '.join(known)}, "
+                    f"got {name!r}{nearest(name, known)}"
+                )
 
     def on(self, lubricant: LubricantTable) -> ShaftTable:
         """Return this table with the oil of the scene in its journal bearings; see `JournalTable.on`."""

@@ -41,6 +41,7 @@ def solve_level_one(scene: Scene) -> StabilityLevelOne:
         nodes=table.shares,
         stage_speed=table.stage_speed,
         average_density=table.average_density,
+        supports=table.supports or None,
     )
 
 

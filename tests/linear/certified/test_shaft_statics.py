@@ -8,6 +8,7 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm.linear.certified.mesh_convergence import _extrapolated
+from rotorfilm.reactions.carried_load import carries_load
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
 LENGTH, DIAMETER = 2.0, 0.1
@@ -81,6 +82,42 @@ def test_tension_straightens():
     string = weight * LENGTH**2 / (8.0 * 1e5)
     beam = weight / (1e5 * k**2) * (1.0 - 1.0 / math.cosh(k * LENGTH / 2.0))
     assert -found.sag[1, middle] == pytest.approx(string - beam, rel=2e-3)
+
+
+SEAL = rf.AnnularSeal(
+    radius=0.06, length=0.02, clearance=3e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0
+)
+
+
+@pytest.mark.closed_form
+def test_stations_of_seals_hold_nothing():
+    """Named, the bearings alone carry the bar, as without the stations of its seals."""
+    seals = (rf.Station(node=4, name="wear_ring"), rf.Station(node=6, name="throttle"))
+    sealed = replace(shaft(), stations=(*shaft().stations, *seals))
+    found, bare = rf.shaft_statics(sealed, supports=["left", "right"]), rf.shaft_statics(shaft())
+    assert set(found.loads) == {"left", "right"}
+    assert found.loads["left"][1] == pytest.approx(-WEIGHT * LENGTH / 2.0, rel=1e-9)
+    np.testing.assert_allclose(found.sag, bare.sag, atol=1e-14)
+    with pytest.raises(rf.InputError, match=r"supports must be among .*, got \['middle'\]"):
+        rf.shaft_statics(sealed, supports=["left", "middle"])
+
+
+def test_what_carries_a_load():
+    """A seal does not, nor two of them; springs or a bearing beside one do."""
+    light, spring = replace(SEAL, added_mass=False), rf.LinearBearing(stiffness=1e8)
+    carrying = [spring, rf.Sprung(reaction=light, stiffness=1e7), rf.ParallelReaction((spring, SEAL))]
+    assert [carries_load(one) for one in (*carrying, SEAL, rf.ParallelReaction((SEAL, light)))] == [
+        *(True, True, True),
+        *(False, False),
+    ]
+
+
+def test_seals_alone_do_not_carry_a_shaft():
+    with pytest.raises(rf.InputError, match=r"must hold one that carries a load, got seals only at \['left'"):
+        rf.shaft_statics(shaft(), dict.fromkeys(("right", "left"), SEAL), 100.0)
+    springs = dict.fromkeys(("right", "left"), rf.LinearBearing(stiffness=1e8))
+    with pytest.raises(rf.InputError, match="supports must be None beside bearings"):
+        rf.shaft_statics(shaft(), springs, 100.0, ["left"])
 
 
 def test_what_does_not_hold_and_two_on_a_node():
