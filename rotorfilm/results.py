@@ -78,7 +78,7 @@ class Equilibrium(Readable):
     residual : float [1]
         |film force + load| / |load|.
     iterations : int
-        Newton steps taken.
+        Newton steps taken; 0 where balls, which find their rest themselves, left none to take.
     temperature : float or None [K]
         Of the film, where it follows from the balance of its heat.
     reaction : object, optional

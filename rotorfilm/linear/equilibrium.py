@@ -21,6 +21,7 @@ from ..errors import (
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
 from ..reactions.noise import force_noise
+from ..reactions.resting import rest_place
 from ..results import Equilibrium
 from ..warming import Settling, Warming
 from .search.static_search import (
@@ -72,7 +73,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     -----
     Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
     angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
-    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear.
+    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Balls,
+    among which there may be no force at all, find their rest themselves (`reactions.resting`).
     """
     require_reaction("reaction", reaction, JournalForce, heavy=True)
     load = checked_load(load)
@@ -84,7 +86,10 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     room = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
-    target = StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film))
+    near = rest_place(film, (-x, -y), speed)
+    target = StaticTarget(
+        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film), near
+    )
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)

@@ -14,6 +14,7 @@ from .library import loops
 DEGREES, SLOPES = 5, 8
 
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
+_Held = c_int32 * DEGREES
 
 
 class BallsAt(NamedTuple):
@@ -130,15 +131,22 @@ class BallKernel:
         status = loops()["rf_balls_at"](byref(balls), motion.ctypes.data, speed, *places, each)
         return BallsAt(wrench, slopes, np.ctypeslib.as_array(each), status)
 
-    def rest(
-        self, load: Array, speed: float, start: Array, cage: float = 0.0, shaft: float = 0.0
-    ) -> BallsRest:
-        """Return the equilibrium under a load (5,) on the shaft, with cage and shaft turned further [rad]."""
+    def rest(self, load: Array, speed: float, start: Array) -> BallsRest:
+        """Return the equilibrium under a load (5,) on the shaft."""
+        return self._rest(load, speed, start, None)
+
+    def planar_rest(self, load: tuple[float, float], speed: float) -> BallsRest:
+        """Return the equilibrium under a radial load (2,) on a shaft with held tilts, and z unless free."""
+        place, thrust, _, is_free = self._held
+        held = _Held(0, 0, not is_free, 1, 1)
+        return self._rest(np.array([*load, thrust, 0.0, 0.0]), speed, np.array([0.0, 0.0, *place]), held)
+
+    def _rest(self, load: Array, speed: float, start: Array, held: Any) -> BallsRest:
         load, motion = np.ascontiguousarray(load, dtype=float), np.array(start, dtype=float)
         slopes, steps = np.empty((DEGREES, SLOPES)), c_int32()
         places = [one.ctypes.data for one in (motion, slopes)]
-        balls = self._turned(cage, shaft)
-        status = loops()["rf_balls_rest"](byref(balls), load.ctypes.data, speed, *places, byref(steps))
+        arguments = byref(self._balls), load.ctypes.data, speed, held, *places, byref(steps)
+        status = loops()["rf_balls_rest"](*arguments)
         return BallsRest(motion, steps.value, status)
 
 

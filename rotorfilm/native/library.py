@@ -64,7 +64,7 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
     "rf_ball_journal_at": [c_void_p] * 5,
     "rf_balls_at": [c_void_p, c_void_p, c_double, *[c_void_p] * 3],
-    "rf_balls_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 3],
+    "rf_balls_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 4],
     "rf_oil_outflow": [c_void_p] * 4,
     "rf_oil_film": [c_void_p, c_int, c_int, *[c_void_p] * 4],
     "rf_oil_response": [*[c_void_p] * 4, c_size_t, c_void_p, c_void_p],

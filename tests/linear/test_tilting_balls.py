@@ -230,3 +230,51 @@ def test_deep_groove_bearings_with_clearance_rest_on_some_of_their_balls() -> No
     thrust = dict.fromkeys(("front", "rear"), rf.TiltingBalls(bearing=replace(LOOSE, axial_load=100.0)))
     pressed = rf.rotor_modes(rotor, thrust, 1000.0).frequency[:2]
     assert pressed[0] > 2.0 * modes[0]
+
+
+def light_rotor(rng: np.random.Generator) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls], float]:
+    """Return a rotor of some 1 N in two deep groove bearings with clearance, and its weight [N]."""
+    diameter, mass = 10.0 ** rng.uniform(-2.5, -1.5), 10.0 ** rng.uniform(-3.0, 0.0)
+    piece = rf.ShaftElement(length=0.32, outer_diameter=diameter, material=STEEL)
+    rotor = rf.ShaftRotor(
+        elements=piece.split(4),
+        speed=0.0,
+        stations=tuple(
+            rf.Station(node=node, name=name, feels_tilt=True) for node, name in ((1, "front"), (3, "rear"))
+        ),
+        disks=(rf.Disk(node=0, mass=mass),),
+        gravity=(0.0, -9.81),
+    )
+    bearings = {
+        name: rf.TiltingBalls(
+            bearing=rf.BallBearing(
+                balls=int(rng.integers(6, 10)),
+                ball_diameter=7.938e-3,
+                pitch_diameter=33.5e-3,
+                internal_clearance=rng.uniform(0.0, 20e-6),
+                cage_angle=rng.uniform(0.0, 2.0 * math.pi),
+            )
+        )
+        for name in ("front", "rear")
+    }
+    return rotor, bearings, 9.81 * (mass + STEEL.density * 0.32 * math.pi / 4.0 * diameter**2)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("speed", [0.0, 100.0, 2000.0])
+def test_light_rotors_rest_in_bearings_with_clearance(speed: float) -> None:
+    """Forces and moments about the front bearing, of the balls at the places told, are balanced."""
+    rng = np.random.default_rng(7)
+    for _ in range(25):
+        rotor, bearings, weight = light_rotor(rng)
+        at = rf.rotor_equilibrium(rotor, bearings, speed)
+        assert at.residual < 1e-9
+        loads = [
+            -bearings[name].tilting_force(at.coefficients[name].position, speed) for name in ("front", "rear")
+        ]
+        np.testing.assert_allclose(loads[0][:2] + loads[1][:2], [0.0, -weight], atol=1e-8 * weight)
+        disk = rotor.disks[0].mass * 9.81
+        # moments about x at the front node, 80 mm from the disk, 80 mm from the middle, 160 mm from the rear
+        own = -0.08 * disk + 0.08 * (weight - disk)
+        about = 0.16 * loads[1][1] - loads[0][2] - loads[1][2]
+        assert own + about == pytest.approx(0.0, abs=1e-7 * weight)

@@ -79,6 +79,15 @@ class BallElement(BallDegrees, KernelReaction):
             self.report(status, (x, y, 0.0, 0.0, speed))
         return z
 
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return x, y of the shaft [m] under a radial load [N], None where no rest was found.
+
+        Balls with clearance leave the shaft free in a polygon, in a corner of which it hangs under a light
+        load. Without gyroscopic moments the energy is convex, and a search that lowers it finds the rest.
+        """
+        found = self.kernel.planar_rest(load, speed)
+        return None if found.status > Status.OUTSIDE else (float(found.motion[0]), float(found.motion[1]))
+
     @cached_property
     def clearance(self) -> float:
         """Radial way [m] on which a ball is first pressed to 4200 MPa: at rest, upright, with z as given."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
+from contextlib import suppress
 from copy import copy
 from typing import cast
 
@@ -11,7 +13,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...bearings.contact_place import minimum_film, relative_film
-from ...errors import EquilibriumError, InputError
+from ...errors import ConvergenceError, EquilibriumError, InputError, ValidityWarning
 from ...model import Array, Reaction
 from ...rotors.structure import Structure, across_planes
 from ...warming import Warming
@@ -26,6 +28,8 @@ CONTINUATION = 8
 """Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
 
 _NEWTON_STEPS = 40
+
+_HALVINGS, _OVERSHOOT, _LEFT = 60, 0.5, 0.9
 
 _SINGULAR = 1e15
 
@@ -122,10 +126,15 @@ class RestEquations:
         return bearing.balanced_temperature(at, np.zeros(2), self.speed) if warms else None  # type: ignore[attr-defined]
 
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
-        """Return (q, p) at rest, by continuation where one step does not converge."""
-        try:
-            return self.solve(q, p, 1.0)
-        except EquilibriumError:
+        """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
+        with warnings.catch_warnings():
+            # A state that the search only passes through is nobody's answer; that of the result is warned of.
+            warnings.simplefilter("ignore", ValidityWarning)
+            with suppress(EquilibriumError):
+                return self.solve(q, p, 1.0)
+            if all(self.tilting):
+                with suppress(EquilibriumError, ConvergenceError):
+                    return self.solve(q, p, 1.0, downhill=True)
             for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
                 q, p = self.solve(q, p, float(s))
             return q, p
@@ -154,8 +163,8 @@ class RestEquations:
         roundoff = max(len(q), 10) * np.finfo(float).eps
         return TOLERANCE * self.size + roundoff * forces, TOLERANCE * lengths + roundoff * misfit
 
-    def solve(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
-        """Return (q, p) by Newton's method with steps that stay within the clearances."""
+    def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
+        """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
         n = len(q)
         for _ in range(_NEWTON_STEPS):
             tally("newton_steps")
@@ -171,7 +180,7 @@ class RestEquations:
                 step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
             except np.linalg.LinAlgError:
                 raise self.free() from None
-            share = self._within(p, step[n:])
+            share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
@@ -198,6 +207,25 @@ class RestEquations:
             f"; without the bearing at {self.names[k]!r} the shaft sags {sag:.3g} m there, and its clearance "
             f"is {clearance:.3g} m"
         )
+
+    def _downhill(self, q: Array, p: Array, step: Array, s: float) -> float:
+        """Return the part of a step after which the force along it is about gone, as `native/rolling` does.
+
+        Shaft and balls have a convex energy, but for gyroscopic moments: that force only falls. What joins
+        shaft and journals is linear, so that a first whole step makes it fit.
+        """
+        dq, dp = np.split(step, [len(q)])
+        low, high, share = 0.0, 1.0, 1.0
+        if np.any(np.abs(self.residual(q, p, s)[1]) > self.tolerances(q, p, s)[1]):
+            return share
+        full = -float(self.residual(q, p, s)[0] @ dq)
+        for _ in range(_HALVINGS):
+            left = -float(self.residual(q + share * dq, p + share * dp, s)[0] @ dq)
+            if left >= -_OVERSHOOT * full and (share == 1.0 or left <= _LEFT * full):
+                break
+            low, high = (low, share) if left < 0.0 else (share, high)
+            share = 0.5 * (low + high)
+        return share
 
     def _within(self, p: Array, step: Array) -> float:
         """Return the part of a step that leaves every journal at least half of its gap."""

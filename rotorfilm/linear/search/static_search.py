@@ -33,6 +33,7 @@ class StaticTarget(NamedTuple):
     room: float
     lead: float  # of the first trial, from the load on
     noise: float = 0.0  # force that roundoff leaves [N]
+    near: tuple[float, float] | None = None  # where the film says that it is [m]
 
     @property
     def size(self) -> float:
@@ -94,11 +95,17 @@ def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
 
 
 def _starts(target: StaticTarget) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); the first, half of the way to the wall, is enough for most films."""
+    """Return starting points (s, phi); half of the way to the wall is enough for most films."""
     along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
     turns = [k * math.pi / 3.0 for k in range(6)]
+    told = [] if target.near is None else [_start_at(target, *target.near)]
     first = (half, along_load + target.lead)
-    return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
+    return [*told, first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
+
+
+def _start_at(target: StaticTarget, x: float, y: float) -> tuple[float, float]:
+    chi = math.hypot(x, y) / target.clearance or 1e-300
+    return math.log(chi / (1.0 - chi)) if chi < MAXIMUM_ECCENTRICITY else LARGEST_S, math.atan2(y, x)
 
 
 def _newton(target: StaticTarget, s: float, phi: float) -> StaticPoint:

@@ -43,10 +43,11 @@ typedef struct rf_balls {
 RF_EXPORT_LOOP int rf_balls_at(const rf_balls *balls, const double *motion, double speed, double *wrench, double *by,
                                rf_ball *each);
 
-/* The motion under a load[5] on the shaft, from a first one, and the derivatives of the wrench there. *steps gets the
-   count of wrenches that were computed. RF_STUCK where no equilibrium was found. */
-RF_EXPORT_LOOP int rf_balls_rest(const rf_balls *balls, const double *load, double speed, double *motion, double *by,
-                                 int32_t *steps);
+/* The motion under a load[5] on the shaft, from a first one, and the derivatives of the wrench there. Degrees with a
+   held[5] other than 0 stay, none where it is NULL. *steps gets the count of wrenches that were computed. RF_STUCK where
+   no equilibrium was found. */
+RF_EXPORT_LOOP int rf_balls_rest(const rf_balls *balls, const double *load, double speed, const int32_t *held, double *motion,
+                                 double *by, int32_t *steps);
 
 /* A shaft that moves along x and y only: a reaction. */
 typedef struct rf_ball_journal {

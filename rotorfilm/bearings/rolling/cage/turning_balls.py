@@ -68,6 +68,11 @@ class TurningBalls(Called):
         return self.bearing.clearance
 
     @property
+    def force_noise(self) -> float:
+        """What roundoff of places leaves of the force [N], that of the bearing."""
+        return self.bearing.force_noise
+
+    @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
         return self.bearing.inputs
@@ -91,6 +96,10 @@ class TurningBalls(Called):
     def initial_state(self) -> Array:
         """Nothing has turned."""
         return np.zeros(2)
+
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return x, y of the shaft [m] under a radial load [N] where nothing has turned."""
+        return self.bearing.rest_place(load, speed)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the force (2, ...) [N] where nothing has turned, that of the bearing."""
