@@ -85,9 +85,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
     target = StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film))
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
-        warnings.simplefilter("ignore", ValidityWarning)
         best = search_place(target)
         if at_rest and not is_found(target, best):
             best = continued_place(target, best)

@@ -138,8 +138,7 @@ def comparison_bearing(slenderness: float) -> JournalBearing:
 
 def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, which may be meant for other bearings: that is the question."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return replace(bearing, film=film)
 
 

@@ -98,8 +98,7 @@ def _with_coarser_check(film: FilmRung) -> FilmRung:
 
 def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, whether or not that is meant for it."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return replace(bearing, film=film)
 
 

@@ -108,6 +108,5 @@ def both_films(bearing: JournalBearing, cells: tuple[int, int]) -> tuple[Journal
         If the bearing has no supply, or one that cannot be.
     """
     conserved = JFOFilm(bearing=bearing, cells=cells)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return replace(bearing, film=ReynoldsFilm(cells=cells)), conserved
