@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from ...errors import (
     InputError,
+    ValidityWarning,
     require_each,
     require_kind,
     require_non_negative,
@@ -211,3 +213,9 @@ class JournalBearing(FilmReaction, WarmFilm):
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
         return kinematics(position, velocity, speed, self.clearance)
+
+
+def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
+    """Return the bearing with another film, which may be meant for other bearings: that is the question."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        return replace(bearing, film=film)
