@@ -17,6 +17,7 @@ from ..errors import (
     ValidityWarning,
     require_finite,
     require_number,
+    require_pair,
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
@@ -129,14 +130,12 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
 def checked_load(load: ArrayLike) -> Array:
     """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
     array = require_finite("load", load)
-    if array.shape != (2,):
-        if array.ndim == 0:
-            raise InputError(
-                "load must be the components (x, y) of the force on the journal, as load="
-                f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
-            )
-        raise InputError(f"load must have shape (2,), got shape {array.shape}")
-    if not array.any():
+    if array.ndim == 0:
+        raise InputError(
+            "load must be the components (x, y) of the force on the journal, as load="
+            f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
+        )
+    if not require_pair("load", array).any():
         raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
     return array
 

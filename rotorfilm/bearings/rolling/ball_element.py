@@ -17,6 +17,7 @@ from ...errors import (
     require_kind,
     require_non_negative,
     require_number,
+    require_pair,
 )
 from ...model import Array
 from ...native import NativeSpec, Status
@@ -72,10 +73,7 @@ class BallElement(BallDegrees, KernelReaction):
 
     def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
         """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
-        place = require_finite("position", position)
-        if place.shape != (2,):
-            raise InputError(f"position must have shape (2,), got shape {place.shape}")
-        x, y = place.tolist()
+        x, y = require_pair("position", position).tolist()
         z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:
             self.report(status, (x, y, 0.0, 0.0, speed))

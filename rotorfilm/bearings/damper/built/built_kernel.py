@@ -7,6 +7,7 @@ from typing import Protocol
 from ....native.damper_kernels import OilDamperKernel, OilParts, OilScales
 from ....native.spec import NativeSpec
 from ....signals import MOTION_NAMES
+from ...film_units import Size
 from ...films.kernel_film import BoundKernel
 from ..damper_kernel import DIMENSIONS, bounded, dimension, spring_parameter
 from ..full_squeeze import SqueezeFilm
@@ -19,15 +20,9 @@ from .zone_inertia import NODES, ZoneInertia
 KERNEL = "oil_damper"
 
 
-class _OilDamper(Protocol):
+class _OilDamper(Size, Protocol):
     """What a damper says of itself."""
 
-    @property
-    def radius(self) -> float: ...
-    @property
-    def length(self) -> float: ...
-    @property
-    def clearance(self) -> float: ...
     @property
     def viscosity(self) -> float: ...
     @property
