@@ -31,11 +31,11 @@ from rotorfilm.bearings.journal import (
     RotatingArc,
     ShortFilm,
     SplittingFilm,
+    fitted_bearing,
 )
 from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
 from rotorfilm.bearings.journal.grooves.openings import aligned_openings
 from rotorfilm.comparisons import LARGE, comparison_bearing, random_states
-from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
 from rotorfilm.comparisons.journal.journal_states import States, reference_force, relative_error
 from rotorfilm.comparisons.journal.timing import film_costs, shortest_time
 

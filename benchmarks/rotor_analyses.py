@@ -81,21 +81,35 @@ def shaft(count: int) -> ShaftRotor:
 
 def rows(count: int) -> list[Row]:
     """Return the analyses."""
-    small = count // 3
     rests: dict[str, Any] = {}
+    return [
+        rest_row(rests),
+        *eigenvalue_rows(),
+        *response_rows(count // 3, rests),
+        Row("threshold on films", lambda r: rotor_threshold(r, FILMS, THRESHOLD), lambda found: found),
+        Row("stability changes", lambda r: stability_changes(r, FILMS, THRESHOLD), lambda found: found),
+    ]
+
+
+def rest_row(rests: dict[str, Any]) -> Row:
+    """Return the equilibrium, which is kept among some rests."""
 
     def rested(rotor: ShaftRotor) -> Any:
         rests["at"] = rotor_equilibrium(rotor, SPRINGS, SPEED)
         return rests["at"]
 
+    return Row(
+        "equilibrium",
+        rested,
+        lambda at: np.abs([at.loads[name][1] for name in ("left", "right")]),
+        lambda ross: ross.run_static(),
+        lambda found: np.array([float(v) for v in found.bearing_forces.values()]),
+    )
+
+
+def eigenvalue_rows() -> list[Row]:
+    """Return modes and critical speeds."""
     return [
-        Row(
-            "equilibrium",
-            rested,
-            lambda at: np.abs([at.loads[name][1] for name in ("left", "right")]),
-            lambda ross: ross.run_static(),
-            lambda found: np.array([float(v) for v in found.bearing_forces.values()]),
-        ),
         Row(
             "modes at a speed",
             lambda r: rotor_modes(r, SPRINGS, SPEED, 1000.0),
@@ -118,11 +132,17 @@ def rows(count: int) -> list[Row]:
             lambda found: found._wd,
         ),
         Row("critical speeds on films", lambda r: critical_speeds(r, FILMS, SEARCH), lambda found: found),
+    ]
+
+
+def response_rows(loaded: int, rests: dict[str, Any]) -> list[Row]:
+    """Return the responses to an unbalance at a node, to forces, and of the rest kept to the ground."""
+    return [
         Row(
             "unbalance, 200 speeds",
             lambda r: unbalance_response(r, SPRINGS, RESPONSE),
             lambda found: np.abs(found.complex[found.output_labels.index("left_x"), 0]),
-            lambda ross: ross.run_unbalance_response([small], [1e-3], [0.0], RESPONSE),
+            lambda ross: ross.run_unbalance_response([loaded], [1e-3], [0.0], RESPONSE),
             lambda found: np.abs(found.forced_resp[0]),
         ),
         Row(
@@ -137,8 +157,6 @@ def rows(count: int) -> list[Row]:
             lambda r: base_response(r, rests["at"], RESPONSE),
             lambda found: found,
         ),
-        Row("threshold on films", lambda r: rotor_threshold(r, FILMS, THRESHOLD), lambda found: found),
-        Row("stability changes", lambda r: stability_changes(r, FILMS, THRESHOLD), lambda found: found),
     ]
 
 

@@ -181,6 +181,14 @@ def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def require_pair(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Return `value` as a finite array of shape (2,); raise InputError otherwise."""
+    array = require_finite(name, value)
+    if array.shape != (2,):
+        raise InputError(f"{name} must have shape (2,), got shape {array.shape}")
+    return array
+
+
 def keep_pair(rotor: object, name: str) -> None:
     """Keep a field of two numbers as a tuple of floats; raise InputError where it is none."""
     value = getattr(rotor, name)

@@ -102,8 +102,7 @@ class Equilibrium(Readable):
     def to_rows(self) -> list[Row]:
         """Return names and values with their units; of a film that warms also its power; never warns."""
         rows = super().to_rows()
-        with warnings.catch_warnings(), suppress(RotorfilmError):
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"), suppress(RotorfilmError):
             if self.temperature is not None and self.losses is not None:
                 rows += rows_of([Item("power_loss", self.losses.power_loss, "W", ())])
         return rows

@@ -201,16 +201,15 @@ def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]
         ("m/s", velocity, "journal velocity along y"),
         ("rad/s", nominal_speed, "angular speed about +z"),
     )
-    return _signals(JOURNAL_INPUTS, rows)
+    return signals_of(*((name, *row) for name, row in zip(JOURNAL_INPUTS, rows, strict=True)))
 
 
 def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
     """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
-    return _signals(
-        FORCE_OUTPUTS, [("N", nominal_force, f"force on the journal along {axis}") for axis in "xy"]
-    )
+    text = "force on the journal along "
+    return signals_of(*((f"force_{axis}", "N", nominal_force, text + axis) for axis in "xy"))
 
 
-def _signals(names: Sequence[str], rows: Sequence[tuple[str, float, str]]) -> tuple[Signal, ...]:
-    pairs = zip(names, rows, strict=True)
-    return tuple(Signal(name=name, unit=u, nominal=size, description=text) for name, (u, size, text) in pairs)
+def signals_of(*rows: tuple[str, str, float, str]) -> tuple[Signal, ...]:
+    """Return signals from rows of name, unit, nominal value and description."""
+    return tuple(Signal(name=name, unit=unit, nominal=n, description=text) for name, unit, n, text in rows)

@@ -16,11 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.bearings.journal import HeatedFilm, LayeredTemperature, ReynoldsFilm
+from rotorfilm.bearings.journal import HeatedFilm, LayeredTemperature, ReynoldsFilm, fitted_bearing
 from rotorfilm.errors import RotorfilmError
 from rotorfilm.questions.journal.statics import TEMPERATURES, rest_value
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.journal.film_rungs import with_film
 from rotorfilm.scenes.journal.warm_rest import WarmRest, bush_of, field_rest, uniform_rest
 from rotorfilm.units import CELSIUS
 
@@ -88,7 +87,7 @@ def _data(random: np.random.Generator) -> dict[str, Any]:
 
 
 def _is_fair(scene: Scene) -> bool:
-    bearing = with_film(scene.bearing, ReynoldsFilm(cells=(48, 4)))
+    bearing = fitted_bearing(scene.bearing, ReynoldsFilm(cells=(48, 4)))
     try:
         own = uniform_rest(bearing, scene.static_load, scene.speed)
     except RotorfilmError:

@@ -19,6 +19,9 @@ from .drawn import Drawn, Truth, log_uniform
 QUANTITIES = ("stiffness", "axial_stiffness", "contact_load", "contact_angle", "film_parameter")
 RACE_FLOOR = 1e-6
 
+Pair = tuple[float, float]
+"""Of an inner and an outer contact, or along the axis and the radius."""
+
 
 def ball_bearing(random: np.random.Generator) -> Drawn:
     """Return a question about a deep groove bearing, one of angular contact under thrust, or a pair."""
@@ -123,70 +126,88 @@ class Bearing:
         self.balls = [(row, row[6] + 2.0 * math.pi * k / row[5]) for row in rows for k in range(int(row[5]))]
         self.centers: list[Any] = [None] * len(self.balls)
 
-    def ball(self, number: int, motion: Any) -> tuple[Any, tuple[float, float], tuple[float, float]]:
+    def ball(self, number: int, motion: Any) -> tuple[Any, Pair, Pair]:
         """Return force on the inner ring (axial, radial), loads and angles of a ball."""
-        row, psi = self.balls[number]
-        x, y, z = motion
-        a1 = row[2] + row[1] * z
-        a2 = row[3] + self.one.growth + x * math.cos(psi) + y * math.sin(psi)
-        one, D, dm = self.one, self.one.ball_diameter, self.one.pitch_diameter
-        g, J, m = D / dm, 0.1 * self.one.ball_mass * D**2, self.one.ball_mass
-        per = sum(float(race.stiff(one.free_contact_angle)) ** (-2.0 / 3.0) for race in self.races)
-        depth = max(math.hypot(a1, a2) - sum(self.reach), 0.0)
-        guess = per**-1.5 * depth**1.5
-        films = [race.film(max(guess, 1e-3), one.free_contact_angle) for race in self.races]
-
-        def contacts(X: Any) -> Any:
-            li, lo = math.hypot(a1 - X[0], a2 - X[1]), math.hypot(*X)
-            ai, ao = math.atan2(a1 - X[0], a2 - X[1]), math.atan2(X[0], X[1])
-            depths = li - self.reach[0] + films[0], lo - self.reach[1] + films[1]
-            loads = [
-                float(race.stiff(angle)) * max(d, 0.0) ** 1.5
-                for race, angle, d in zip(self.races, (ai, ao), depths, strict=True)
-            ]
-            return loads, (ai, ao)
-
-        def inertia(ai: float, ao: float) -> tuple[float, float]:
-            om = self.speed * (1.0 - g * math.cos(ai)) / (1.0 + math.cos(ai - ao))
-            tan_b = math.sin(ao) / (math.cos(ao) + g)
-            wa = -om * (1.0 / g + math.cos(ao)) / (math.cos(ao) + math.sin(ao) * tan_b)
-            return 0.5 * m * om**2 * dm, J * om * wa * tan_b  # Mg = -J om w_r, w_r = -w_a tan b
-
-        def rest(X: Any) -> Any:
-            (Qi, Qo), (ai, ao) = contacts(X)
-            Fc, Mg = inertia(ai, ao)
-            friction = 2.0 * Mg / D
-            return np.array(
-                [
-                    Qi * math.sin(ai) - Qo * math.sin(ao) + friction * math.cos(ao),
-                    Qi * math.cos(ai) - Qo * math.cos(ao) - friction * math.sin(ao) + Fc,
-                ]
-            ) / max(guess, 1.0)
-
-        def shifted(w: Any) -> Any:
-            return rest(self.reach[1] * (w - 1.0))
-
+        groove = self._groove(number, motion)
+        guess = self._guess(groove)
+        films = self._films((max(guess, 1e-3),) * 2, (self.one.free_contact_angle,) * 2)
         for _ in range(8):
-            Fc, _ = inertia(0.0, 0.0)
-            Ko = float(self.races[1].stiff(0.0))
-            free = np.array([0.0, self.reach[1] - films[1] + (Fc / Ko) ** (2.0 / 3.0)])
-            (Qi, _), angles = contacts(free)
-            if Qi == 0.0:
-                films[1] = self.races[1].film(max(Fc, 1e-9), 0.0)
-                done, loads, angles = free, [0.0, Fc], (angles[0], 0.0)
-                continue
-            start = self.centers[number]
-            if start is None:
-                pull = np.array([guess * math.sin(one.free_contact_angle), guess + Fc])
-                start = pull / np.hypot(*pull) * (self.reach[1] + (np.hypot(*pull) / Ko) ** (2.0 / 3.0))
-            # Shifted by one: MINPACK takes its steps relative to the unknowns, and a center may be at 0.
-            found = root(shifted, start / self.reach[1] + 1.0, tol=1e-13)
-            done = self.reach[1] * (found.x - 1.0)
-            loads, angles = contacts(done)
-            films = [race.film(max(q, 1e-9), a) for race, q, a in zip(self.races, loads, angles, strict=True)]
-        self.centers[number] = done
+            center, loads, angles = self._balanced(number, groove, films, guess)
+            inner, outer = self._films(loads, angles)
+            films = (inner if loads[0] else films[0]), outer
+        self.centers[number] = center
         force = -loads[0] * np.array([math.sin(angles[0]), math.cos(angles[0])])
-        return force, tuple(loads), tuple(angles)
+        return force, loads, angles
+
+    def _groove(self, number: int, motion: Any) -> Pair:
+        """Return the center of the inner groove from that of the outer one (axial, radial)."""
+        (row, psi), (x, y, z) = self.balls[number], motion
+        return row[2] + row[1] * z, row[3] + self.one.growth + x * math.cos(psi) + y * math.sin(psi)
+
+    def _guess(self, groove: Pair) -> float:
+        """Return about what presses a ball, with both contacts in series."""
+        angle = self.one.free_contact_angle
+        per = sum(float(race.stiff(angle)) ** (-2.0 / 3.0) for race in self.races)
+        depth = max(math.hypot(*groove) - sum(self.reach), 0.0)
+        return per**-1.5 * depth**1.5
+
+    def _balanced(self, number: int, groove: Pair, films: Pair, guess: float) -> tuple[Any, Pair, Pair]:
+        """Return center, loads and angles of a ball on films: in balance, or flung out with no inner load."""
+        Fc, _ = self._inertia(0.0, 0.0)
+        Ko = float(self.races[1].stiff(0.0))
+        free = np.array([0.0, self.reach[1] - films[1] + (Fc / Ko) ** (2.0 / 3.0)])
+        (Qi, _), angles = self._contacts(groove, films, free)
+        if Qi == 0.0:
+            return free, (0.0, Fc), (angles[0], 0.0)
+        start = self.centers[number]
+        if start is None:
+            angle = self.one.free_contact_angle
+            pull = np.array([guess * math.sin(angle), guess + Fc])
+            start = pull / np.hypot(*pull) * (self.reach[1] + (np.hypot(*pull) / Ko) ** (2.0 / 3.0))
+
+        def left(w: Any) -> Any:
+            return self._left(groove, films, self.reach[1] * (w - 1.0)) / max(guess, 1.0)
+
+        # Shifted by one: MINPACK takes its steps relative to the unknowns, and a center may be at 0.
+        found = root(left, start / self.reach[1] + 1.0, tol=1e-13)
+        center = self.reach[1] * (found.x - 1.0)
+        return center, *self._contacts(groove, films, center)
+
+    def _left(self, groove: Pair, films: Pair, center: Any) -> Any:
+        """Return what forces leave on a ball with its center there (axial, radial)."""
+        (Qi, Qo), (ai, ao) = self._contacts(groove, films, center)
+        Fc, Mg = self._inertia(ai, ao)
+        friction = 2.0 * Mg / self.one.ball_diameter
+        return np.array(
+            [
+                Qi * math.sin(ai) - Qo * math.sin(ao) + friction * math.cos(ao),
+                Qi * math.cos(ai) - Qo * math.cos(ao) - friction * math.sin(ao) + Fc,
+            ]
+        )
+
+    def _contacts(self, groove: Pair, films: Pair, center: Any) -> tuple[Pair, Pair]:
+        """Return loads and angles of both contacts."""
+        a1, a2 = groove[0] - center[0], groove[1] - center[1]
+        angles = math.atan2(a1, a2), math.atan2(center[0], center[1])
+        lengths = math.hypot(a1, a2), math.hypot(*center)
+        each = zip(self.races, angles, lengths, self.reach, films, strict=True)
+        inner, outer = (float(race.stiff(a)) * max(d - r + h, 0.0) ** 1.5 for race, a, d, r, h in each)
+        return (inner, outer), angles
+
+    def _inertia(self, ai: float, ao: float) -> Pair:
+        """Return centrifugal force and gyroscopic moment by Jones, with outer-race control."""
+        one, D, dm = self.one, self.one.ball_diameter, self.one.pitch_diameter
+        g, J, m = D / dm, 0.1 * one.ball_mass * D**2, one.ball_mass
+        om = self.speed * (1.0 - g * math.cos(ai)) / (1.0 + math.cos(ai - ao))
+        tan_b = math.sin(ao) / (math.cos(ao) + g)
+        wa = -om * (1.0 / g + math.cos(ao)) / (math.cos(ao) + math.sin(ao) * tan_b)
+        return 0.5 * m * om**2 * dm, J * om * wa * tan_b  # Mg = -J om w_r, w_r = -w_a tan b
+
+    def _films(self, loads: Pair, angles: Pair) -> Pair:
+        """Return the films of both contacts."""
+        each = zip(self.races, loads, angles, strict=True)
+        inner, outer = (race.film(max(load, 1e-9), angle) for race, load, angle in each)
+        return inner, outer
 
     def force(self, motion: Any) -> Any:
         """Return the force on the shaft (3,)."""

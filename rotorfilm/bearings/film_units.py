@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from ..errors import InputError, require_each, require_positive
 from .reaction import NOMINAL_SPEED
 
 
-class Dimensions(Protocol):
-    """Dimensions of a bearing, and the viscosity of its film."""
+class Size(Protocol):
+    """Dimensions of a bearing."""
 
     @property
     def radius(self) -> float:
@@ -21,6 +22,17 @@ class Dimensions(Protocol):
     @property
     def clearance(self) -> float:
         """Radial clearance [m], the unit of eccentricity ratios."""
+
+
+def require_size(bearing: Size, *further: str) -> None:
+    """Raise InputError unless sizes and further fields are positive, and the clearance below the radius."""
+    require_each(bearing, require_positive, "radius", "length", "clearance", *further)
+    if bearing.clearance >= bearing.radius:
+        raise InputError(f"clearance must be below the radius {bearing.radius!r}, got {bearing.clearance!r}")
+
+
+class Dimensions(Size, Protocol):
+    """Dimensions of a bearing, and the viscosity of its film."""
 
     @property
     def film_length(self) -> float:

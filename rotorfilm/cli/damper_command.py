@@ -7,7 +7,7 @@ import tempfile
 from enum import StrEnum
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..results import CircularOrbit, write_csv
 from . import printing as console
@@ -28,6 +28,20 @@ class Squeeze(StrEnum):
     FINITE = "finite"
     FINITE_MAP = "finite_map"
     PUBLISHED = "published"
+
+
+UNITS = {
+    **dict.fromkeys(("radius", "length", "clearance", "thickness", "gap", "gap_length"), "m"),
+    "viscosity": "Pa.s",
+    "density": "kg/m3",
+    "mass": "kg",
+    "speed": "rad/s",
+    "unbalance": "kg.m",
+    "stiffness": "N/m",
+    "permeability": "m2",
+    "leakage": "m2/(Pa.s)",
+}
+"""Of the options that are quantities."""
 
 
 def damper(
@@ -68,34 +82,31 @@ def damper(
     from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
     from ..scenes.damper.damper_table import SQUEEZES
     from ..scenes.damper.solve_damper import solve_damper
-    from ..scenes.reading.tables import Quantity
 
-    size, thick = Quantity("m")("--radius", radius), Quantity("Pa.s")("--viscosity", viscosity)
+    size = _in_si(radius=radius, length=length, clearance=clearance, viscosity=viscosity, density=density)
+    rotor = _in_si(mass=mass, speed=speed, unbalance=unbalance, stiffness=stiffness)
     support = PorousDamper(
-        radius=size,
-        length=Quantity("m")("--length", length),
-        clearance=Quantity("m")("--clearance", clearance),
-        viscosity=thick,
-        density=Quantity("kg/m3")("--density", density),
-        seals=_seals(leakage, gap, gap_length, viscosity=thick, radius=size),
+        **size,
+        seals=_seals(leakage, gap, gap_length, size),
         extent=FullFilm() if full else HalfSommerfeld(),
         cage=_cage(thickness, permeability, grading, anisotropy, vented),
         film=SQUEEZES[film.value].makes(),
     )
-    kilograms = Quantity("kg")("--mass", mass)
-    answer = solve_damper(
-        support,
-        mass=kilograms,
-        speed=Quantity("rad/s")("--speed", speed),
-        unbalance=Quantity("kg.m")("--unbalance", unbalance),
-        stiffness=Quantity("N/m")("--stiffness", stiffness),
-    )
+    answer = solve_damper(support, **rotor)
     if chart is not None:
         from ..charts import plot_transmissibility, save
 
-        unit = kilograms * support.clearance
+        unit = rotor["mass"] * support.clearance
         save(plot_transmissibility({"damper": answer.response}, unit=unit), chart)
     return Said(answer, partial(console.print_rows, "rotor on a squeeze-film damper", damper_rows(answer)))
+
+
+def _in_si(**texts: str | None) -> dict[str, Any]:
+    """Return the numbers of options, those that are not given left out."""
+    from ..scenes.reading.tables import Quantity
+
+    given = {name: text for name, text in texts.items() if text is not None}
+    return {name: Quantity(UNITS[name])(f"--{name.replace('_', '-')}", text) for name, text in given.items()}
 
 
 def damper_rows(answer: DamperAnswer) -> list[tuple[str, str]]:
@@ -138,7 +149,6 @@ def _cage(
 ) -> PorousCage | None:
     from ..bearings.damper import PorousCage
     from ..errors import InputError
-    from ..scenes.reading.tables import Quantity
 
     if thickness is None and permeability is None:
         if (grading, anisotropy, vented) != (0.0, 1.0, False):
@@ -146,28 +156,17 @@ def _cage(
         return None
     if thickness is None or permeability is None:
         raise InputError("--thickness and --permeability must be given together")
-    return PorousCage(
-        thickness=Quantity("m")("--thickness", thickness),
-        permeability=Quantity("m2")("--permeability", permeability),
-        grading=grading,
-        anisotropy=anisotropy,
-        vented=vented,
-    )
+    size = _in_si(thickness=thickness, permeability=permeability)
+    return PorousCage(**size, grading=grading, anisotropy=anisotropy, vented=vented)
 
 
 def _seals(
-    leakage: str | None, gap: str | None, gap_length: str | None, *, viscosity: float, radius: float
+    leakage: str | None, gap: str | None, gap_length: str | None, size: dict[str, float]
 ) -> EndSeal | None:
     from ..scenes.damper.seal_table import SealsTable
-    from ..scenes.reading.tables import Quantity
 
-    if leakage is None and gap is None and gap_length is None:
-        return None
-    return SealsTable(
-        leakage=None if leakage is None else Quantity("m2/(Pa.s)")("--leakage", leakage),
-        gap=None if gap is None else Quantity("m")("--gap", gap),
-        gap_length=None if gap_length is None else Quantity("m")("--gap-length", gap_length),
-    ).seal(viscosity=viscosity, radius=radius)
+    given = _in_si(leakage=leakage, gap=gap, gap_length=gap_length)
+    return SealsTable(**given).seal(viscosity=size["viscosity"], radius=size["radius"]) if given else None
 
 
 def damper_run(

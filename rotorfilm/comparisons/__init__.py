@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ..sources import show
 
 if TYPE_CHECKING:
+    from ..bearings.journal import fitted_bearing as fitted_bearing
     from .bush_tiers import (
         BushTier as BushTier,
         BushTiers as BushTiers,
@@ -50,7 +51,6 @@ if TYPE_CHECKING:
         ComparedFilm as ComparedFilm,
         FilmFamily as FilmFamily,
         comparison_bearing as comparison_bearing,
-        fitted_bearing as fitted_bearing,
         journal_rungs as journal_rungs,
     )
     from .journal.journal_stability import journal_stability as journal_stability

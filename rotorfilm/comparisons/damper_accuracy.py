@@ -190,8 +190,8 @@ def damper_accuracy(
     require_count("states", states, 1)
     drawn = _states(states, seed)
     rungs: list[DamperRung] = []
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # rungs outside their range are the point
+    # Rungs outside their range are the point.
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         for part, cavitated in enumerate((True, False)):
             dampers = damper_rungs(slenderness, permeability_number, cavitated=cavitated)
             share = part_of(report, 0.5 * part, 0.5 * (part + 1))

@@ -64,8 +64,7 @@ class CouplingWatch(Readable):
 @contextmanager
 def quietly() -> Iterator[None]:
     """Silence the warnings of couplings that go to their limit on purpose."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CouplingWarning)
+    with warnings.catch_warnings(action="ignore", category=CouplingWarning):
         yield
 
 

@@ -69,8 +69,7 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
 def _rows(model: Model | Stepped, time: Array, inputs: Array) -> list[Array]:
     rows: list[Array] = []
     state: Any = None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         for k, (t, u) in enumerate(zip(time, inputs, strict=True)):
             try:
                 last = k - 1

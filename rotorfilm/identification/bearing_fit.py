@@ -148,9 +148,8 @@ def fit_bearing(
             f"got {len(free)} for {measured.count}"
         )
     problem = _Problem(search, measured)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A trial that the search only passes through is nobody's answer; that of the result is warned of.
-        warnings.simplefilter("ignore", ValidityWarning)
         start = np.zeros(len(free))
         problem.residual(start)  # which tells what the bearing cannot predict
         _require_apart(search, problem.jacobian(start))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.inertial_model import InertialCoefficients
-from ..errors import InputError, require_finite, require_number
+from ..errors import InputError, require_finite, require_number, require_pair
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
 from ..reactions.added_mass import inertial
@@ -52,10 +52,7 @@ def coefficients(
         If the film has no derivative there.
     """
     require_reaction("reaction", reaction, JournalForce, heavy=True)
-    position = require_finite("position", position)
-    speed = require_number("speed", speed)
-    if position.shape != (2,):
-        raise InputError(f"position must have shape (2,), got shape {position.shape}")
+    position, speed = require_pair("position", position), require_number("speed", speed)
     film = settled(reaction, position, speed)
     if isinstance(film, Settling):
         found: Coefficients = film.at_rest().coefficients(position, speed, frequency)

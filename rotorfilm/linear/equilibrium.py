@@ -17,6 +17,7 @@ from ..errors import (
     ValidityWarning,
     require_finite,
     require_number,
+    require_pair,
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
@@ -90,9 +91,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     target = StaticTarget(
         prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film), near
     )
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
-        warnings.simplefilter("ignore", ValidityWarning)
         best = search_place(target)
         if at_rest and not is_found(target, best):
             best = continued_place(target, best)
@@ -135,14 +135,12 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
 def checked_load(load: ArrayLike) -> Array:
     """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
     array = require_finite("load", load)
-    if array.shape != (2,):
-        if array.ndim == 0:
-            raise InputError(
-                "load must be the components (x, y) of the force on the journal, as load="
-                f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
-            )
-        raise InputError(f"load must have shape (2,), got shape {array.shape}")
-    if not array.any():
+    if array.ndim == 0:
+        raise InputError(
+            "load must be the components (x, y) of the force on the journal, as load="
+            f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
+        )
+    if not require_pair("load", array).any():
         raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
     return array
 

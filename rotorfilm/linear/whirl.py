@@ -172,8 +172,7 @@ def _settling(
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
         return _none(_why_none(stable, *ends))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnloadedPadWarning)  # the rest itself tells them
+    with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     exponent = least_damped(rest)
     found = WhirlThreshold(

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..model import Array
 from .map_slice import slice_table
-from .spec import NativeParameter, NativeSpec
+from .spec import NativeSpec, parameter
 
 NATIVE_PARAMETERS = (
     ("radius", "m", "bearing radius"),
@@ -40,16 +40,10 @@ def journal_spec(
     """
     bounds = _bounds(tables.get("range")) if tables else ""
     parameters = tuple(
-        NativeParameter(
-            name=name,
-            unit=unit,
-            value=dimensions[name],
-            tunable=not fixed or name in SCALES,
-            minimum=0.0,
-            nominal=dimensions[name],
-            description=description if name in SCALES else description + bounds,
-        )
-        for name, unit, description in NATIVE_PARAMETERS
+        parameter(name, unit, dimensions[name], text)
+        if name in SCALES
+        else parameter(name, unit, dimensions[name], text + bounds, tunable=not fixed)
+        for name, unit, text in NATIVE_PARAMETERS
     )
     return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
 

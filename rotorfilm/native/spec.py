@@ -49,6 +49,21 @@ class NativeParameter(Signal):
             )
 
 
+def parameter(
+    name: str, unit: str, value: float, description: str, *, tunable: bool = True, minimum: float = 0.0
+) -> NativeParameter:
+    """Return a parameter whose own value is the typical one."""
+    return NativeParameter(
+        name=name,
+        unit=unit,
+        value=value,
+        tunable=tunable,
+        minimum=minimum,
+        nominal=abs(value) or 1.0,
+        description=description,
+    )
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class NativeSpec:
     """A kernel of the C library with its numbers.

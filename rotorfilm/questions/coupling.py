@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
-from ..bearings.journal import ReynoldsFilm
+from ..bearings.journal import ReynoldsFilm, fitted_bearing
 from ..cosim import Scheme
 from ..cosim.coupling_case import SCHEMES, CouplingCase, PilotRun
 from ..errors import CouplingError, InputError, RotorfilmError
@@ -19,7 +19,6 @@ from ..ladders import BaseRung, Ladder
 from ..linear import equilibrium
 from ..model import Reaction
 from ..rotors import RigidRotor
-from ..scenes.journal.film_rungs import with_film
 from ..scenes.journal.packaged_map import has_map
 from ..units import CELSIUS
 
@@ -195,7 +194,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     film: Any = scene.bearing
     if scene.journal is not None and not (scene.film_is_given or has_map(film)):
         # A map of its own takes some seconds, and the coupling hardly depends on the film.
-        film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
+        film, name = fitted_bearing(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
     at = equilibrium(film, load, scene.speed)
     if at.temperature is not None:
         film = film.at_temperature(at.temperature)

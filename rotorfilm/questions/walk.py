@@ -138,9 +138,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
 
 
 def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> tuple[RungReport, Found]:
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A rung outside its range is judged by its error, not by its warnings.
-        warnings.simplefilter("ignore", ValidityWarning)
         found, seconds = meter.timed(lambda: rung.answer(before))
         cost = meter.cost(found.work, seconds)
         about, seconds = meter.timed(lambda: rung.estimate(found, before, tolerance))

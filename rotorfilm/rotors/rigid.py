@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..errors import keep_pair, require_non_negative, require_number, require_positive
 from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization
-from ..native.spec import NativeParameter, NativeSpec
+from ..native.spec import NativeParameter, NativeSpec, parameter
 from ..signals import MOTION_NAMES, Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
@@ -186,13 +186,6 @@ class RigidRotor(Turning):
 def native_parameter(name: str, value: float) -> NativeParameter:
     """Return what a simulator may set in the compiled rotor, of `NATIVE_PARAMETERS`."""
     unit, description = NATIVE_PARAMETERS[name]
-    return NativeParameter(
-        name=name,
-        unit=unit,
-        value=value,
-        # A jump of the speed would turn the unbalance by an angle that depends on the time.
-        tunable=name != "constant_speed",
-        minimum=0.0 if name in ("mass", "unbalance") else -math.inf,
-        nominal=abs(value) or 1.0,
-        description=description,
-    )
+    minimum = 0.0 if name in ("mass", "unbalance") else -math.inf
+    # A jump of the speed would turn the unbalance by an angle that depends on the time.
+    return parameter(name, unit, value, description, tunable=name != "constant_speed", minimum=minimum)

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..errors import SceneError, brief, require_positive
-from .reading.readers import takes
-from .reading.spelling import nearest
+from .reading.readers import one_of, takes
 from .reading.tables import Quantity, text
 
 QUANTITIES = {
@@ -42,16 +41,6 @@ QUANTITIES = {
 """What a scene may ask for; the families that answer are listed in docs/scenes.md."""
 
 
-@takes(QUANTITIES)
-def read_quantity(where: str, value: Any) -> str:
-    """Read the name of a quantity."""
-    if not isinstance(value, str) or value not in QUANTITIES:
-        raise SceneError(
-            f"{where} must be one of {', '.join(QUANTITIES)}, got {brief(value)}{nearest(value, QUANTITIES)}"
-        )
-    return value
-
-
 @takes(Quantity("1"))
 def read_tolerance(where: str, value: Any) -> float:
     """Read a relative tolerance; above 1 only in percent, as a plain number may be meant to be."""
@@ -77,7 +66,7 @@ class QuestionTable:
         Of a flexible rotor: bearing or probe that is asked about, the one that moves most unless given.
     """
 
-    quantity: Annotated[str, read_quantity]
+    quantity: Annotated[str, one_of(QUANTITIES)]
     tolerance: Annotated[float, read_tolerance]
     at: Annotated[str, text] = ""
 

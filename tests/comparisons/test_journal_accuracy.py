@@ -18,6 +18,7 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SpectralArcFilm,
     SplittingFilm,
+    fitted_bearing,
     middle_pressure,
     tension,
 )
@@ -31,7 +32,6 @@ from rotorfilm.comparisons import (
     pareto_front,
     random_states,
 )
-from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
 from rotorfilm.comparisons.journal.journal_states import SPEED, reference_force, relative_error, squeeze_share
 from rotorfilm.errors import InputError
 from rotorfilm.results import to_plain, write_csv

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import GroovedMapFilm
+from rotorfilm.bearings.journal import GroovedMapFilm, fitted_bearing
 from rotorfilm.questions.registry import ladder_of
 from rotorfilm.questions.walk import Meter
-from rotorfilm.scenes.journal.film_rungs import COARSE_MAP, with_film
+from rotorfilm.scenes.journal.film_rungs import COARSE_MAP
 from rotorfilm.scenes.scene import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
@@ -105,8 +105,8 @@ def test_named_map_is_a_coarse_one_where_its_bound_is_enough(cache):
 
 def test_table_that_is_given_takes_no_time():
     bearing = scene_of("stiffness", 0.2).bearing
-    film = with_film(bearing, GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12))).fitted_film
+    film = fitted_bearing(bearing, GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12))).fitted_film
     assert film.making_time(0.5) > 0.0
     assert film.tabulated(0.5).making_time(0.5) == film.making_time(0.5) == 0.0
-    coarse = with_film(bearing, COARSE_MAP).fitted_film
+    coarse = fitted_bearing(bearing, COARSE_MAP).fitted_film
     assert coarse.making_time(0.5) > 0.0

@@ -54,6 +54,28 @@ DISKS = """disks = [
     { node = 4, mass = "50 kg", polar_inertia = "0.8 kg m2", diametral_inertia = 0.42 },
 ]
 """
+EVERY_KEY = """
+elements = [
+    { length = "0.5 m", outer_diameter = "50 mm", inner_diameter = "10 mm", end_outer_diameter = "60 mm", \
+      end_inner_diameter = "20 mm", pieces = 2, axial_force = "5 kN", torque = "2 kN m" },
+    { stiffness = "10 MN/m", tilt_stiffness = "40 N m/rad" },
+    { length = "0.5 m", outer_diameter = "50 mm", \
+      material = { young_modulus = 1e11, shear_modulus = 4e10, density = "4500 kg/m3" } },
+]
+disks = [{ node = 1, width = "70 mm", outer_diameter = "280 mm", density = 1000 }]
+probes = [{ node = 1, name = "middle" }]
+unbalances = [{ node = 1, unbalance = "1000 g mm", unbalance_angle = "90 deg" }]
+tilt_springs = [{ node = 4, stiffness = [["4e4 N m/rad", 0], [0, 3e4]], damping = 5 }]
+internal_damping = "0.01 ms"
+beam = "classical"
+"""
+EVERY_KEY_OF_A_BEARING = """
+[[shaft.bearings]]
+name = "only"
+node = 0
+journal = { diameter = "100 mm", length = "30 mm", clearance = "0.1 mm", viscosity = "0.1 Pa s" }
+support = { mass = "12 kg", stiffness = "20 MN/m", damping = [[1, 2], [3, 4]] }
+"""
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 
 
@@ -84,30 +106,7 @@ def test_a_scene_is_the_rotor_of_the_library():
     assert_allclose(shaft.speeds.build(), np.linspace(200.0, 4600.0, 12) * RPM)
 
 
-def test_every_key_arrives_in_its_unit():
-    text = """
-elements = [
-    { length = "0.5 m", outer_diameter = "50 mm", inner_diameter = "10 mm", end_outer_diameter = "60 mm", \
-      end_inner_diameter = "20 mm", pieces = 2, axial_force = "5 kN", torque = "2 kN m" },
-    { stiffness = "10 MN/m", tilt_stiffness = "40 N m/rad" },
-    { length = "0.5 m", outer_diameter = "50 mm", \
-      material = { young_modulus = 1e11, shear_modulus = 4e10, density = "4500 kg/m3" } },
-]
-disks = [{ node = 1, width = "70 mm", outer_diameter = "280 mm", density = 1000 }]
-probes = [{ node = 1, name = "middle" }]
-unbalances = [{ node = 1, unbalance = "1000 g mm", unbalance_angle = "90 deg" }]
-tilt_springs = [{ node = 4, stiffness = [["4e4 N m/rad", 0], [0, 3e4]], damping = 5 }]
-internal_damping = "0.01 ms"
-beam = "classical"
-"""
-    bearing = """
-[[shaft.bearings]]
-name = "only"
-node = 0
-journal = { diameter = "100 mm", length = "30 mm", clearance = "0.1 mm", viscosity = "0.1 Pa s" }
-support = { mass = "12 kg", stiffness = "20 MN/m", damping = [[1, 2], [3, 4]] }
-"""
-    shaft = scene(HEAD, text, SPEEDS, bearing).shaft
+def every_element():
     cone = ShaftElement(
         length=0.5,
         outer_diameter=0.05,
@@ -119,20 +118,16 @@ support = { mass = "12 kg", stiffness = "20 MN/m", damping = [[1, 2], [3, 4]] }
         material=STEEL,
     )
     light = ElasticMaterial(young_modulus=1e11, shear_modulus=4e10, density=4500.0)
+    coupling = Coupling(stiffness=1e7, tilt_stiffness=40.0)
+    return *cone.split(2), coupling, ShaftElement(length=0.5, outer_diameter=0.05, material=light)
+
+
+def test_every_key_arrives_in_its_unit():
+    support = Support(mass=12.0, stiffness=2e7, damping=((1.0, 2.0), (3.0, 4.0)))
     wanted = ShaftRotor(
-        elements=(
-            *cone.split(2),
-            Coupling(stiffness=1e7, tilt_stiffness=40.0),
-            ShaftElement(length=0.5, outer_diameter=0.05, material=light),
-        ),
+        elements=every_element(),
         disks=(Disk.solid(1, density=1000.0, width=0.07, outer_diameter=0.28),),
-        stations=(
-            Station(
-                node=0,
-                name="only",
-                support=Support(mass=12.0, stiffness=2e7, damping=((1.0, 2.0), (3.0, 4.0))),
-            ),
-        ),
+        stations=(Station(node=0, name="only", support=support),),
         probes=(Probe(node=1, name="middle"),),
         unbalances=(Unbalance(node=1, unbalance=1e-3, unbalance_angle=math.pi / 2),),
         tilt_springs=(TiltSpring(node=4, stiffness=((4e4, 0.0), (0.0, 3e4)), damping=5.0),),
@@ -140,6 +135,7 @@ support = { mass = "12 kg", stiffness = "20 MN/m", damping = [[1, 2], [3, 4]] }
         beam=ClassicalBeam(),
         speed=7.0,
     )
+    shaft = scene(HEAD, EVERY_KEY, SPEEDS, EVERY_KEY_OF_A_BEARING).shaft
     found = shaft.build(speed=7.0)
     assert_allclose(found.unbalances[0].unbalance_angle, math.pi / 2)
     assert replace(found, unbalances=wanted.unbalances) == wanted

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...signals import Signal, force_outputs, journal_inputs
+from ...signals import Signal, force_outputs, journal_inputs, signals_of
 from .bearing import MeltingBush
 
 NOMINAL_LOAD = 1e-2
@@ -17,7 +17,7 @@ NOMINAL_SPEED = 10.0
 
 def load_inputs(bush: MeltingBush) -> tuple[Signal, ...]:
     """Return the signals load, speed."""
-    return _signals(
+    return signals_of(
         ("load", "N", NOMINAL_LOAD * bush.force_unit, "radial load, not negative"),
         ("speed", "rad/s", NOMINAL_SPEED, "angular speed about +z"),
     )
@@ -32,7 +32,7 @@ def moment_outputs(bush: MeltingBush, melting_heat: float) -> tuple[Signal, ...]
     """Return the outputs of a loaded bush with one moment of wear."""
     depth = bush.geometry.radius * bush.clearance_ratio
     rate = bush.law.losses(0.1) / melting_heat
-    return _signals(
+    return signals_of(
         ("contact_angle", "rad", 0.1, "half the contact angle"),
         ("settlement", "m", depth, "displacement of the shaft beyond the clearance"),
         ("temperature", "K", bush.liner.melting_point, "contact temperature above ambient"),
@@ -46,7 +46,7 @@ def moment_outputs(bush: MeltingBush, melting_heat: float) -> tuple[Signal, ...]
 def profile_outputs(bush: MeltingBush, friction: float) -> tuple[Signal, ...]:
     """Return the outputs of a bush with a worn profile."""
     pressure = NOMINAL_PRESSURE * bush.liner.shear_modulus
-    rows = _signals(
+    rows = signals_of(
         _torque(bush, friction),
         ("contact_angle", "rad", 0.1, "half the angle in contact"),
         ("maximum_pressure", "Pa", pressure, "largest contact pressure at a node"),
@@ -57,7 +57,7 @@ def profile_outputs(bush: MeltingBush, friction: float) -> tuple[Signal, ...]:
 def profile_states(bush: MeltingBush, nodes: int) -> tuple[Signal, ...]:
     """Return the wear depths at the nodes."""
     depth = nominal_depth(bush)
-    return _signals(*((f"wear_{i}", "m", depth, f"wear depth at node {i}") for i in range(nodes)))
+    return signals_of(*((f"wear_{i}", "m", depth, f"wear depth at node {i}") for i in range(nodes)))
 
 
 def nominal_depth(bush: MeltingBush) -> float:
@@ -68,7 +68,3 @@ def nominal_depth(bush: MeltingBush) -> float:
 def _torque(bush: MeltingBush, friction: float) -> tuple[str, str, float, str]:
     unit = NOMINAL_LOAD * bush.force_unit * bush.geometry.shaft_radius
     return "friction_torque", "N.m", friction * unit, "torque about +z that keeps the shaft turning"
-
-
-def _signals(*rows: tuple[str, str, float, str]) -> tuple[Signal, ...]:
-    return tuple(Signal(name=name, unit=unit, nominal=n, description=text) for name, unit, n, text in rows)

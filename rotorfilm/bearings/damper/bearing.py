@@ -10,17 +10,11 @@ from typing import Self
 
 import numpy as np
 
-from ...errors import (
-    InputError,
-    require_each,
-    require_kind,
-    require_non_negative,
-    require_positive,
-    warn_user,
-)
+from ...errors import InputError, require_kind, require_non_negative, warn_user
 from ...inputs.si_arguments import quantities
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
+from ..film_units import require_size
 from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.kernel_film import BoundKernel
 from ..films.law import options
@@ -99,9 +93,7 @@ class SqueezeFilmDamper(SqueezeInertia):
     density: float = 0.0
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        require_size(self, "viscosity")
         require_kind("cage", self.cage, PorousCage | None, "a PorousCage or None")
         require_kind("extent", self.extent, FullFilm | HalfSommerfeld, "FullFilm() or HalfSommerfeld()")
         require_kind("feed", self.feed, RadialFeed | AxialFeed | None, "a RadialFeed, an AxialFeed or None")

@@ -70,6 +70,14 @@ def spring_parameter(nominal: float) -> NativeParameter:
 
 def dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
     """Return a dimension, which the map of the film may hold for only."""
+    reason = ", as the map of the film holds for it"
+    return bounded(name, unit, text, value, fixed=fixed, reason=reason)
+
+
+def bounded(
+    name: str, unit: str, text: str, value: float, *, fixed: bool, reason: str = ""
+) -> NativeParameter:
+    """Return a number that is not negative, or fixed for a reason."""
     return NativeParameter(
         name=name,
         unit=unit,
@@ -77,6 +85,6 @@ def dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> 
         tunable=not fixed,
         minimum=value if fixed else 0.0,
         maximum=value if fixed else math.inf,
-        nominal=value,
-        description=f"{text}; fixed, as the map of the film holds for it" if fixed else text,
+        nominal=math.nextafter(0.0, 1.0) if value == 0.0 else value,
+        description=f"{text}; fixed{reason}" if fixed else text,
     )

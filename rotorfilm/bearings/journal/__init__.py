@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from ..oil.heat_balance import heat_surplus
     from ..oil.heated_bearing import HeatedBearing as HeatedBearing
     from .arc_pressure import middle_pressure, tension
-    from .bearing import JournalBearing as JournalBearing
+    from .bearing import JournalBearing as JournalBearing, fitted_bearing
     from .bearing_losses import bearing_losses, has_losses
     from .build_groove_map import build_groove_map as build_groove_map
     from .conserved.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
 
-from ...errors import (
-    InputError,
-    require_each,
-    require_kind,
-    require_non_negative,
-    require_positive,
-    require_tuple,
-)
+from ...errors import InputError, ValidityWarning, require_kind, require_non_negative, require_tuple
 from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native.journal_spec import journal_spec
 from ...native.spec import NativeSpec
+from ..film_units import require_size
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
@@ -106,10 +101,8 @@ class JournalBearing(FilmReaction, WarmFilm):
     circumferential_groove: float | None = None
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance")
+        require_size(self)
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
         require_non_negative("supply_pressure", self.supply_pressure)
         require_tuple("pads", self.pads, Pad)
         require_tuple("grooves", self.grooves, Groove, FeedHole)
@@ -211,3 +204,9 @@ class JournalBearing(FilmReaction, WarmFilm):
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
         return kinematics(position, velocity, speed, self.clearance)
+
+
+def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
+    """Return the bearing with another film, which may be meant for other bearings: that is the question."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        return replace(bearing, film=film)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite
+from ...errors import InputError, require_finite, require_pair
 from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable
@@ -111,7 +111,8 @@ def film_state(
     FilmContactError
         If the journal touches the wall.
     """
-    q, v, omega = _single("position", position), _single("velocity", velocity), require_finite("speed", speed)
+    q, v = require_pair("position", position), require_pair("velocity", velocity)
+    omega = require_finite("speed", speed)
     if omega.ndim != 0:
         raise InputError(f"speed must be a single number, got shape {omega.shape}")
     losses = bearing.losses(q, v, omega, full_gap=full_gap)
@@ -126,13 +127,6 @@ def film_state(
     if not isinstance(film, ReynoldsFilm):
         return state
     return _with_field(state, bearing, film.solve(*bearing.kinematics(q, v, omega), bearing.slenderness))
-
-
-def _single(name: str, vector: ArrayLike) -> Array:
-    array = require_finite(name, vector)
-    if array.shape != (2,):
-        raise InputError(f"{name} must have shape (2,), got shape {array.shape}")
-    return array
 
 
 def _with_field(state: FilmState, bearing: JournalBearing, field: FilmField) -> FilmState:

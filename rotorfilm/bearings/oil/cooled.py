@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from ...model import Array
 from ...native.loss_kernels import LossKernel
 from ...signals import Signal
+from ..film_units import Size
 from ..films.kernel_film import BoundKernel
 from .cooling import Cooling
 from .heat_balance import FilmHeat
@@ -16,20 +17,8 @@ from .oil import Oil
 
 
 @runtime_checkable
-class Cooled(Protocol):
+class Cooled(Size, Protocol):
     """What a bearing with an oil and cooling offers, as `JournalBearing` and `LobedBearing` do."""
-
-    @property
-    def radius(self) -> float:
-        """Bearing radius [m]."""
-
-    @property
-    def length(self) -> float:
-        """Axial length [m]."""
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance [m]."""
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]:

@@ -15,7 +15,7 @@ from ...errors import InputError, require_finite
 from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
-from ...signals import Signal
+from ...signals import Signal, signals_of
 from ..reaction import input_vector
 from .cooled import Cooled
 from .cooling import require_absolute
@@ -87,25 +87,18 @@ class HeatedBearing:
         speed = self.inputs[4].nominal
         power = force_x.nominal * speed * self.clearance
         flow = self.clearance * self.bearing.radius * self.bearing.length * speed
-        further = (
+        further = signals_of(
             ("film_temperature", "K", NOMINAL_TEMPERATURE, "temperature of the film"),
             ("power_loss", "W", power, "power that goes into the oil"),
             ("side_flow", "m3/s", flow, "oil that leaves at the ends"),
         )
-        return (
-            force_x,
-            force_y,
-            *(
-                Signal(name=name, unit=unit, nominal=nominal, description=text)
-                for name, unit, nominal, text in further
-            ),
-        )
+        return (force_x, force_y, *further)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signal temperature: of film and bush."""
         text = "temperature of film and bush"
-        return (Signal(name="temperature", unit="K", nominal=NOMINAL_TEMPERATURE, description=text),)
+        return signals_of(("temperature", "K", NOMINAL_TEMPERATURE, text))
 
     @property
     def initial_state(self) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...model import Array
 from ...native.heated_kernel import OilTable
-from ...native.spec import NativeParameter, NativeSpec
+from ...native.spec import NativeSpec, parameter
 
 _PARAMETERS = (
     ("radius", "m", "bearing radius; fixed, as the map of the film holds for this length / diameter"),
@@ -41,15 +41,7 @@ def heated_spec(
         Whether oil fills the gap also where the film is ruptured.
     """
     parameters = tuple(
-        NativeParameter(
-            name=name,
-            unit=unit,
-            value=values[name],
-            tunable=name not in _FIXED,
-            minimum=0.0,
-            nominal=values[name] or 1.0,
-            description=description,
-        )
+        parameter(name, unit, values[name], description, tunable=name not in _FIXED)
         for name, unit, description in _PARAMETERS
         if name in values
     )

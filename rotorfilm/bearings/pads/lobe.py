@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,9 +17,35 @@ from ..films.geometry import TURN
 DEGREE = math.pi / 180.0
 
 
+class OwnCenter:
+    """An arc about a center of curvature of its own; the fields are those of a subclass."""
+
+    if TYPE_CHECKING:
+        start: float
+        extent: float
+        preload: float
+        offset: float
+
+    def _require_curve(self) -> None:
+        if not 0.0 <= require_number("preload", self.preload) < 1.0:
+            raise InputError(f"preload must be in [0, 1), got {self.preload!r}")
+        if not 0.0 <= require_number("offset", self.offset) <= 1.0:
+            raise InputError(f"offset must be in [0, 1], got {self.offset!r}")
+
+    @property
+    def closest(self) -> float:
+        """Angle of the least film at the centered journal [rad]."""
+        return self.start + self.offset * self.extent
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """Center of curvature in units of the pad clearance."""
+        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class Lobe:
+class Lobe(OwnCenter):
     """A fixed pad of a lobed bearing: an arc about a center of curvature of its own.
 
     With the pad clearance c_p the journal at the center of the bearing has the film c_p (1 - preload) at
@@ -52,25 +78,12 @@ class Lobe:
         require_each(self, require_finite, "start", "extent")
         if not 0.0 < self.extent < math.pi:
             raise InputError(f"extent must be in (0, pi) rad, got {self.extent!r}")
-        if not 0.0 <= require_number("preload", self.preload) < 1.0:
-            raise InputError(f"preload must be in [0, 1), got {self.preload!r}")
-        if not 0.0 <= require_number("offset", self.offset) <= 1.0:
-            raise InputError(f"offset must be in [0, 1], got {self.offset!r}")
+        self._require_curve()
 
     @property
     def middle(self) -> float:
         """Angle of the middle of the arc [rad]."""
         return self.start + 0.5 * self.extent
-
-    @property
-    def closest(self) -> float:
-        """Angle of the least film at the centered journal [rad]."""
-        return self.start + self.offset * self.extent
-
-    @property
-    def center(self) -> tuple[float, float]:
-        """Center of curvature in units of the pad clearance."""
-        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
 
     def least_film(self, position: Array) -> Array:
         """Return the least film on the arc / c_p, shape (...), of journals at positions / c_p (2, ...)."""

@@ -10,11 +10,20 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, InputError, require_finite, require_non_negative, require_number
+from ...errors import (
+    ConvergenceError,
+    InputError,
+    require_finite,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_pair,
+)
 from ...model import Array
-from ...native import NativeParameter, NativeSpec, Status
+from ...native import NativeSpec, Status
 from ...native.ball_kernel import DEGREES, BallKernel
 from ...native.layouts.ball_structs import ROW
+from ...native.spec import parameter
 from ..kernel_reaction import KernelReaction
 from .ball_degrees import MOST_PRESSURE, BallDegrees
 
@@ -62,18 +71,9 @@ class BallElement(BallDegrees, KernelReaction):
     def cage_ratio(self) -> float:
         """Speed of the cage over that of the shaft at the free contact angle."""
 
-    @property
-    def tables(self) -> dict[str, Array]:
-        """Rows and waves as the kernels of FMUs read them."""
-        waves = self.waves
-        return {"rows": self.rows, "waves": waves if waves.size else np.zeros((1, waves.shape[1]))}
-
     def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
         """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
-        place = require_finite("position", position)
-        if place.shape != (2,):
-            raise InputError(f"position must have shape (2,), got shape {place.shape}")
-        x, y = place.tolist()
+        x, y = require_pair("position", position).tolist()
         z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:
             self.report(status, (x, y, 0.0, 0.0, speed))
@@ -150,7 +150,6 @@ class BallElement(BallDegrees, KernelReaction):
 
     def native(self) -> NativeSpec:
         """Return the kernel `ball_bearing`; growth, axial and angular place, damping are parameters."""
-        inertia, growth = self.running
         axial = ("axial_displacement", "m", self.axial_displacement, "place of the shaft along z")
         if self.axial_load is not None:
             axial = (
@@ -159,22 +158,32 @@ class BallElement(BallDegrees, KernelReaction):
                 self.axial_load,
                 "external force on the shaft along z, which gives way",
             )
-        numbers = (
-            ("growth", "m", growth, "radial growth of the inner rings against the outer ones"),
+        return self.spec(
+            "ball_bearing",
             axial,
             ("tilt_x", "rad", self.tilt[0], "tilt of the shaft about +x"),
             ("tilt_y", "rad", self.tilt[1], "tilt of the shaft about +y"),
             ("cage_turn", "rad", 0.0, "angle by which the cages are turned further"),
             ("damping", "N.s/m", self.damping, "damping beside the balls"),
+            law=(float(self.axial_load is not None),),
         )
-        parameters = tuple(
-            NativeParameter(
-                name=name, unit=unit, value=value, tunable=True, description=text, nominal=abs(value) or 1.0
-            )
-            for name, unit, value, text in numbers
+
+    def spec(
+        self, kernel: str, *numbers: tuple[str, str, float, str], law: tuple[float, ...] = ()
+    ) -> NativeSpec:
+        """Return a kernel over these balls: its numbers after the growth, its law after the inertia."""
+        inertia, growth = self.running
+        waves = self.waves
+        rows = (("growth", "m", growth, "radial growth of the inner rings against the outer ones"), *numbers)
+        return NativeSpec(
+            kernel=kernel,
+            parameters=tuple(parameter(*row, minimum=-math.inf) for row in rows),
+            tables={
+                "rows": self.rows,
+                "waves": waves if waves.size else np.zeros((1, waves.shape[1])),
+                "law": np.array([float(inertia), *law]),
+            },
         )
-        law = np.array([inertia, self.axial_load is not None], dtype=float)
-        return NativeSpec(kernel="ball_bearing", parameters=parameters, tables={**self.tables, "law": law})
 
     def report(self, status: int, state: tuple[float, ...]) -> None:
         """Raise, or warn, about a planar state that has this status."""
@@ -189,3 +198,8 @@ class BallElement(BallDegrees, KernelReaction):
             )
         motion = np.array([x, y, z, *self.tilt])
         self.explain(self.kernel.at(motion, speed), motion, speed)
+
+
+def require_balls(bearing: object) -> None:
+    """Raise InputError unless a bearing is a `BallElement`."""
+    require_kind("bearing", bearing, BallElement, "a BallBearing or a BearingPair")

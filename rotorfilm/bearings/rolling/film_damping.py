@@ -13,7 +13,7 @@ from ...model import Array
 from ...native.layouts.ball_structs import ROW
 from ...readable.result import Readable
 from .ball_bearing import BallBearing
-from .ball_element import BallElement
+from .ball_element import BallElement, require_balls
 from .ball_films import race_films
 from .ball_results import BallRest
 from .bearing_pair import BearingPair
@@ -107,7 +107,7 @@ def films_at(
     bearing: BallElement, rest: BallRest, viscosity: float, pressure_coefficient: float
 ) -> tuple[RaceFilm, RaceFilm]:
     """Return the inner and the outer film of the most loaded ball."""
-    require_kind("bearing", bearing, BallElement, "a BallBearing or a BearingPair")
+    require_balls(bearing)
     require_kind("rest", rest, BallRest, "a BallRest of the bearing")
     single = bearing.bearing if isinstance(bearing, BearingPair) else bearing
     assert isinstance(single, BallBearing)

@@ -13,9 +13,9 @@ from ...errors import InputError, require_kind
 from ...inputs.kinds import arguments
 from ...model import Array, Linearization
 from ...native.layouts.ball_structs import ROW
-from ...signals import Signal
+from ...signals import Signal, signals_of
 from ..contact import ContactGrid, in_series, require_state_space
-from .ball_element import BallElement
+from .ball_element import BallElement, require_balls
 from .ball_results import BallRest
 from .film_damping import ball_blocks, ball_moves, films_at
 from .race_film import USUAL_GRID
@@ -59,7 +59,7 @@ class LubricatedBalls:
     damping_error: float
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
+        require_balls(self.bearing)
         require_kind("rest", self.rest, BallRest, "a BallRest of the bearing")
         if np.shape(self.shares) != (len(self._moves),):
             raise InputError(f"shares must be one of each ball, got shape {np.shape(self.shares)}")
@@ -74,42 +74,25 @@ class LubricatedBalls:
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, z, tilt_x, tilt_y: the motion of the shaft."""
         way, arm = 0.1 * self.bearing.clearance, float(self.bearing.rows[0, ROW.index("arm")])
-        return tuple(
-            Signal(name=name, unit=unit, nominal=size, description=text)
-            for name, unit, size, text in (
-                ("x", "m", way, "place of the shaft along x"),
-                ("y", "m", way, "place of the shaft along y"),
-                ("z", "m", way, "place of the shaft along z"),
-                ("tilt_x", "rad", way / arm, "tilt of the shaft about +x"),
-                ("tilt_y", "rad", way / arm, "tilt of the shaft about +y"),
-            )
+        return signals_of(
+            *((axis, "m", way, f"place of the shaft along {axis}") for axis in "xyz"),
+            *((f"tilt_{axis}", "rad", way / arm, f"tilt of the shaft about +{axis}") for axis in "xy"),
         )
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y, force_z, moment_x, moment_y on the shaft."""
         force, arm = self.bearing.nominal_force, float(self.bearing.rows[0, ROW.index("arm")])
-        return tuple(
-            Signal(name=f"force_{axis}", unit="N", nominal=force, description=f"on the shaft along {axis}")
-            for axis in "xyz"
-        ) + tuple(
-            Signal(
-                name=f"moment_{axis}",
-                unit="N.m",
-                nominal=force * arm,
-                description=f"on the shaft about +{axis}",
-            )
-            for axis in "xy"
+        return signals_of(
+            *((f"force_{axis}", "N", force, f"on the shaft along {axis}") for axis in "xyz"),
+            *((f"moment_{axis}", "N.m", force * arm, f"on the shaft about +{axis}") for axis in "xy"),
         )
 
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """States of the films of each ball, without dimension."""
-        return tuple(
-            Signal(name=f"ball_{ball}_{k}", unit="1", nominal=1.0, description=f"films of ball {ball}")
-            for ball in range(len(self._moves))
-            for k in range(self.order)
-        )
+        balls, order = range(len(self._moves)), range(self.order)
+        return signals_of(*((f"ball_{j}_{k}", "1", 1.0, f"films of ball {j}") for j in balls for k in order))
 
     @property
     def initial_state(self) -> Array:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, InputError, require_finite, require_kind, require_number
+from ...errors import ConvergenceError, InputError, require_finite, require_number
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import BallKernel
 from ...results import Coefficients
-from .ball_element import BallElement
+from .ball_element import BallElement, require_balls
 
 _RADIAL = [0, 1, 3, 4]
 
@@ -49,7 +49,7 @@ class TiltingBalls:
     bearing: BallElement
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
+        require_balls(self.bearing)
 
     @property
     def clearance(self) -> float:

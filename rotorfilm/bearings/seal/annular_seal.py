@@ -8,18 +8,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import (
-    InputError,
-    require_each,
-    require_finite,
-    require_kind,
-    require_non_negative,
-    require_number,
-    require_positive,
-    warn_user,
-)
+from ...errors import require_finite, require_kind, require_non_negative, require_number, warn_user
 from ...inputs.si_arguments import in_si, quantities
 from ...model import Array
+from ..film_units import require_size
 from ..inertial_model import InertialModel
 from ..reaction import broadcast_state
 from .seal_flow import HirsFriction, SealFlow, SealGap, steady_flow
@@ -97,10 +89,7 @@ class AnnularSeal(InertialModel):
     added_mass: bool = True
 
     def __post_init__(self) -> None:
-        positive = ("radius", "length", "clearance", "pressure_drop", "viscosity", "density")
-        require_each(self, require_positive, *positive)
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        require_size(self, "pressure_drop", "viscosity", "density")
         require_non_negative("inlet_loss", self.inlet_loss)
         require_number("inlet_swirl", self.inlet_swirl)
         require_kind("friction", self.friction, HirsFriction, "a HirsFriction")

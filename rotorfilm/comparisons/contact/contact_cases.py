@@ -118,8 +118,7 @@ def contact_cases(
 @contextmanager
 def as_published() -> Iterator[None]:
     """Silence what the published scheme is warned of: that its pressure alternates."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         yield
 
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing, tension
+from ...bearings.journal import JournalBearing, fitted_bearing, tension
 from ...errors import require_count
 from ...progress import Report, part_of, silent
 from ...readable.result import Readable
-from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing, fitted_bearing
+from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing
 from .journal_states import (
     LARGE,
     REFERENCE_CELLS,

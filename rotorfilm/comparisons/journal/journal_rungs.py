@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 
 from ...bearings.films.law import FilmLaw
@@ -22,7 +21,7 @@ from ...bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from ...errors import InputError, ValidityWarning, require_positive
+from ...errors import InputError, require_positive
 
 SLENDERNESS = (0.1, 4.0)
 """Smallest and largest length / diameter at which all rungs exist."""
@@ -134,13 +133,6 @@ def comparison_bearing(slenderness: float) -> JournalBearing:
     return JournalBearing(
         radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.1, film=MapFilm()
     )
-
-
-def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
-    """Return the bearing with another film, which may be meant for other bearings: that is the question."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        return replace(bearing, film=film)
 
 
 def _splitting(

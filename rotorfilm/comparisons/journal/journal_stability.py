@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing, ReynoldsFilm, tension
+from ...bearings.journal import JournalBearing, ReynoldsFilm, fitted_bearing, tension
 from ...errors import InputError, require_finite
 from ...linear import critical_mass, damping_has_rank_one, speed_parameter
 from ...model import Array
@@ -15,7 +15,7 @@ from ...progress import Report, silent
 from ...results import Coefficients
 from .averaged_film import PLACES, AveragedFilm
 from .journal_accuracy import TENSION
-from .journal_rungs import ComparedFilm, chosen_rungs, comparison_bearing, fitted_bearing
+from .journal_rungs import ComparedFilm, chosen_rungs, comparison_bearing
 from .journal_states import LARGE, SPEED, States, random_states, require_cells
 from .journal_thresholds import HIGHEST, JournalStability, RungStability
 

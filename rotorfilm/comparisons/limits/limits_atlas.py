@@ -62,8 +62,7 @@ def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silen
     found: list[Limit] = []
     for number, each in enumerate(chosen.values()):
         report(number / len(chosen), f"{each.panel.physics}: {each.panel.title}")
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             # That a model is used beyond its range is what the atlas shows.
-            warnings.simplefilter("ignore", ValidityWarning)
             found += each.limits()
     return LimitAtlas(panels={key: each.panel for key, each in chosen.items()}, limits=tuple(found))

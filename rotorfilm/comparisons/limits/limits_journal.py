@@ -21,10 +21,11 @@ from ...bearings.journal import (
     RotatingArc,
     ShortFilm,
     SplittingFilm,
+    fitted_bearing,
 )
 from ...linear import coefficients
 from ...model import Array
-from ..journal.journal_rungs import comparison_bearing, fitted_bearing
+from ..journal.journal_rungs import comparison_bearing
 from ..journal.journal_states import SPEED, relative_error
 from .limit_panels import Curve, panel
 

@@ -205,16 +205,15 @@ def pad_accuracy(
 def _errors(samples: Sequence[PadSample], film: PadFilm) -> Array:
     """Return the errors of a film at all states."""
     found = (replace(sample.bearing, film=film).force(*sample.states) for sample in samples)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # near contact maps go on beyond their nodes
+    # Near contact maps go on beyond their nodes.
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return np.concatenate([one.errors(force) for one, force in zip(samples, found, strict=True)])
 
 
 def _measured(rung: ComparedPad, samples: Sequence[PadSample], rounds: int, report: Report) -> PadRung:
     errors = _errors(samples, rung.film)
     median, usual, high = np.quantile(errors, (0.5, 0.9, 0.99)).tolist()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         costs = [
             cost
             for one in samples[:TIMED]

@@ -62,8 +62,8 @@ def pad_sample(bearing: LobedBearing, count: int, seed: int, cells: tuple[int, i
     """Return random states of a bearing with their force by grids of so many cells."""
     states = lobe_states(bearing, count, seed)
     force = replace(bearing, film=PadGridFilm(cells=cells)).force(*states)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # near contact maps go on beyond their nodes
+    # Near contact maps go on beyond their nodes.
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         scale = np.maximum(np.hypot(*force), FLOOR * largest_force(bearing, states))
     return PadSample(bearing, states, force, scale)
 

@@ -135,8 +135,8 @@ def loads(slenderness: float, sommerfeld: Array) -> Array:
 
 def _type_coefficients(one: BearingType, slenderness: float, sommerfeld: Array) -> TypeCoefficients:
     stiffness, damping, films = [], [], []
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # unloaded pads have no film, which is an answer
+    # Unloaded pads have no film, which is an answer.
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         for load in loads(slenderness, sommerfeld).tolist():
             at = equilibrium(one.bearing, (0.0, -load), SPEED)
             film = coefficients(one.bearing, at.position, SPEED)

@@ -156,8 +156,8 @@ def bearing_thresholds(
 def _type_thresholds(
     one: BearingType, mass: float, loads: Array, speed_range: tuple[float, float]
 ) -> TypeThresholds:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # of places that the search passes through
+    # Places that the search passes through are nobody's answer.
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         found = [_threshold(one.bearing, load, mass, speed_range) for load in loads.tolist()]
     return TypeThresholds(
         name=one.name,

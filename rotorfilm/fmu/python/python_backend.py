@@ -105,8 +105,7 @@ def python_files(
 def _require_rebuilt(data: Any) -> None:
     """Raise unless the encoded model can be built again from its fields."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             again = encode(decode(data, {}))
     except Exception as error:
         raise FmuError(f"model must follow from its fields alone, got {error!r}") from error

@@ -49,9 +49,8 @@ class ModelSlave(Fmi2Slave):
     def __init__(self, *, instance_name: str, resources: str, logger: int, visible: int) -> None:
         _leave_search_path(resources)
         data = json.loads(Path(resources, "model.json").read_text(encoding="utf-8"))
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(action="ignore"):
             # Whoever exported the model has seen what its parameters warn of.
-            warnings.simplefilter("ignore")
             self._model = decode(data["model"], data["modules"])
         self._variables = fmi_variables(self._model, data["component"], data["start"])
         self._name = instance_name
@@ -149,8 +148,7 @@ class ModelSlave(Fmi2Slave):
     def _read_files(self) -> None:
         """Evaluate the model once: what it reads from the FMU's folder, it reads while that is there."""
         # A failure is told when the initialization ends, with the values that then count.
-        with suppress(Exception), warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with suppress(Exception), warnings.catch_warnings(action="ignore"):
             self._evaluate(self._time, self._state)
 
     def _start(self) -> None:

@@ -241,17 +241,16 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     static const rf_sizes mine = {RF_BUSH_PARAMETERS, 2, 7, 1, 2};
-    rf_bush *b = calloc(1, sizeof *b);
     *sizes = mine;
-    if (b && rf_bush_tables(b, tables, why) == RF_OK)
-        return b;
-    if (!b)
-        rf_say(why, RF_MEMORY, "no memory for a bush");
-    free(b);
-    return NULL;
+    return rf_bush_tables(kernel, tables, why);
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    return rf_make_kernel(sizeof(rf_bush), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

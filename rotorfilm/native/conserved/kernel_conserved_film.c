@@ -107,7 +107,7 @@ static int take_openings(model *self, const double *openings, size_t all, uint32
     return RF_OK;
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     rf_oil_shape *shape = &self->film.shape;
@@ -132,18 +132,15 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
     shape->width = width->numbers;
     shape->conductance = cells->numbers;
     self->at_supply = supplied->numbers;
+    const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
+    const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_SUMS, 0, 0};
+    *sizes = mine;
     return take_openings(self, cells->numbers + (size_t)n * m, (size_t)n * m, count, why);
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
-    const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_SUMS, 0, 0};
-    *sizes = mine;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 /* Pressures over their unit, flows over theirs. */

@@ -61,18 +61,12 @@ static int take_losses(model *m, const rf_tables *tables, rf_message *why)
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *m = calloc(1, sizeof *m);
-    if (!m) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
-        return NULL;
-    }
+    model *m = kernel;
     if (rf_take_oil(&m->heated, tables, why) != RF_OK || rf_take_groove_map(tables, &m->map, why) != RF_OK
-        || take_losses(m, tables, why) != RF_OK) {
-        free(m);
-        return NULL;
-    }
+        || take_losses(m, tables, why) != RF_OK)
+        return RF_INVALID;
     rf_heated *film = &m->heated.film;
     film->journal.film = rf_groove_film;
     film->journal.data = &m->map;
@@ -82,7 +76,12 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     film->loss_data = film->openings = &m->losses;
     *sizes = RF_HEATED_SIZES;
     ++sizes->parameters;
-    return m;
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

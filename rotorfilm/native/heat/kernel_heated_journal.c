@@ -82,20 +82,18 @@ static int is_mapped(const rf_tables *tables)
     return 0;
 }
 
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    model *m = kernel;
+    *sizes = RF_HEATED_SIZES;
+    if (rf_take_oil(&m->heated, tables, why) != RF_OK)
+        return RF_INVALID;
+    return is_mapped(tables) ? take_map(m, tables, why) : take_short(m);
+}
+
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *m = calloc(1, sizeof *m);
-    if (!m) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
-        return NULL;
-    }
-    if (rf_take_oil(&m->heated, tables, why) != RF_OK
-        || (is_mapped(tables) ? take_map(m, tables, why) : take_short(m)) != RF_OK) {
-        free(m);
-        return NULL;
-    }
-    *sizes = RF_HEATED_SIZES;
-    return m;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

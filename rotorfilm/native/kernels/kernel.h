@@ -29,14 +29,17 @@ typedef struct rf_tables {
 /* The table of this name if it has so many axes; NULL, with the message written, otherwise. */
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why);
 
-/* A kernel of so many bytes, 0 but for what `take` takes from the tables. NULL, with the message written, where they do not
-   fit or memory is short. */
-void *rf_make_kernel(size_t bytes, int (*take)(void *kernel, const rf_tables *tables, rf_message *why),
-                     void (*destroy)(void *kernel), const rf_tables *tables, rf_message *why);
-
 typedef struct rf_sizes {
     size_t parameters, inputs, outputs, states, events;
 } rf_sizes;
+
+/* What a kernel takes from its tables, and its sizes; RF_OK, or RF_INVALID or RF_MEMORY with the message written. */
+typedef int rf_take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why);
+
+/* A kernel of so many bytes, 0 but for what `take` takes from the tables. NULL, with the message written, where they do not
+   fit or memory is short. */
+void *rf_make_kernel(size_t bytes, rf_take_tables *take, void (*destroy)(void *kernel), const rf_tables *tables, rf_sizes *sizes,
+                     rf_message *why);
 
 /* Time [s], states or memory, and inputs. */
 typedef struct rf_point {

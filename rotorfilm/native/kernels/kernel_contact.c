@@ -58,24 +58,26 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *motion = rf_find_table(tables, "motion", 2, why),
                    *push = motion ? rf_find_table(tables, "push", 2, why) : NULL,
                    *law = push ? rf_find_table(tables, "law", 1, why) : NULL;
-    rf_sizes sizes = {0, 0, 0, 0, 0};
-    if (!law || !(self->linear = rf_linear_type.create(tables, &sizes, why)))
+    rf_sizes of_law = {0, 0, 0, 0, 0};
+    if (!law || !(self->linear = rf_linear_type.create(tables, &of_law, why)))
         return RF_INVALID;
     if (motion->extent[0] > MOST)
         return rf_say(why, RF_INVALID, "contacts must be %d at most, got %u", MOST, (unsigned)motion->extent[0]);
     self->contacts = motion->extent[0], self->inputs = motion->extent[1];
-    self->outputs = push->extent[0], self->states = sizes.states;
-    if (push->extent[1] != self->contacts || sizes.inputs != self->contacts
-        || sizes.outputs != self->contacts || law->extent[0] != LAW)
+    self->outputs = push->extent[0], self->states = of_law.states;
+    if (push->extent[1] != self->contacts || of_law.inputs != self->contacts
+        || of_law.outputs != self->contacts || law->extent[0] != LAW)
         return rf_say(why, RF_INVALID, "the tables of contacts must fit each other, got %zu and %u contacts",
                       self->contacts, (unsigned)push->extent[1]);
     self->motion = motion->numbers, self->push = push->numbers, self->law = law->numbers;
+    const rf_sizes mine = {1, self->inputs, self->outputs, self->states, 2 * self->contacts};
+    *sizes = mine;
     const size_t size = self->states + self->contacts;
     self->work = malloc((size * size + 1) * sizeof *self->work);
     return self->work ? RF_OK : rf_say(why, RF_MEMORY, "no memory for %zu contacts", self->contacts);
@@ -83,12 +85,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    const rf_sizes mine = {1, self->inputs, self->outputs, self->states, 2 * self->contacts};
-    *sizes = mine;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *parameters, rf_message *why)

@@ -36,22 +36,22 @@ typedef struct model {
     double stiffness;
 } model;
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    return rf_take_damper_map(&((model *)kernel)->map, tables, why);
+    static const rf_sizes mine = {PARAMETERS, INPUTS, 2, 0, 0};
+    model *self = kernel;
+    if (rf_take_damper_map(&self->map, tables, why) != RF_OK)
+        return RF_INVALID;
+    self->journal.film = rf_map_film;
+    self->journal.data = &self->map;
+    self->journal.error = rf_map_error(&self->map);
+    *sizes = mine;
+    return RF_OK;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
-    if (!self)
-        return NULL;
-    self->journal.film = rf_map_film;
-    self->journal.data = &self->map;
-    self->journal.error = rf_map_error(&self->map);
-    const rf_sizes own = {PARAMETERS, INPUTS, 2, 0, 0};
-    *sizes = own;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

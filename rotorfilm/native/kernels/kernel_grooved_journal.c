@@ -32,23 +32,22 @@ typedef struct model {
     rf_groove_map map;
 } model;
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
-        return NULL;
-    }
-    if (rf_take_groove_map(tables, &self->map, why) != RF_OK) {
-        free(self);
-        return NULL;
-    }
+    model *self = kernel;
+    if (rf_take_groove_map(tables, &self->map, why) != RF_OK)
+        return RF_INVALID;
     self->journal.film = rf_groove_film;
     self->journal.data = &self->map;
     self->journal.error = rf_groove_error(&self->map);
     self->journal.openings = 1;
     *sizes = RF_JOURNAL_SIZES;
-    return self;
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

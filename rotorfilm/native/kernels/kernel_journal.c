@@ -43,7 +43,7 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
@@ -71,26 +71,17 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
     self->map.cells_x = table.cells_x;
     self->map.cells_t = table.cells_t;
     self->map.x_end = reach->numbers[0];
-    return RF_OK;
+    self->journal.film = rf_map_film;
+    self->journal.data = &self->map;
+    self->slice = malloc((size_t)x * t * sizeof *self->slice);
+    self->spare = malloc((size_t)x * t * sizeof *self->spare);
+    *sizes = RF_JOURNAL_SIZES;
+    return self->slice && self->spare ? RF_OK : rf_say(why, RF_MEMORY, "no memory for the map of a journal");
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    const size_t count = (size_t)(self->table.cells_x + 5) * (size_t)(self->table.cells_t + 5);
-    self->slice = malloc(count * sizeof *self->slice);
-    self->spare = malloc(count * sizeof *self->spare);
-    if (!self->slice || !self->spare) {
-        rf_say(why, RF_MEMORY, "no memory for the map of a journal");
-        destroy(self);
-        return NULL;
-    }
-    self->journal.film = rf_map_film;
-    self->journal.data = &self->map;
-    *sizes = RF_JOURNAL_SIZES;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

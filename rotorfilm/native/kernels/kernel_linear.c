@@ -35,7 +35,7 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *A = rf_find_table(tables, "A", 2, why),
@@ -51,26 +51,20 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
                       "A, B, C and D must fit each other, got %zu states, %zu inputs, %zu outputs", n, m, p);
     self->n = n, self->m = m, self->p = p;
     self->A = A->numbers, self->B = B->numbers, self->C = C->numbers, self->D = D->numbers;
+    const rf_sizes mine = {0, m, p, n, 0};
+    *sizes = mine;
+    const size_t size = n + m;
+    self->transition = malloc((size * size + n + rf_exponential_work(size) + 1) * sizeof(double));
+    if (!self->transition)
+        return rf_say(why, RF_MEMORY, "no memory for a state space of %zu states", n);
+    self->next = self->transition + size * size;
+    self->work = self->next + n;
     return RF_OK;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    const size_t size = self->n + self->m;
-    self->transition = malloc((size * size + self->n + rf_exponential_work(size) + 1) * sizeof(double));
-    if (!self->transition) {
-        rf_say(why, RF_MEMORY, "no memory for a state space of %zu states", self->n);
-        destroy(self);
-        return NULL;
-    }
-    self->next = self->transition + size * size;
-    self->work = self->next + self->n;
-    const rf_sizes mine = {0, self->m, self->p, self->n, 0};
-    *sizes = mine;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int require_finite(size_t count, const double *values, const char *what, double t, rf_message *why)

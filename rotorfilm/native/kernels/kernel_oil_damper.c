@@ -73,7 +73,7 @@ static int take_zone(rf_oil_damper *to, const rf_tables *tables, rf_message *why
     return RF_OK;
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     rf_oil_damper *to = &self->damper;
@@ -94,20 +94,17 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
         return RF_INVALID;
     if ((!to->mapped || to->tabled != 0.0) && take_radial(to, tables, why) != RF_OK)
         return RF_INVALID;
+    to->journal.film = rf_map_film;
+    to->journal.data = &self->map;
+    to->journal.error = to->mapped ? rf_map_error(&self->map) : 0.0;
+    const rf_sizes mine = {PARAMETERS, INPUTS, self->heavy ? 5 : 2, 0, 0};
+    *sizes = mine;
     return to->zone != 0.0 ? take_zone(to, tables, why) : RF_OK;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
-    if (!self)
-        return NULL;
-    self->damper.journal.film = rf_map_film;
-    self->damper.journal.data = &self->map;
-    self->damper.journal.error = self->damper.mapped ? rf_map_error(&self->map) : 0.0;
-    const rf_sizes own = {PARAMETERS, INPUTS, self->heavy ? 5 : 2, 0, 0};
-    *sizes = own;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

@@ -67,7 +67,7 @@ static int take_pad(const double *row, rf_recess_pad *pad)
            && nodes <= MOST_NODES && fits_edges(pad);
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *pads = rf_find_table(tables, "pads", 2, why);
@@ -89,6 +89,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
     self->bearing.pads = self->pads;
     self->bearing.count = count;
     self->bearing.extrapolated = extrapolated->numbers[0] != 0.0;
+    *sizes = RF_JOURNAL_SIZES;
     return RF_OK;
 }
 
@@ -100,11 +101,7 @@ static void destroy(void *kernel)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    *sizes = RF_JOURNAL_SIZES;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

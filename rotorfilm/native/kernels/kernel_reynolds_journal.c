@@ -101,7 +101,7 @@ static int take_unit(model *self, const rf_tables *tables, rf_message *why)
     return RF_OK;
 }
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *ring = rf_find_table(tables, "ring", 1, why);
@@ -124,6 +124,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
     self->ring.spans = (int32_t)count;
     self->ring.start = spans->numbers;
     self->ring.extent = spans->numbers + count;
+    self->journal.film = rf_ring_film;
+    self->journal.data = &self->ring;
+    *sizes = RF_JOURNAL_SIZES;
     if (lines->extent[0] != 5 || lines->extent[1] > MOST_LINES)
         return rf_say(why, RF_INVALID, "table lines0 must be 5 x %u at most, got %u x %u", MOST_LINES,
                       (unsigned)lines->extent[0], (unsigned)lines->extent[1]);
@@ -146,13 +149,7 @@ static void destroy(void *kernel)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
-    if (!self)
-        return NULL;
-    self->journal.film = rf_ring_film;
-    self->journal.data = &self->ring;
-    *sizes = RF_JOURNAL_SIZES;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

@@ -51,21 +51,20 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a rotor");
-        return NULL;
-    }
-    if (rf_take_profile(&self->profile, tables, why) != RF_OK) {
-        destroy(self);
-        return NULL;
-    }
+    model *self = kernel;
+    if (rf_take_profile(&self->profile, tables, why) != RF_OK)
+        return RF_INVALID;
     self->inputs = rf_find_table(tables, "law", 1, why) ? LAW_INPUTS : 2;
     const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4, 0};
     *sizes = mine;
-    return self;
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

@@ -34,13 +34,13 @@ const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_
     return NULL;
 }
 
-void *rf_make_kernel(size_t bytes, int (*take)(void *kernel, const rf_tables *tables, rf_message *why),
-                     void (*destroy)(void *kernel), const rf_tables *tables, rf_message *why)
+void *rf_make_kernel(size_t bytes, rf_take_tables *take, void (*destroy)(void *kernel), const rf_tables *tables, rf_sizes *sizes,
+                     rf_message *why)
 {
     void *kernel = calloc(1, bytes);
     if (!kernel)
         rf_say(why, RF_MEMORY, "no memory for a kernel");
-    else if (take(kernel, tables, why) == RF_OK)
+    else if (take(kernel, tables, sizes, why) == RF_OK)
         return kernel;
     else
         destroy(kernel);

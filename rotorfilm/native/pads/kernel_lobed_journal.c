@@ -42,7 +42,7 @@ typedef struct model {
     rf_lobe list[MOST_LOBES];
 } model;
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
     const rf_table *places = rf_find_table(tables, "lobes", 2, why);
@@ -76,16 +76,13 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
         lobe->cos = cos(row[0]);
         lobe->sin = sin(row[0]);
     }
+    *sizes = RF_JOURNAL_SIZES;
     return RF_OK;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
-    if (!self)
-        return NULL;
-    *sizes = RF_JOURNAL_SIZES;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

@@ -48,6 +48,16 @@ int rf_take_balls(const rf_tables *tables, uint32_t numbers, rf_ball_tables *min
     return RF_OK;
 }
 
+int rf_check_balls(const double *p, int count, int damping, rf_message *why)
+{
+    for (int k = 0; k < count; ++k)
+        if (!isfinite(p[k]))
+            return rf_say(why, RF_INVALID, "parameter %d must be finite, got %.9g", k + 1, p[k]);
+    if (p[damping] < 0.0)
+        return rf_say(why, RF_INVALID, "damping must not be negative, got %.9g", p[damping]);
+    return RF_OK;
+}
+
 const char *rf_ball_text(int status)
 {
     static const char *const said[] = {

@@ -19,6 +19,9 @@ typedef struct rf_ball_tables {
 int rf_take_balls(const rf_tables *tables, uint32_t numbers, rf_ball_tables *mine, rf_balls *balls, const double **law,
                   rf_message *why);
 
+/* RF_INVALID, with the message written, unless so many parameters are finite and the damping among them not negative. */
+int rf_check_balls(const double *p, int count, int damping, rf_message *why);
+
 /* What is said of a status of a wrench, in front of where it was. */
 const char *rf_ball_text(int status);
 

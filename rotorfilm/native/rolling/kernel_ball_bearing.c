@@ -20,9 +20,7 @@
    leaves the inner race rests on the outer one. Without inertia of the balls F_c and M are zero. The cage stands at the
    angle that is given. Beyond a contact pressure of 4200 MPa, and where the gyroscopic moment asks for a traction
    coefficient above 0.06, there is a warning. */
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "ball_tables.h"
 
@@ -33,10 +31,12 @@ typedef struct model {
     rf_ball_tables tables;
 } model;
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
+    static const rf_sizes mine = {PARAMETERS, 5, 2, 0, 0};
     model *self = kernel;
     const double *law;
+    *sizes = mine;
     if (rf_take_balls(tables, 2, &self->tables, &self->journal.balls, &law, why))
         return RF_INVALID;
     self->journal.is_free = law[1] != 0.0;
@@ -45,23 +45,15 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {PARAMETERS, 5, 2, 0, 0};
-    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
-    if (!self)
-        return NULL;
-    *sizes = mine;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
     rf_ball_journal *journal = &self->journal;
-    for (int k = 0; k < PARAMETERS; ++k)
-        if (!isfinite(p[k]))
-            return rf_say(why, RF_INVALID, "parameter %d must be finite, got %.9g", k + 1, p[k]);
-    if (p[DAMPING] < 0.0)
-        return rf_say(why, RF_INVALID, "damping must not be negative, got %.9g", p[DAMPING]);
+    if (rf_check_balls(p, PARAMETERS, DAMPING, why) != RF_OK)
+        return RF_INVALID;
     journal->balls.growth = p[GROWTH];
     *(journal->is_free ? &journal->thrust : &journal->place[0]) = p[AXIAL];
     journal->place[1] = p[TILT_X];

@@ -35,31 +35,25 @@ typedef struct model {
     rf_ball_tables tables;
 } model;
 
-static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
+    static const rf_sizes mine = {PARAMETERS, INPUTS, RF_BALL_DEGREES, 0, 0};
     model *self = kernel;
     const double *law;
+    *sizes = mine;
     return rf_take_balls(tables, 1, &self->tables, &self->balls, &law, why);
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {PARAMETERS, INPUTS, RF_BALL_DEGREES, 0, 0};
-    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
-    if (!self)
-        return NULL;
-    *sizes = mine;
-    return self;
+    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
-    for (int k = 0; k < PARAMETERS; ++k)
-        if (!isfinite(p[k]))
-            return rf_say(why, RF_INVALID, "parameter %d must be finite, got %.9g", k + 1, p[k]);
-    if (p[DAMPING] < 0.0)
-        return rf_say(why, RF_INVALID, "damping must not be negative, got %.9g", p[DAMPING]);
+    if (rf_check_balls(p, PARAMETERS, DAMPING, why) != RF_OK)
+        return RF_INVALID;
     self->balls.growth = p[GROWTH];
     self->damping = p[DAMPING];
     return RF_OK;

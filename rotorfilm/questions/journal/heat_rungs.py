@@ -9,6 +9,7 @@ where that is little the steps from there. It is added to the error of the film.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -115,13 +116,8 @@ class UniformRung(BaseRung):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the film, and what the heat of the richer level would change."""
         solved: UniformSolution = found.solution
-        own = solved.own
         about = solved.rung.estimate(solved.found, self._lower(before), tolerance)
-        try:
-            heat, how, doubt = self.heat(own, tolerance)
-        except RotorfilmError as error:
-            return about._replace(error=math.inf, doubt=f"its error by heat is not known: {error}")
-        return with_heat(about, heat, how, about.doubt or doubt, f"estimates of {self.name}")
+        return with_heat(about, lambda: self.heat(solved.own, tolerance), f"estimates of {self.name}")
 
     def balanced(self, own: WarmRest) -> WarmRest:
         """Return the rest on the film in the balance of its heat, of T1 its own."""
@@ -154,23 +150,22 @@ def balance_at(bearing: JournalBearing, own: WarmRest) -> float:
     return temperature
 
 
-def with_heat(about: ErrorEstimate, heat: HeatError, how: str, doubt: str, work: str) -> ErrorEstimate:
-    """Return an error on a film of one temperature with that by heat, which rungs of a level share."""
+def with_heat(
+    about: ErrorEstimate, find: Callable[[], tuple[HeatError, str, str]], work: str
+) -> ErrorEstimate:
+    """Return an error on a film of one temperature with that by heat, which rungs of a level share.
+
+    `find` returns the latter, how it is known, and why to doubt it; where it fails, the error is infinite.
+    """
+    try:
+        heat, how, doubt = find()
+    except RotorfilmError as error:
+        return about._replace(error=math.inf, doubt=f"its error by heat is not known: {error}")
     bound = heat.bound if heat.error > about.error else about.bound
     method = f"{about.method}; heat: {how}, {heat.error:.2g}"
     total = about.error + heat.error
+    doubt = about.doubt or doubt
     return ErrorEstimate(total, method, {WorkUnit(work): 1}, bound=bound, doubt=doubt, shared=heat.error)
-
-
-def warm_films(films: tuple[FilmRung, ...], bearing: JournalBearing) -> tuple[FilmRung, ...]:
-    """Return the films whose heat is known; InputError where there is none."""
-    known = tuple(film for film in films if has_losses(film.reaction))
-    if not known:
-        name = film_name(bearing.fitted_film)
-        raise InputError(
-            f"film must be a law with losses for a journal on an oil, as map or reynolds, got {name}"
-        )
-    return known
 
 
 def known_films(films: tuple[FilmRung, ...]) -> tuple[FilmRung, ...]:

@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
 LOSSES = {"power_loss": "W", "side_flow": "m^3/s"}
 TEMPERATURES = {"temperature": "K", "maximum_temperature": "K"}
+HEAT = {**LOSSES, **TEMPERATURES}
 UNITS = {
     "eccentricity_ratio": "1",
     "minimum_film": "m",
     ANGLE: "rad",
     "stiffness": "N/m",
     "damping": "N s/m",
-    **LOSSES,
-    **TEMPERATURES,
+    **HEAT,
 }
 """Static quantities and their units."""
 
@@ -57,8 +57,7 @@ class StaticRung(CandidateRung[FilmCandidate]):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        positions = self.quantity not in {**MATRIX, **LOSSES, **TEMPERATURES}
-        return self.film.position_prior if positions else self.film.prior
+        return film_prior(self.film, self.quantity)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
@@ -74,10 +73,8 @@ class StaticRung(CandidateRung[FilmCandidate]):
 
     def scalar(self, position: Array, bearing: Any) -> float:
         """Return a quantity that follows from the position (2,) [m] in this or the richer bearing."""
-        if self.quantity in LOSSES:
-            return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
-        if self.quantity in TEMPERATURES:
-            return bearing.balanced_temperature(position, np.zeros(2), self.speed)
+        if self.quantity in HEAT:
+            return heat_value(bearing, self.quantity, position, self.speed)
         distance = float(np.hypot(*position))
         if self.quantity == "eccentricity_ratio":
             return distance / self.film.reaction.clearance
@@ -120,7 +117,7 @@ class StaticRung(CandidateRung[FilmCandidate]):
         else:
             better = self.scalar(moved.position, self.film.rich)
         error = relative_distance(self.quantity, found.value, better, self.film.supply_temperature)
-        twice = self.quantity in LOSSES or self.quantity in TEMPERATURES
+        twice = self.quantity in HEAT
         return ErrorEstimate(
             error,
             f"defect of {self.film.rich_name}",
@@ -133,6 +130,19 @@ class StaticRung(CandidateRung[FilmCandidate]):
     def expected(self, done: Work) -> Work:
         """Return as many tangents as a lower rung took."""
         return self.film.expected(sum(done.values()))
+
+
+def film_prior(film: FilmCandidate, quantity: str) -> float:
+    """Return the order of magnitude of the error of a film in a static quantity."""
+    return film.prior if quantity in MATRIX or quantity in HEAT else film.position_prior
+
+
+def heat_value(bearing: Any, quantity: str, position: Array, speed: float) -> float:
+    """Return one of `HEAT` where a journal rests (2,) [m] at a speed [rad/s]."""
+    still = np.zeros(2)
+    if quantity in LOSSES:
+        return float(getattr(bearing.losses(position, still, speed), quantity))
+    return float(bearing.balanced_temperature(position, still, speed))
 
 
 def attitude(position: Array, load: tuple[float, float], speed: float) -> float:

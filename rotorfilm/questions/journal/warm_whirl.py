@@ -8,14 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work, WorkUnit
-from ...errors import RotorfilmError
 from ...ladders import BaseRung, Ladder
-from ...linear import whirl_threshold
 from ...linear.speed_events import secant_speed
-from ...results import Equilibrium, WhirlThreshold
+from ...results import Equilibrium
 from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.film_candidate import FilmCandidate
@@ -24,7 +20,7 @@ from ...scenes.journal.heat_steps import HeatError, HeatSteps, JudgedRest
 from ...scenes.journal.warm_rest import WarmRest, ends_within, uniform_rest
 from .conserved_whirl import with_conserved_whirl
 from .heat_rungs import BALANCE, BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
-from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
+from .whirl_rungs import WhirlRung, threshold_around, whirl_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -76,17 +72,8 @@ class WarmWhirlRung(WhirlRung):
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed at which the equilibrium loses stability [rad/s]."""
-        around = None if before is None else (before.value / AROUND, before.value * AROUND)
-        threshold = self._threshold(self.film.reaction, around)
+        threshold = threshold_around(self.film.reaction, self, before)
         return Found(threshold.speed, {self.unit: 1}, threshold.equilibrium)
-
-    def _threshold(self, bearing: Any, around: tuple[float, float] | None) -> WhirlThreshold:
-        threshold = whirl_threshold(bearing, self.load, self.mass, around)
-        if threshold.speed is None and around is not None:
-            threshold = whirl_threshold(bearing, self.load, self.mass)
-        if threshold.speed is None:
-            raise RotorfilmError(f"no threshold: {threshold.reason}, by {self.name}")
-        return threshold
 
     def film_at(self, at: Equilibrium) -> FilmCandidate:
         """Return the film at the temperature of one equilibrium."""
@@ -100,13 +87,13 @@ class WarmWhirlRung(WhirlRung):
         at: Equilibrium = found.solution
         about = super().estimate(found, before, tolerance)
         moving = moving_heat(self.bearing, at.speed)
-        try:
-            heat, how, doubt = self.heat(at, tolerance)
-        except RotorfilmError as error:
-            return about._replace(error=np.inf, doubt=f"its error by heat is not known: {error}")
-        whole = HeatError(heat.error + moving, heat.bound or moving > heat.error)
-        how = f"{how}, moving heat {moving:.2g} lower"
-        return with_heat(about, whole, how, about.doubt or doubt, f"estimates of {self.name}")
+
+        def whole() -> tuple[HeatError, str, str]:
+            (error, bound), how, doubt = self.heat(at, tolerance)
+            heat = HeatError(error + moving, bound or moving > error)
+            return heat, f"{how}, moving heat {moving:.2g} lower", doubt
+
+        return with_heat(about, whole, f"estimates of {self.name}")
 
     def heat(self, at: Equilibrium, tolerance: float) -> tuple[HeatError, str, str]:
         """Return the error by heat at the threshold, how that is known, and why to doubt it."""
@@ -131,8 +118,7 @@ class WarmWhirlRung(WhirlRung):
 
     def moved(self, found: Found, other: Any) -> float:
         """Return the relative change of the threshold with another bearing, by this film."""
-        around = found.value / AROUND, found.value * AROUND
-        speed = self._threshold(other, around).speed
+        speed = threshold_around(other, self, found).speed
         assert speed is not None  # or there is an error
         return abs(speed - found.value) / found.value
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ...errors import InputError, RotorfilmError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
-from ...results import Coefficients, Equilibrium
+from ...results import Coefficients, Equilibrium, WhirlThreshold
 from ...scenes.counted import counted_calls
 from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_defects import corrected
@@ -55,14 +55,8 @@ class WhirlRung(CandidateRung[FilmCandidate]):
         """Return the speed at which the equilibrium loses stability [rad/s]."""
         made = self.film.prepare()
         counted = counted_calls(self.film.reaction)
-        around = None if before is None else (before.value / AROUND, before.value * AROUND)
-        threshold = whirl_threshold(counted, self.load, self.mass, around)
-        if threshold.speed is None and around is not None:
-            threshold = whirl_threshold(counted, self.load, self.mass)
-        if threshold.speed is None:
-            close = self.film.bounded or self.film.on_grid(self.film.reaction)
-            kind = NoAnswerError if close else RotorfilmError
-            raise kind(f"no threshold: {threshold.reason}, by {self.name}")
+        close = self.film.bounded or self.film.on_grid(self.film.reaction)
+        threshold = threshold_around(counted, self, before, NoAnswerError if close else RotorfilmError)
         return Found(threshold.speed, {self.film.tangents: counted.tangents, **made}, threshold.equilibrium)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
@@ -127,6 +121,28 @@ class WhirlRung(CandidateRung[FilmCandidate]):
     def expected(self, done: Work) -> Work:
         """Return as many tangents as a lower rung took."""
         return self.film.expected(sum(done.values()))
+
+
+class _Whirling(Protocol):
+    @property
+    def name(self) -> str: ...
+    @property
+    def load(self) -> tuple[float, float]: ...
+    @property
+    def mass(self) -> float: ...
+
+
+def threshold_around(
+    bearing: Any, rung: _Whirling, before: Found | None, absent: type[RotorfilmError] = RotorfilmError
+) -> WhirlThreshold:
+    """Return the threshold of a rung, looked for around that of a lower one first; an error without one."""
+    around = None if before is None else (before.value / AROUND, before.value * AROUND)
+    threshold = whirl_threshold(bearing, rung.load, rung.mass, around)
+    if threshold.speed is None and around is not None:
+        threshold = whirl_threshold(bearing, rung.load, rung.mass)
+    if threshold.speed is None:
+        raise absent(f"no threshold: {threshold.reason}, by {rung.name}")
+    return threshold
 
 
 def least_stable(matrix: Array) -> tuple[complex, Array, Array]:

@@ -11,14 +11,14 @@ import numpy as np
 
 from ...answers import ISOTHERMAL, ErrorEstimate, Found, WorkUnit
 from ...ladders import CandidateRung, Ladder
-from ...linear import coefficients, equilibrium, whirl_threshold
+from ...linear import coefficients, equilibrium
 from ...model import Array
 from ...results import Equilibrium
 from ...scenes.journal.film_defects import corrected
 from ...scenes.pads.tilting_candidates import TiltingCandidate, tilting_candidates
 from ...warming import settled
-from ..journal.statics import LOSSES, MATRIX, TEMPERATURES, UNITS, attitude, relative_distance
-from ..journal.whirl_rungs import AROUND, STEP, required_rotor
+from ..journal.statics import HEAT, MATRIX, UNITS, attitude, film_prior, heat_value, relative_distance
+from ..journal.whirl_rungs import STEP, required_rotor, threshold_around
 from ..walk import NoAnswerError
 from .fixed_ladders import refuse_temperature
 from .warm_pads import ONE_TEMPERATURE, is_warm, warm_static_ladder
@@ -73,8 +73,7 @@ class TiltingRestRung(TiltingRung):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        positions = self.quantity not in {**MATRIX, **LOSSES, **TEMPERATURES}
-        return self.film.position_prior if positions else self.film.prior
+        return film_prior(self.film, self.quantity)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
@@ -86,10 +85,8 @@ class TiltingRestRung(TiltingRung):
         if self.quantity in MATRIX:
             own = film.coefficients if rich else partial(coefficients, bearing)
             return np.asarray(getattr(own(position, self.speed), self.quantity))
-        if self.quantity in LOSSES:
-            return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
-        if self.quantity in TEMPERATURES:
-            return bearing.balanced_temperature(position, np.zeros(2), self.speed)
+        if self.quantity in HEAT:
+            return heat_value(bearing, self.quantity, position, self.speed)
         if self.quantity == "eccentricity_ratio":
             return float(np.hypot(*position)) / bearing.clearance
         if self.quantity == "minimum_film":
@@ -118,12 +115,7 @@ class TiltingWhirlRung(TiltingRung):
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed [rad/s]; raises NoAnswerError where rotor and pads are stable at all speeds."""
-        around = None if before is None else (before.value / AROUND, before.value * AROUND)
-        threshold = whirl_threshold(self.film.reaction, self.load, self.mass, around)
-        if threshold.speed is None and around is not None:
-            threshold = whirl_threshold(self.film.reaction, self.load, self.mass)
-        if threshold.speed is None:
-            raise NoAnswerError(f"no threshold: {threshold.reason}, by {self.name}")
+        threshold = threshold_around(self.film.reaction, self, before, NoAnswerError)
         return Found(threshold.speed, {self.unit: SPEEDS}, threshold.equilibrium)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:

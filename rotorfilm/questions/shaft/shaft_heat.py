@@ -7,11 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import NamedTuple, Protocol
 
-import numpy as np
-
 from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work
 from ...bearings.journal import JournalBearing
-from ...errors import RotorfilmError
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium
 from ...model import Reaction
@@ -180,11 +177,8 @@ class WarmShaftRung(BaseRung):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the rung, and that by heat."""
         about = self.rung.estimate(found, before, tolerance)
-        try:
-            heat, how, doubt = self.heat.error(self.rung, found, tolerance)
-        except RotorfilmError as error:
-            return about._replace(error=np.inf, doubt=f"its error by heat is not known: {error}")
-        return with_heat(about, heat, how, about.doubt or doubt, f"estimates of {self.name}")
+        work = f"estimates of {self.name}"
+        return with_heat(about, lambda: self.heat.error(self.rung, found, tolerance), work)
 
     def expected(self, done: Work) -> Work:
         """Return that of the rung."""

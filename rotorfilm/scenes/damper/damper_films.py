@@ -282,8 +282,7 @@ def with_changes(damper: PorousDamper, **changes: object) -> PorousDamper:
 @contextmanager
 def quiet() -> Iterator[None]:
     """Leave out what a film warns of when it is made: a ladder estimates its error."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         yield
 
 

@@ -144,9 +144,8 @@ class DamperTable:
             require_non_negative("feed_flow", self.feed_flow)
         if self.supply is not None:
             self.conserved(self.supply)
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             # Which film answers is not known yet; a run of this one warns when it is built.
-            warnings.simplefilter("ignore", ValidityWarning)
             self.build()
 
     def build(self) -> PorousDamper:

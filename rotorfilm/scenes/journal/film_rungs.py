@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 
 from ...bearings.films.law import FilmLaw
@@ -17,9 +16,9 @@ from ...bearings.journal import (
     ShortFilm,
     SplittingFilm,
     film_name,
+    fitted_bearing,
     is_mappable,
 )
-from ...errors import ValidityWarning
 from .film_rung import MAP_MADE, FilmRung
 from .packaged_map import has_map
 
@@ -96,16 +95,9 @@ def _with_coarser_check(film: FilmRung) -> FilmRung:
     return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
 
 
-def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
-    """Return the bearing with another film, whether or not that is meant for it."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        return replace(bearing, film=film)
-
-
 def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
     """Return the bearing with the film in two dimensions, extrapolated from two grids."""
-    return with_film(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
+    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
 
 
 def _map(bearing: JournalBearing) -> FilmRung:
@@ -205,8 +197,8 @@ def _rung(
     cells, rich_name = rich
     return FilmRung(
         name=name,
-        reaction=with_film(bearing, film),
-        rich=with_film(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
+        reaction=fitted_bearing(bearing, film),
+        rich=fitted_bearing(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
         rich_name=rich_name,
         position_prior=position_prior,
         prior=slope_prior,

@@ -170,8 +170,7 @@ def film_loss(
     concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0
     if not speed or not any(load):
         return concentric
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
             at = equilibrium(film or _quick(bearing), load, speed)
             losses = at.losses
@@ -211,8 +210,7 @@ def film_remarks(
 
 def _warmed(bearing: JournalBearing, quick: Any, speed: float, load: tuple[float, float]) -> JournalBearing:
     """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
             temperature = equilibrium(quick, load, speed).temperature
         except RotorfilmError:

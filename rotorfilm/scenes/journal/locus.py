@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing
-from ...comparisons import ComparedFilm, fitted_bearing
+from ...bearings.journal import JournalBearing, fitted_bearing
+from ...comparisons import ComparedFilm
 from ...comparisons.journal.journal_states import SPEED
 from ...model import Array
 

@@ -6,14 +6,7 @@ from dataclasses import dataclass
 
 from ...bearings.journal import JFOFilm, JournalBearing, film_name
 from ...errors import ConvergenceError
-from ...linear import (
-    CriticalMass,
-    coefficients,
-    critical_mass,
-    equilibrium,
-    threshold_near,
-    whirl_threshold,
-)
+from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, threshold_near, whirl_threshold
 from ...model import Reaction
 from ...readable.result import Readable
 from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
@@ -98,24 +91,15 @@ def film_answer(
     """
     at = equilibrium(bearing, load, speed)
     derivatives = coefficients(bearing, at.position, speed)
-    if isinstance(bearing, JFOFilm):
-        return Answer(
-            bearing=given[0],
-            model=given[1],
-            equilibrium=at,
-            coefficients=derivatives,
-            losses=at.losses,
-            critical_mass=_whirling_mass(derivatives),
-            whirl_threshold=None,
-        )
+    remembers = isinstance(bearing, JFOFilm)
     return Answer(
         bearing=given[0],
         model=given[1],
         equilibrium=at,
         coefficients=derivatives,
         losses=at.losses,
-        critical_mass=critical_mass(derivatives),
-        whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
+        critical_mass=_whirling_mass(derivatives) if remembers else critical_mass(derivatives),
+        whirl_threshold=None if mass is None or remembers else whirl_threshold(bearing, load, mass),
     )
 
 

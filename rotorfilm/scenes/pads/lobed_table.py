@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from ...bearings.pads import SETS, Lobe, LobedBearing, lobe_set
-from ...errors import InputError, SceneError, brief
-from ..reading.readers import takes
+from ...errors import InputError
+from ..reading.readers import one_of
 from ..reading.shared_fields import made_from
-from ..reading.spelling import nearest
 from ..reading.tables import Keyed, Quantity, TableList
 from .pad_data import LobedData, echo_of_pads
 from .pad_films import pad_film_name, usual_film
@@ -20,16 +19,6 @@ LOBE = Keyed(
     {"start": Quantity("rad"), "extent": Quantity("rad"), "preload": Quantity("1"), "offset": Quantity("1")},
 )
 """`lobes = [{start, extent, preload, offset}]`: a fixed pad with a center of curvature of its own."""
-
-
-@takes(SETS)
-def read_preset(where: str, value: Any) -> str:
-    """Read the name of a usual set of lobes."""
-    if not isinstance(value, str) or value not in SETS:
-        raise SceneError(
-            f"{where} must be one of {', '.join(SETS)}, got {brief(value)}{nearest(value, SETS)}"
-        )
-    return value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +36,7 @@ class LobedTable(FilmedPadTable):
         The pads one by one.
     """
 
-    preset: Annotated[str | None, read_preset] = None
+    preset: Annotated[str | None, one_of(SETS)] = None
     preload: Annotated[float | None, Quantity("1")] = None
     extent: Annotated[float | None, Quantity("rad")] = None
     offset: Annotated[float | None, Quantity("1")] = None

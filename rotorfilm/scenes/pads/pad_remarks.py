@@ -84,8 +84,7 @@ def _warmed(bearing: AnyPads, speed: float, load: tuple[float, float]) -> AnyPad
     """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
     if not bearing.is_warming:
         return bearing
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
             at = equilibrium(quick_pads(bearing), load, speed)
         except RotorfilmError:

@@ -7,9 +7,8 @@ from typing import Annotated, Any
 
 from ...bearings.pads import TiltingPadBearing, even_pivots
 from ...errors import InputError, SceneError, brief
-from ..reading.readers import Count, takes
+from ..reading.readers import Count, one_of, takes
 from ..reading.shared_fields import made_from
-from ..reading.spelling import nearest
 from ..reading.tables import Quantity
 from .pad_data import TiltingData, echo_of_pads
 from .pad_films import pad_film_name, usual_film
@@ -20,16 +19,6 @@ PADS = 64
 
 LOADINGS = {"on_pad": False, "between_pads": True}
 """Whether a load along -y points between two pivots, by the name in scene files."""
-
-
-@takes(LOADINGS)
-def read_loading(where: str, value: Any) -> str:
-    """Read whether the load points to a pivot or between two."""
-    if not isinstance(value, str) or value not in LOADINGS:
-        raise SceneError(
-            f"{where} must be one of {', '.join(LOADINGS)}, got {brief(value)}{nearest(value, LOADINGS)}"
-        )
-    return value
 
 
 @takes([Quantity("rad"), ...])
@@ -70,7 +59,7 @@ class TiltingTable(FilmedPadTable):
 
     extent: Annotated[float, Quantity("rad")]
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
-    loading: Annotated[str | None, read_loading] = None
+    loading: Annotated[str | None, one_of(LOADINGS)] = None
     pivots: Annotated[tuple[float, ...], read_pivots] = ()
     pivot_offset: Annotated[float, Quantity("1")] = 0.5
     preload: Annotated[float, Quantity("1")] = 0.0

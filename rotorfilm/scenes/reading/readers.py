@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from ...errors import SceneError, brief
 from ...linear.equilibrium import UNLOADED
+from .spelling import nearest
 from .tables import Quantity, Reader, choose, text
 
 R = TypeVar("R", bound=Reader)
@@ -29,6 +30,19 @@ def takes(*shapes: Any) -> Callable[[R], R]:
         return reader
 
     return told
+
+
+def one_of(names: Mapping[str, Any]) -> Callable[[str, Any], str]:
+    """Return a reader of one of the keys of a mapping."""
+
+    @takes(names)
+    def read(where: str, value: Any) -> str:
+        if not isinstance(value, str) or value not in names:
+            hint = nearest(value, names)
+            raise SceneError(f"{where} must be one of {', '.join(names)}, got {brief(value)}{hint}")
+        return value
+
+    return read
 
 
 @takes(Quantity("N"), [Quantity("N"), Quantity("N")])

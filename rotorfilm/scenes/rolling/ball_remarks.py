@@ -84,8 +84,7 @@ def ball_remarks(
     bearing: Balls, speed: float, load: tuple[float, float], oil: RaceOil | None, roughness: float | None
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each; that there is no rest where there is none."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
             rest = rest_under(bearing, load, speed)
         except RotorfilmError as error:

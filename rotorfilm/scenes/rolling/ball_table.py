@@ -19,7 +19,7 @@ from ...errors import InputError, SceneError, brief, require_positive
 from ...progress import Report
 from ...readable.result import Readable
 from ..lubricant_table import Lubricant, LubricantTable
-from ..reading.readers import Count, Named, takes
+from ..reading.readers import Count, Named, one_of, takes
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, flag
 from .ball_data import BallData, PairData
@@ -52,14 +52,6 @@ def read_material(where: str, value: Any) -> RollingMaterial:
     if isinstance(value, str):
         return Named(MATERIALS)(where, value)
     return Table(OWN_MATERIAL)(where, value)
-
-
-@takes(ARRANGEMENTS)
-def read_arrangement(where: str, value: Any) -> str:
-    """Read how the two bearings of a pair stand."""
-    if not isinstance(value, str) or value not in ARRANGEMENTS:
-        raise SceneError(f"{where} must be one of {', '.join(ARRANGEMENTS)}, got {brief(value)}")
-    return value
 
 
 @takes([Quantity("rad"), Quantity("rad")])
@@ -133,7 +125,7 @@ class BallTable:
     tilt: Annotated[tuple[float, float], read_tilt] = (0.0, 0.0)
     cage_angle: Annotated[float, Quantity("rad")] = 0.0
     damping: Annotated[float, Quantity("N.s/m")] = 0.0
-    arrangement: Annotated[str | None, read_arrangement] = None
+    arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
     distance: Annotated[float | None, Quantity("m")] = None
     preload: Annotated[float | None, Quantity("N")] = None
     inertia: Annotated[StaticBalls | RunningBalls | None, Named(INERTIAS)] = None

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import Protocol
 
-import numpy as np
-
 from ....native.damper_kernels import OilDamperKernel, OilParts, OilScales
-from ....native.spec import NativeParameter, NativeSpec
+from ....native.spec import NativeSpec
 from ....signals import MOTION_NAMES
+from ...film_units import Size
 from ...films.kernel_film import BoundKernel
-from ..damper_kernel import DIMENSIONS, dimension, spring_parameter
+from ..damper_kernel import DIMENSIONS, bounded, dimension, spring_parameter
 from ..full_squeeze import SqueezeFilm
 from ..mapped_squeeze import MappedSqueezeFilm
 from .end_seals import EndSeal, SealedShortFilm
@@ -22,15 +20,9 @@ from .zone_inertia import NODES, ZoneInertia
 KERNEL = "oil_damper"
 
 
-class _OilDamper(Protocol):
+class _OilDamper(Size, Protocol):
     """What a damper says of itself."""
 
-    @property
-    def radius(self) -> float: ...
-    @property
-    def length(self) -> float: ...
-    @property
-    def clearance(self) -> float: ...
     @property
     def viscosity(self) -> float: ...
     @property
@@ -94,8 +86,8 @@ def oil_spec(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> NativeS
         parameters=(
             *own,
             spring_parameter(damper.nominal_force / damper.clearance),
-            _further("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
-            _further("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
+            bounded("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
+            bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
         ),
         tables=parts.tables(None if mapped is None else mapped.native_tables(), heavy=heavy),
         inputs=MOTION_NAMES,
@@ -126,17 +118,4 @@ def _parts(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> OilParts 
         least=least_root() if tabled else 1.0,
         nodes=NODES[0],
         weights=NODES[1],
-    )
-
-
-def _further(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
-    return NativeParameter(
-        name=name,
-        unit=unit,
-        value=value,
-        tunable=not fixed,
-        minimum=value if fixed else 0.0,
-        maximum=value if fixed else math.inf,
-        nominal=float(np.nextafter(0.0, 1.0)) if value == 0.0 else value,
-        description=f"{text}; fixed" if fixed else text,
     )

@@ -10,18 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....errors import (
-    InputError,
-    require_each,
-    require_inside,
-    require_kind,
-    require_non_negative,
-    require_number,
-    require_positive,
-)
+from ....errors import InputError, require_inside, require_kind, require_non_negative, require_number
 from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array
+from ...film_units import require_size
 from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
@@ -95,9 +88,7 @@ class JFODamper(SteppedFilm):
     cells: tuple[int, int] = (72, 16)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        require_size(self, "viscosity")
         require_kind("supply", self.supply, DamperSupply, "a DamperSupply")
         require_non_negative("stiffness", self.stiffness)
         require_conserved_cells(self.cells)

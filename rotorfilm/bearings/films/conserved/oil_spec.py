@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....model import Array
-from ....native.spec import NativeParameter, NativeSpec
+from ....native.spec import NativeParameter, NativeSpec, parameter
 from .step_kernel import MovingFilm, shape_of
 
 
@@ -66,16 +66,4 @@ def _parameters(numbers: OilNumbers) -> tuple[NativeParameter, ...]:
         ("supply_flow", "m3/s", numbers.supply_flow, "oil given to each opening"),
         ("stiffness", "N/m", numbers.stiffness, "of springs beside the film, along either axis"),
     )
-    return tuple(
-        NativeParameter(
-            name=name,
-            unit=unit,
-            value=value,
-            tunable=True,
-            minimum=0.0,
-            nominal=value or 1.0,
-            description=description,
-        )
-        for name, unit, value, description in rows
-        if value is not None
-    )
+    return tuple(parameter(name, unit, value, text) for name, unit, value, text in rows if value is not None)

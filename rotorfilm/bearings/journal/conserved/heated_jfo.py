@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ...films.conserved.conserved_film import circular_gap
 from ..bearing import JournalBearing
 from ..heat.field.energy_film import MeanTemperature
 from ..heat.field.heat_rounds import FilmProfile, HeatRounds
-from ..heat.field.heated_state import FoundFilm, HeatedState, HeatRound, oil_and_cooling, state_fields
+from ..heat.field.heated_state import FoundFilm, HeatedState, HeatRound, state_fields
 from ..heat.field.walls import AdiabaticWalls, Walls
 from .conserved_flow import conserved_flow
 from .frozen_jfo import FrozenJFOFilm
@@ -81,18 +80,13 @@ class HeatedJFOFilm(HeatRounds):
     78
     """
 
-    order: ClassVar[int] = 1
-    """Order of convergence of temperature and power in the size of the cells: heat moves upwind."""
-
     film: JFOFilm
     walls: Walls = field(default_factory=AdiabaticWalls)
     profile: FilmProfile = field(default_factory=MeanTemperature)
 
     def __post_init__(self) -> None:
         require_kind("film", self.film, JFOFilm, "a JFOFilm of a bearing with oil and cooling")
-        oil_and_cooling(self.film.bearing)
-        require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
-        require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
+        self._require_heat()
 
     @property
     def bearing(self) -> JournalBearing:

@@ -16,6 +16,7 @@ from ....errors import (
     require_inside,
     require_kind,
     require_number,
+    require_pair,
     require_positive,
 )
 from ....inputs.kinds import arguments
@@ -290,8 +291,6 @@ class JFOFilm(JFOHeat, SteppedFilm):
         return self._steady(position, cast(float, np.asarray(speed)[()]))
 
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
-        q, omega = require_finite("position", position), require_number("speed", speed)
-        if q.shape != (2,):
-            raise InputError(f"position must have shape (2,), got shape {q.shape}")
+        q, omega = require_pair("position", position), require_number("speed", speed)
         require_inside(q, self.clearance)
         return q, self.film.solve(circular_gap(self.film.cells, q / self.clearance), 0.5 * omega)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, ValidityWarning, require_kind, require_vector
+from ....errors import InputError, require_kind, require_vector
 from ....inputs.kinds import arguments
 from ....model import Array
 from ....readable.result import Readable
 from ...differences import extrapolated_value
-from ..bearing import JournalBearing
+from ..bearing import JournalBearing, fitted_bearing
 from ..reynolds_film import ReynoldsFilm
 from .jfo_film import JFOFilm
 
@@ -108,6 +107,4 @@ def both_films(bearing: JournalBearing, cells: tuple[int, int]) -> tuple[Journal
         If the bearing has no supply, or one that cannot be.
     """
     conserved = JFOFilm(bearing=bearing, cells=cells)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        return replace(bearing, film=ReynoldsFilm(cells=cells)), conserved
+    return fitted_bearing(bearing, ReynoldsFilm(cells=cells)), conserved

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ....errors import InputError
 from ....inputs.si_arguments import quantities
 from ....model import Array
-from ....native.spec import NativeParameter, NativeSpec
+from ....native.spec import NativeSpec, parameter
 from ....results import BearingLosses
 from ...kernel_reaction import KernelReaction
 from ...reaction import broadcast_state
@@ -154,15 +154,7 @@ class PressureDamBearing(RecessedPads, KernelReaction):
         if type(self) is not PressureDamBearing or self.is_warming:
             return None
         parameters = tuple(
-            NativeParameter(
-                name=name,
-                unit=unit,
-                value=value,
-                tunable=True,
-                minimum=0.0,
-                nominal=value,
-                description=text,
-            )
+            parameter(name, unit, value, text)
             for (name, unit, text), value in zip(PARAMETERS, self.kernel.dimensions, strict=True)
         )
         tables = {"pads": self.rows, "extrapolated": np.array([float(self.extrapolated)])}

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ....errors import InputError, require_finite, require_kind, require_non_negative, require_number
+from ....errors import InputError, require_each, require_kind, require_non_negative, require_number
 from ....inputs.si_arguments import quantities
 from ...films.geometry import TURN
+from ..lobe import OwnCenter
 
 
 @quantities
@@ -49,7 +50,7 @@ class Recess:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class RecessedPad:
+class RecessedPad(OwnCenter):
     """A fixed pad: an arc of the wall with its own center of curvature; ambient pressure, 0, at its ends.
 
     Its radius of curvature is that of the journal and the pad clearance. Where a centered journal is closest,
@@ -82,15 +83,10 @@ class RecessedPad:
     recess: Recess | None = None
 
     def __post_init__(self) -> None:
-        require_finite("start", self.start)
-        for name in ("start", "extent", "preload", "offset"):
-            require_number(name, getattr(self, name))
+        require_each(self, require_number, "start", "extent")
         if not 0.0 < self.extent < TURN:
             raise InputError(f"extent must be in (0, 2 pi), got {self.extent!r}")
-        if not 0.0 <= self.preload < 1.0:
-            raise InputError(f"preload must be in [0, 1), got {self.preload!r}")
-        if not 0.0 <= self.offset <= 1.0:
-            raise InputError(f"offset must be in [0, 1], got {self.offset!r}")
+        self._require_curve()
         require_kind("recess", self.recess, Recess | None, "a Recess or None")
         _ = self.edges
 
@@ -98,16 +94,6 @@ class RecessedPad:
     def end(self) -> float:
         """Angle of its second end [rad]."""
         return self.start + self.extent
-
-    @property
-    def closest(self) -> float:
-        """Angle at which a centered journal is closest [rad]."""
-        return self.start + self.offset * self.extent
-
-    @property
-    def center(self) -> tuple[float, float]:
-        """Its center of curvature from that of the bearing, in pad clearances."""
-        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
 
     @property
     def edges(self) -> tuple[float, float, float, float]:

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, require_finite, require_kind, require_number
+from ....errors import InputError, require_finite, require_number
 from ....model import Array, Linearization, static_linearization
-from ....native import NativeParameter, NativeSpec
+from ....native import NativeSpec
 from ....native.ball_kernel import DEGREES, BallsAt
-from ....signals import Signal
+from ....signals import Signal, signals_of
 from ...reaction import NOMINAL_SPEED
-from ..ball_element import BallElement
+from ..ball_element import BallElement, require_balls
 
 INPUTS = ("x", "y", "z", "tilt_x", "tilt_y", "vx", "vy", "speed", "cage_angle", "shaft_angle")
 OUTPUTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y")
@@ -41,32 +41,31 @@ class FiveDegreeBalls:
     bearing: BallElement
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
+        require_balls(self.bearing)
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """The signals of `INPUTS`."""
         bearing = self.bearing
         way, arm = bearing.clearance, float(bearing.rows[0, 4])
-        rows = (
-            *(("m", way, f"place of the shaft along {axis}") for axis in "xyz"),
-            *(("rad", way / arm, f"tilt of the shaft about {axis}") for axis in "xy"),
-            *(("m/s", NOMINAL_SPEED * way, f"velocity of the shaft along {axis}") for axis in "xy"),
-            ("rad/s", NOMINAL_SPEED, "angular speed about +z"),
-            ("rad", 1.0, "angle by which the cage has turned"),
-            ("rad", 1.0, "angle by which the shaft has turned; matters to waves of the inner ring"),
+        rate, matters = NOMINAL_SPEED * way, "matters to waves of the inner ring"
+        return signals_of(
+            *((axis, "m", way, f"place of the shaft along {axis}") for axis in "xyz"),
+            *((f"tilt_{axis}", "rad", way / arm, f"tilt of the shaft about {axis}") for axis in "xy"),
+            *((f"v{axis}", "m/s", rate, f"velocity of the shaft along {axis}") for axis in "xy"),
+            ("speed", "rad/s", NOMINAL_SPEED, "angular speed about +z"),
+            ("cage_angle", "rad", 1.0, "angle by which the cage has turned"),
+            ("shaft_angle", "rad", 1.0, f"angle by which the shaft has turned; {matters}"),
         )
-        return _signals(INPUTS, rows)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """The signals of `OUTPUTS`: force and moment on the shaft."""
         size, arm = self.bearing.nominal_force, float(self.bearing.rows[0, 4])
-        rows = (
-            *(("N", size, f"force on the shaft along {axis}") for axis in "xyz"),
-            *(("N.m", size * arm, f"moment on the shaft about {axis}") for axis in "xy"),
+        return signals_of(
+            *((f"force_{axis}", "N", size, f"force on the shaft along {axis}") for axis in "xyz"),
+            *((f"moment_{axis}", "N.m", size * arm, f"moment on the shaft about {axis}") for axis in "xy"),
         )
-        return _signals(OUTPUTS, rows)
 
     @property
     def states(self) -> tuple[Signal, ...]:
@@ -118,19 +117,8 @@ class FiveDegreeBalls:
 
     def native(self) -> NativeSpec:
         """Return the kernel `five_degree_balls`; growth and damping are parameters."""
-        inertia, growth = self.bearing.running
-        numbers = (
-            ("growth", "m", growth, "radial growth of the inner rings against the outer ones"),
-            ("damping", "N.s/m", self.bearing.damping, "damping beside the balls along x and y"),
-        )
-        parameters = tuple(
-            NativeParameter(
-                name=name, unit=unit, value=value, tunable=True, description=text, nominal=abs(value) or 1.0
-            )
-            for name, unit, value, text in numbers
-        )
-        tables = {**self.bearing.tables, "law": np.array([float(inertia)])}
-        return NativeSpec(kernel="five_degree_balls", parameters=parameters, tables=tables)
+        damping = "damping", "N.s/m", self.bearing.damping, "damping beside the balls along x and y"
+        return self.bearing.spec("five_degree_balls", damping)
 
     def _at(self, u: Array) -> BallsAt:
         motion, (speed, cage, shaft) = u[:DEGREES], u[7:].tolist()
@@ -145,8 +133,3 @@ def _ten(u: ArrayLike) -> Array:
     if values.shape != (len(INPUTS),):
         raise InputError(f"u must have shape (10,) for {', '.join(INPUTS)}, got shape {values.shape}")
     return values
-
-
-def _signals(names: tuple[str, ...], rows: tuple[tuple[str, float, str], ...]) -> tuple[Signal, ...]:
-    pairs = zip(names, rows, strict=True)
-    return tuple(Signal(name=name, unit=u, nominal=size, description=text) for name, (u, size, text) in pairs)

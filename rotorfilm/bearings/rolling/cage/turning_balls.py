@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import ConvergenceError, InputError, require_finite, require_kind
+from ....errors import ConvergenceError, InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
 from ....native import Status
 from ....native.ball_kernel import BallsAt
-from ....signals import Signal
+from ....signals import Signal, signals_of
 from ...reaction import Called, input_vector
-from ..ball_element import BallElement
+from ..ball_element import BallElement, require_balls
 
 
 @quantities
@@ -53,7 +53,7 @@ class TurningBalls(Called):
     cage_ratio: float | None = None
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
+        require_balls(self.bearing)
         if not 0.0 < self.ratio < 1.0:
             raise InputError(f"cage_ratio must be above 0 and below 1, got {self.cage_ratio!r}")
 
@@ -85,12 +85,8 @@ class TurningBalls(Called):
     @property
     def states(self) -> tuple[Signal, ...]:
         """How far cage and shaft have turned."""
-        return tuple(
-            Signal(
-                name=f"{part}_angle", unit="rad", nominal=1.0, description=f"by which the {part} has turned"
-            )
-            for part in ("cage", "shaft")
-        )
+        turned = "by which the {} has turned".format
+        return signals_of(*((f"{part}_angle", "rad", 1.0, turned(part)) for part in ("cage", "shaft")))
 
     @property
     def initial_state(self) -> Array:

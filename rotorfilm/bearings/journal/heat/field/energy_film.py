@@ -40,14 +40,10 @@ class MeanTemperature:
             *from_center(heating, index[:, 0], flow.central),
         )
         equations = HeatEquations(index.size, heating)
-        own = index[film]
         made = heating.heat_scale * (heating.speed**2 * heating.viscosity * flow.shear + flow.dissipation)
         less = made * heating.thinning
         through = np.maximum(flow.entering, flow.leaving) + less
-        equations.carry(oil)
-        equations.add(own, own, np.where(through > 0.0, through, 1.0)[film])
-        equations.leave_out(~film)
-        equations.right[own] = (made + less * heating.temperature)[film]
+        equations.warm_film(index, oil, through, made + less * heating.temperature)
         bush, journal = _into_walls(equations, heating.diffusion * flow.shear, index)
         line = np.broadcast_to(np.arange(len(index))[:, None], index.shape)
         equations.lose((index, index), bush, journal, line)

@@ -171,7 +171,20 @@ class HeatEquations:
         """Add entries of the matrix, broadcast."""
         self._entries.append([np.ravel(part) for part in np.broadcast_arrays(rows, columns, values)])
 
-    def carry(self, oil: Carried) -> None:
+    def warm_film(self, index: np.ndarray, oil: Carried, through: Array, made: Array) -> None:
+        """Let oil bring its heat to the cells of a film, which lose `through` T [K/s] and get what is made.
+
+        The others, in openings, have no temperature of their own. All are of shape (N, M, ...).
+        """
+        film = self._heating.film
+        own, layers = index[film], (self.size - self.openings) // film.size
+        self._carry(oil)
+        self.add(own, own, np.where(through > 0.0, through, 1.0)[film])
+        places = np.flatnonzero(np.repeat(~film.ravel(), layers))
+        self.add(places, places, 1.0)
+        self.right[own] = made[film]
+
+    def _carry(self, oil: Carried) -> None:
         """Let oil bring its heat along, and mix in openings with fresh oil."""
         opening = self.size - self.openings
         kept = np.where(oil.receiver >= opening, self._heating.carry_over, 1.0)
@@ -183,12 +196,6 @@ class HeatEquations:
             mixed = np.maximum(self._heating.carry_over * taken, given)
             places = np.arange(opening, self.size)
             self.add(places, places, np.where(mixed > 0.0, mixed, 1.0))
-
-    def leave_out(self, cells: np.ndarray) -> None:
-        """Let cells have no temperature of their own, which are in openings: (N, M), of all their layers."""
-        layers = (self.size - self.openings) // cells.size
-        places = np.flatnonzero(np.repeat(cells.ravel(), layers))
-        self.add(places, places, 1.0)
 
     def in_openings(self, x: Array) -> Array:
         """Return the temperatures of the openings."""

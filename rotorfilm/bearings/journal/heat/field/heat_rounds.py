@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .....errors import ConvergenceError, InputError, require_finite, require_inside, require_number
+from .....errors import (
+    ConvergenceError,
+    InputError,
+    require_inside,
+    require_kind,
+    require_number,
+    require_pair,
+)
 from .....inputs.kinds import arguments
 from .....model import Array
 from ....films.conserved.fluidity import Fluidity
@@ -44,6 +51,9 @@ class FilmProfile(Protocol):
 class HeatRounds:
     """Rounds of a film that a subclass solves in `_round`, on cells that `_shape` counts."""
 
+    order: ClassVar[int] = 1
+    """Order of convergence of temperature and power in the size of the cells: heat moves upwind."""
+
     if TYPE_CHECKING:  # fields of a subclass, or its properties
 
         @property
@@ -52,6 +62,12 @@ class HeatRounds:
 
         walls: Walls
         profile: FilmProfile
+
+    def _require_heat(self) -> None:
+        """Raise InputError where a field breaks its rule."""
+        oil_and_cooling(self.bearing)
+        require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
+        require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
 
     def _shape(self) -> tuple[int, int]:
         """Return the number of lines, and of cells on each."""
@@ -137,9 +153,7 @@ class HeatRounds:
         return bool(max(power, force, moved) <= allowed)
 
     def _checked(self, position: ArrayLike, speed: float) -> tuple[Array, float]:
-        q, omega = require_finite("position", position), require_number("speed", speed)
-        if q.shape != (2,):
-            raise InputError(f"position must have shape (2,), got shape {q.shape}")
+        q, omega = require_pair("position", position), require_number("speed", speed)
         if omega == 0.0:
             raise InputError("speed must not be 0 for a film that shear warms, got 0")
         require_inside(q, self.bearing.clearance)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -59,9 +58,6 @@ class HeatedFilm(HeatRounds):
     78
     """
 
-    order: ClassVar[int] = 1
-    """Order of convergence of temperature and power in the size of the cells: heat moves upwind."""
-
     bearing: JournalBearing
     walls: Walls = field(default_factory=AdiabaticWalls)
     cells: tuple[int, int] = (80, 8)
@@ -69,10 +65,8 @@ class HeatedFilm(HeatRounds):
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
-        oil_and_cooling(self.bearing)
+        self._require_heat()
         self.bearing.geometry.require_whole_length("HeatedFilm", "HeatedJFOFilm")
-        require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
-        require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
         require_cells(self.cells)
 
     def cold(self) -> FrozenFilm:

@@ -67,11 +67,7 @@ class LayeredTemperature:
         drawn[:, -1] = np.maximum(-axial[:, -1], 0.0)
         arriving = np.bincount(oil.receiver, oil.amount, equations.size)[index]
         through = arriving + fresh + drawn + less
-        own = index[film]
-        equations.carry(oil)
-        equations.add(own, own, np.where(through > 0.0, through, 1.0)[film])
-        equations.leave_out(~film)
-        equations.right[own] = (made + less * heating.temperature)[film]
+        equations.warm_film(index, oil, through, made + less * heating.temperature)
         bush, journal = self._conduct(equations, heating, index)
         x = equations.solve()
         T = x[index]
