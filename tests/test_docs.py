@@ -35,7 +35,14 @@ def test_a_search_for_a_machine_element_leads_to_the_page(term):
     assert re.search(rf"\b{re.escape(term)}", ELEMENTS, re.IGNORECASE), term
 
 
-KNOWN = {*rotorfilm.__all__, *charts.__all__, "cage", "supply_pressure", "blade_loss_peak"}
+KNOWN = {
+    *rotorfilm.__all__,
+    *charts.__all__,
+    "cage",
+    "supply_pressure",
+    "blade_loss_peak",
+    "peak_displacement",
+}
 """What an answer may name: public names, and a few arguments and quantities."""
 
 

@@ -9,7 +9,6 @@ if TYPE_CHECKING:
         Campbell as Campbell,
         CriticalSpeed as CriticalSpeed,
         campbell as campbell,
-        critical_speed_map as critical_speed_map,
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
     )
@@ -48,6 +47,7 @@ if TYPE_CHECKING:
     from .certified.stability_curve import StabilityCurve as StabilityCurve
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
     from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients
+    from .critical.speed_map import critical_speed_map as critical_speed_map
     from .critical_mass import (
         CountedMass as CountedMass,
         CriticalMass as CriticalMass,

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from rotorfilm import ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
+from rotorfilm import AnnularSeal, ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
 from rotorfilm.questions.registry import ladder_of
 from rotorfilm.questions.shaft import shaft_peaks
 from rotorfilm.questions.shaft.shaft_peaks import largest_distance
 from rotorfilm.rotors.shaft.shaft_models import split
 from rotorfilm.scenes import read_scene
+from rotorfilm.scenes.shaft.shaft_parts import BearingTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPRING = {"stiffness": 2e7, "damping": 4e3}
@@ -137,3 +138,15 @@ def test_a_run_that_touches_judges_nothing(monkeypatch):
     told = rung.estimate(found, None, 0.1)
     assert told.error == math.inf
     assert "touches" in told.doubt
+
+
+def test_a_seal_runs_without_its_mass_and_says_so():
+    scene = asked(0.1, RUN_UP, springs=True, unbalances=[])
+    gap = AnnularSeal(
+        radius=0.06, length=0.02, clearance=9e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0
+    )
+    ring = BearingTable(name="ring", node=1, seal=gap)
+    sealed = replace(scene, shaft=replace(scene.shaft, bearings=(*scene.shaft.bearings, ring)))
+    ladder = ladder_of(sealed)
+    assert ladder.remarks == ("ring: the added mass of the seal, in runs over time",)
+    assert ladder.rungs[0].answer(None).value > 0.0

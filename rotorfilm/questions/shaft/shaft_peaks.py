@@ -173,11 +173,12 @@ def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
 
 def _thicker(films: ShaftFilms, share: float) -> dict[str, Reaction]:
     """Return the bearings with so many times the viscosity of their oil."""
-    thick = {
-        name: replace(film.reaction, viscosity=share * film.reaction.viscosity)
-        for name, film in films.journals.items()
-    }
-    return {**films.springs, **thick}
+    thick = dict(films.springs)
+    for name, film in films.journals.items():
+        viscosity = film.reaction.viscosity
+        assert viscosity is not None  # films on an oil are refused
+        thick[name] = replace(film.reaction, viscosity=share * viscosity)
+    return thick
 
 
 def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -191,8 +192,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
-    scene, given = _with_loss(scene), scene.shaft
-    assert scene.shaft is not None
+    given, scene = scene.shaft, _with_loss(scene)
     rotor, levels = _rotor(scene), tuple(map(_massless, film_levels(given)))
     if levels[0].on_oil:
         raise InputError(

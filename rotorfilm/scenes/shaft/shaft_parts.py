@@ -199,6 +199,7 @@ class BearingTable:
     stiffness : float [N/m] or 2 x 2 numbers, or None
     damping : float [N s/m] or 2 x 2 numbers
     seal : AnnularSeal or None
+        With its added mass, which a run over time leaves out.
     support : Support or None
         Its housing; rigid unless given.
     """
