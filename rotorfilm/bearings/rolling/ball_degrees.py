@@ -16,6 +16,7 @@ from ...errors import (
     require_number,
     warn_user,
 )
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
@@ -108,6 +109,7 @@ class BallDegrees(ABC):
         """
         return self._loads(self._at(displacement, speed))
 
+    @arguments
     def rest(self, load: ArrayLike, speed: float = 0.0, *, start: ArrayLike | None = None) -> BallRest:
         """Return the equilibrium under a load in five degrees: wrench + load = 0.
 

@@ -127,9 +127,8 @@ class RestEquations:
 
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
-        with warnings.catch_warnings():
-            # A state that the search only passes through is nobody's answer; that of the result is warned of.
-            warnings.simplefilter("ignore", ValidityWarning)
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             with suppress(EquilibriumError):
                 return self.solve(q, p, 1.0)
             if all(self.tilting):

@@ -284,3 +284,10 @@ def test_quantities_with_units():
         law=StaticBalls(),
     )
     assert same.wrench((0.0, -9e-6, 0.0, 0.0, 0.0)) == pytest.approx(DEEP.wrench((0.0, -9e-6, 0.0, 0.0, 0.0)))
+
+
+def test_the_speed_of_a_rest_takes_its_unit():
+    as_number = PUBLISHED.rest((0.0, 0.0, 500.0, 0.0, 0.0), 1500.0 * math.pi / 30.0).displacement
+    np.testing.assert_allclose(
+        PUBLISHED.rest((0.0, 0.0, 500.0, 0.0, 0.0), "1500 rpm").displacement, as_number
+    )
