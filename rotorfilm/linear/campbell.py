@@ -163,8 +163,8 @@ def critical_speeds(
         If there is no equilibrium at one of the speeds, or between them.
     ConvergenceError
         Of intervals in which the list cannot be proven complete, as where coefficients of a bearing jump and
-        a whirl is slower than the rotation on one side only; the message names the likely cause. `partial` has
-        those found in all of the range. So has that of a search that takes too many equilibria.
+        a whirl is slower than the rotation on one side only, or of a search that takes too many equilibria;
+        the message names the likely cause. `partial` has those found in all of the range.
 
     Notes
     -----
@@ -178,10 +178,10 @@ def critical_speeds(
     The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
     solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
     as the parabola through both ends and the middle, and on films that remember, `JFOFilm`, for whirls with
-    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same is
-    proven of straight ways from one side to the other: no whirl on them may have the frequency of the
-    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number is checked in all
-    coordinates besides, by Sylvester's law of inertia.
+    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
+    is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
+    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
+    is checked in all coordinates besides, by Sylvester's law of inertia.
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)

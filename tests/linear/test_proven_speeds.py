@@ -125,7 +125,9 @@ def test_a_search_ends_with_what_it_found(monkeypatch):
     """Without an allowance for more equilibria."""
     monkeypatch.setattr(searching, "MOST", 4)
     monkeypatch.setattr(searching, "MOST_PER_STEP", 0)
-    with pytest.raises(ConvergenceError, match=r"not between .* with 4 equilibria.* The 2 that were") as raised:
+    with pytest.raises(
+        ConvergenceError, match=r"not between .* with 4 equilibria.* The 2 that were"
+    ) as raised:
         critical_speeds(bouncing(), stiffening(98.0, 107.0), [95.0, 100.0, 103.0, 170.0])
     assert_allclose([one.speed for one in raised.value.partial], [98.0, 98.0], rtol=2e-5)
 

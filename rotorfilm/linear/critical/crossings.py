@@ -182,9 +182,9 @@ class _Search:
             jumps = [jump for step in self.unproven for jump in self._jumps(*step)]
             cause = "; ".join(jumps[:3]) or "whirls change too fast with the speed there"
         return (
-            f"the list of critical speeds must be proven complete, and was not between {where} rad/s: {cause}. "
-            f"The {count} that were found are the partial result; take closer speeds there, or leave the "
-            "interval out"
+            "the list of critical speeds must be proven complete, and was not between "
+            f"{where} rad/s: {cause}. The {count} that were found are the partial result; take closer speeds "
+            "there, or leave the interval out"
         )
 
     def _jumps(self, low: float, high: float) -> Iterator[str]:
@@ -198,8 +198,8 @@ class _Search:
             of = max(changes, key=lambda kind: changes[kind])
             if changes[of] > JUMP:
                 yield (
-                    f"the {of} of the bearing at {name!r} jumps there by {100.0 * changes[of]:.2g} %, as where "
-                    "a pad or a part of a film gains or loses its load"
+                    f"the {of} of the bearing at {name!r} jumps there by {100.0 * changes[of]:.2g} %, as "
+                    "where a pad or a part of a film gains or loses its load"
                 )
 
     def _rests(self, low: float, middle: float, high: float) -> Rests:

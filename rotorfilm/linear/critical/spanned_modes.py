@@ -196,7 +196,7 @@ class Leap(SpannedModes):
 
     @cached_property
     def systems(self) -> tuple[SecondOrder, ...]:
-        """Equations of small motion at the ends and in the middle of the part, as synchronous motion has them."""
+        """Equations of small motion at the ends and in the middle of the part, of synchronous motion."""
         first, last = (synchronous(self.model.structure, at) for at in (self.rests[0], self.rests[2]))
         shares = self.part[0], 0.5 * (self.part[0] + self.part[1]), self.part[1]
         return tuple(

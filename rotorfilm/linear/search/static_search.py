@@ -18,7 +18,9 @@ _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _NEUTRAL = 1e-11
 _LARGEST_MOVE = (6.0, 1.0)
-_HALVINGS = 26  # the load of a tilting pad begins as the root of the way: steps beyond its edge are far too long
+_HALVINGS = (
+    26  # the load of a tilting pad begins as the root of the way: steps beyond its edge are far too long
+)
 _ACROSS = (0.1, 0.2, 0.4, 0.8)
 _LESS = 1.4
 
