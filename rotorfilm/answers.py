@@ -22,7 +22,7 @@ DISAGREEMENT = 0.3
 """Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
 
 
-class LeftOut(str):
+class LeftOutRemark(str):
     """A remark on what all rungs leave out, with how much that is beside the answer.
 
     Attributes
@@ -51,7 +51,7 @@ def physics_within(within: str, remarks: Iterable[str], tolerance: float) -> str
     """Return in which physics a tolerance is meant, and what is left out of it that is more than that."""
     larger: dict[str, float] = {}
     for one in remarks:
-        if isinstance(one, LeftOut) and one.size > tolerance:
+        if isinstance(one, LeftOutRemark) and one.size > tolerance:
             larger[one.name] = max(one.size, larger.get(one.name, 0.0))
     if not within or not larger:
         return within

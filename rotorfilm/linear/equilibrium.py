@@ -63,7 +63,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Equilibrium
         With |film force + load| <= 1e-12 |load|, or what roundoff allows; of tilting pads a `PadEquilibrium`.
         A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
-        above a tenth of the bulk modulus of a mineral oil.
+        above half of the bulk modulus of a mineral oil.
 
     Raises
     ------

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ..answers import LeftOut
+from ..answers import LeftOutRemark
 
 
 class Remark(NamedTuple):
@@ -32,9 +32,9 @@ class Remark(NamedTuple):
     moves: str = ""
 
     def line(self, numbers: Mapping[str, float]) -> str:
-        """Return the text with its numbers; a `LeftOut` where they tell how much it moves an answer."""
+        """Return the text with its numbers; a `LeftOutRemark` where they tell how much it moves an answer."""
         text = self.text.format_map(numbers)
-        return LeftOut(text, self.moves, float(numbers[self.number])) if self.moves else text
+        return LeftOutRemark(text, self.moves, float(numbers[self.number])) if self.moves else text
 
     def applies(self, numbers: Mapping[str, float]) -> bool:
         """Return whether the limit is passed; not-a-number passes none."""
@@ -49,4 +49,4 @@ def said(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, 
 
 def prefixed(prefix: str, lines: Iterable[str]) -> list[str]:
     """Return lines with a text before each; what they say of their size stays."""
-    return [line.prefixed(prefix) if isinstance(line, LeftOut) else f"{prefix}{line}" for line in lines]
+    return [line.prefixed(prefix) if isinstance(line, LeftOutRemark) else f"{prefix}{line}" for line in lines]

@@ -11,10 +11,10 @@ from ..film_units import FilmUnits
 BULK_MODULUS = 1.5e9
 """Of a mineral oil [Pa], pressure per relative change of volume."""
 
-MOST = 0.1
-"""Compression by the mean pressure from which a film without it is no answer.
+MOST = 0.5
+"""Compression by the mean pressure from which a film without it is no answer, whatever the oil.
 
-Oil is a tenth denser then, and more than ten times as viscous; bearings carry a tenth of that.
+Bearings carry a hundredth of that. Scenes, which know their oil, tell of less.
 """
 
 

@@ -175,7 +175,8 @@ class Leap(SpannedModes):
 
     Parameters
     ----------
-    model, rests
+    model : Condensed
+    rests : tuple of three RotorEquilibrium
         As of `SpannedModes`: the jump is between the ends.
     part : (float, float) [1]
         Shares of the way at which the part begins and ends.
