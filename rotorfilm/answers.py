@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 from .readable.result import Drawable, Readable
 
@@ -20,6 +20,43 @@ SAFETY = 1.5
 
 DISAGREEMENT = 0.3
 """Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
+
+
+class LeftOutRemark(str):
+    """A remark on what all rungs leave out, with how much that is beside the answer.
+
+    Attributes
+    ----------
+    name : str
+        What is left out, as "heat".
+    size : float [1]
+        What it changes of viscosity, density or film, relative to that: as much as it may move the answer.
+    """
+
+    name: str
+    size: float
+
+    def __new__(cls, text: str, name: str = "", size: float = 0.0) -> Self:
+        """Return the remark."""
+        made = super().__new__(cls, text)
+        made.name, made.size = name, size
+        return made
+
+    def prefixed(self, prefix: str) -> Self:
+        """Return the remark with a text before it."""
+        return type(self)(f"{prefix}{self}", self.name, self.size)
+
+
+def physics_within(within: str, remarks: Iterable[str], tolerance: float) -> str:
+    """Return in which physics a tolerance is meant, and what is left out of it that is more than that."""
+    larger: dict[str, float] = {}
+    for one in remarks:
+        if isinstance(one, LeftOutRemark) and one.size > tolerance:
+            larger[one.name] = max(one.size, larger.get(one.name, 0.0))
+    if not within or not larger:
+        return within
+    named = " and ".join(f"{name} (up to {size:.0%})" for name, size in larger.items())
+    return f"{within}; but {named} {'are' if len(larger) > 1 else 'is'} left out"
 
 
 @dataclass(frozen=True)
@@ -171,7 +208,8 @@ class QuestionAnswer(Drawable):
     remarks : tuple of str
         Limits of the physics of all rungs, in dimensionless numbers.
     within : str
-        The physics in which the tolerance is meant, such as "isothermal films".
+        The physics in which the tolerance is meant, such as "isothermal films"; and what else is left out,
+        if that is more than the tolerance: "isothermal films; but heat (up to 40%) is left out".
     assumptions : tuple of str
         Figures that nobody gave and the answer rests on, and how much they move it.
     """

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import ConvergenceError
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
-from .critical.crossings import crossings
+from .critical.crossings import Crossing, crossings
 from .large.likeness import matches
 from .large.work import COUNTS, CountedTuple, counted
 from .rotor_modes import (
@@ -158,8 +159,9 @@ def critical_speeds(
     EquilibriumError
         If there is no equilibrium at one of the speeds, or between them.
     ConvergenceError
-        Of an interval in which the list cannot be proven complete, as where coefficients of a bearing jump
-        and a whirl is slower than the rotation on one side only. `partial` has those found before.
+        Of intervals in which the list cannot be proven complete, as where coefficients of a bearing jump and
+        a whirl is slower than the rotation on one side only, or of a search that takes too many equilibria;
+        the message names the likely cause. `partial` has those found in all of the range.
 
     Notes
     -----
@@ -173,15 +175,24 @@ def critical_speeds(
     The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
     solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
     as the parabola through both ends and the middle, and on films that remember, `JFOFilm`, for whirls with
-    |Re s| up to three times the speed. Where K and C jump, whirls are counted on both sides. Without damping,
-    and with a stiffness that is symmetric and the same at all speeds, the number is checked in all
-    coordinates besides, by Sylvester's law of inertia.
+    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
+    is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
+    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
+    is checked in all coordinates besides, by Sylvester's law of inertia.
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)
     with counted(*COUNTS) as work:
-        found = crossings(rotor, bearings, grid)
-    listed = [
+        try:
+            found = crossings(rotor, bearings, grid)
+        except ConvergenceError as failure:
+            failure.partial = CountedTuple(_listed(rotor, failure.partial or ()), work)
+            raise
+    return CountedTuple(_listed(rotor, found), work)
+
+
+def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpeed]:
+    return [
         CriticalSpeed(
             speed=one.speed,
             log_decrement=float(log_decrement(one.value)),
@@ -189,7 +200,6 @@ def critical_speeds(
         )
         for one in found
     ]
-    return CountedTuple(listed, work)
 
 
 def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.contact_place import WalledReaction, relative_film
+from ..bearings.oil.compression import warn_of_pressure
 from ..errors import (
     EquilibriumError,
     InputError,
@@ -42,6 +43,8 @@ UNLOADED = (
 
 _KELVIN = 4e-12
 _FIRST_ANGLE = math.pi / 3.0
+_ALONG, _NEAR_WALL = 0.1, 0.02
+"""Angle to the load, and part of the room that is left, of a force that is the most that a film carries."""
 
 
 @arguments
@@ -61,14 +64,16 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     -------
     Equilibrium
         With |film force + load| <= 1e-12 |load|, or what roundoff allows; of tilting pads a `PadEquilibrium`.
+        A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
+        above half of the bulk modulus of a mineral oil.
 
     Raises
     ------
     InputError
         If an argument is not finite or has the wrong shape, or the load is zero.
     EquilibriumError
-        If the load is beyond what the film carries at eccentricity ratio 0.9999, if the film carries
-        nothing (no wedge at zero speed), or if the search does not converge.
+        If the load is beyond what the film carries at eccentricity ratio 0.9999, or where pads touch, if the
+        film carries nothing (no wedge at zero speed), or if the search does not converge.
 
     Notes
     -----
@@ -80,6 +85,13 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     require_reaction("reaction", reaction, JournalForce, heavy=True)
     load = checked_load(load)
     speed = require_number("speed", speed)
+    found = _found(reaction, load, speed)
+    warn_of_pressure(reaction, load)
+    return found
+
+
+def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium of checked arguments."""
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
     at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
@@ -109,7 +121,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     rises, so that there is one root, between the coldest film and about what that one warms to.
     """
     if bearing.balanced() is not None:
-        at = equilibrium(bearing.balanced(), load, speed)
+        at = _found(bearing.balanced(), load, speed)
         temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     from scipy.optimize import brentq
@@ -117,7 +129,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     warmed: dict[float, Equilibrium] = {}
 
     def excess(temperature: float) -> float:
-        warmed[temperature] = at = equilibrium(bearing.at_temperature(temperature), load, speed)
+        warmed[temperature] = at = _found(bearing.at_temperature(temperature), load, speed)
         warmer = bearing.balanced_temperature(at.position, np.zeros(2), speed) - temperature
         return warmer if abs(warmer) > _KELVIN else 0.0
 
@@ -179,6 +191,12 @@ def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
         return (
             f"load must be within the film's capacity at speed {speed!r} rad/s: the film force at "
             f"eccentricity ratio {MAXIMUM_ECCENTRICITY} is {limit:.6g} N, {given}"
+        )
+    if best.ratio < 0.0 and abs(best.angle) < _ALONG and math.exp(-best.s) < _NEAR_WALL:
+        # As on pads, which touch before the journal has used all of its room.
+        return (
+            f"load must be within the film's capacity at speed {speed!r} rad/s: the largest film force found "
+            f"is {math.exp(best.ratio) * math.hypot(*load):.6g} N, at {list(best.position)} m, {given}"
         )
     return (
         f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: "

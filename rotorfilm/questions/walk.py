@@ -22,6 +22,7 @@ from ..answers import (
     RungReport,
     Work,
     WorkUnit,
+    physics_within,
 )
 from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
 from ..ladders import Ladder, Rung
@@ -240,7 +241,7 @@ def _answer(
         next_cost=next_cost if math.isfinite(next_cost) else None,
         rungs=(*reports, *waiting),
         remarks=ladder.remarks,
-        within=ladder.within,
+        within=physics_within(ladder.within, ladder.remarks, tolerance),
         assumptions=ladder.assumptions(),
     )
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Protocol, Self
 
 from ..bearings.oil import Cooling, Oil
+from ..bearings.oil.compression import BULK_MODULUS
 from ..bearings.oil.oil import grade_number
 from ..errors import InputError, SceneError, brief, require_non_negative, require_positive
 from ..units import CELSIUS
@@ -45,7 +46,7 @@ class Lubricant:
     heat_capacity: float = 2000.0
     conductivity: float = 0.15
     thinning: float = 0.04
-    bulk_modulus: float = 1.5e9
+    bulk_modulus: float = BULK_MODULUS
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,6 +7,9 @@ from hypothesis import given, settings, strategies as st
 from rotorfilm.errors import FilmContactError, InputError
 from rotorfilm.linear import coefficients, equilibrium
 
+pytestmark = pytest.mark.filterwarnings("ignore:load .* makes a mean pressure")
+"""Closed forms near the wall, in SI units of a film that bears more than any oil."""
+
 SPEED = 1500 * math.pi / 30
 
 

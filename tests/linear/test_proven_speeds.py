@@ -2,7 +2,7 @@
 
 import math
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 from scipy.linalg import eigh
 
-from rotorfilm import ConvergenceError
+from rotorfilm import ConvergenceError, TiltingPadBearing, UnloadedPadWarning, even_pivots
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.linear import (
@@ -33,7 +33,15 @@ from rotorfilm.linear.large.inertia_count import negative_count
 from rotorfilm.linear.large.left_out import LeftOut
 from rotorfilm.linear.large.second_order import small_motion
 from rotorfilm.linear.rotor_rest import rest
-from rotorfilm.rotors import JeffcottRotor, RigidShaft
+from rotorfilm.rotors import (
+    Disk,
+    ElasticMaterial,
+    JeffcottRotor,
+    RigidShaft,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+)
 
 from .test_big_rotors import FILMS, SPRINGS, long_rotor
 
@@ -78,6 +86,84 @@ def test_whirls_that_only_come_near_the_rotation_are_none():
     found = critical_speeds(bouncing(), {"left": film, "right": film}, [30.0, 170.0])
     assert found == ()
     assert found.work["eigenproblems"] > 2
+
+
+@dataclass(frozen=True)
+class JumpingSpring:
+    """A spring that is another one from a speed on, as no table is."""
+
+    before: float
+    after: float
+    at: float
+    clearance: float = math.inf
+
+    def stiffness(self, speed):
+        return self.before if speed < self.at else self.after
+
+    def force(self, position, velocity, speed):
+        return -self.stiffness(speed) * np.asarray(position)
+
+    def jacobian(self, position, velocity, speed):
+        return np.hstack([-self.stiffness(speed) * np.eye(2), np.zeros((2, 3))])
+
+
+@pytest.mark.closed_form
+def test_a_whirl_that_leaps_over_the_rotation_is_told_beside_those_that_cross():
+    """The bounce has sqrt(2 k / m): 50 before 100 rad/s, then 120. It crosses twice and leaps between."""
+    spring = JumpingSpring(10.0 * 50.0**2, 10.0 * 120.0**2, 100.0)
+    with pytest.raises(ConvergenceError, match=r"stiffness of the bearing at 'left' jumps there") as raised:
+        critical_speeds(bouncing(), {"left": spring, "right": spring}, [30.0, 170.0])
+    found = raised.value.partial
+    assert_allclose([one.speed for one in found], [50.0, 50.0, 120.0, 120.0], rtol=1e-9)
+    assert found.work["equilibria"] > 2
+
+
+@pytest.mark.closed_form
+def test_a_whirl_that_leaps_on_one_side_of_the_rotation_is_none():
+    spring = JumpingSpring(10.0 * 50.0**2, 10.0 * 90.0**2, 100.0)
+    found = critical_speeds(bouncing(), {"left": spring, "right": spring}, [30.0, 170.0])
+    assert_allclose([one.speed for one in found], [50.0, 50.0], rtol=1e-9)
+
+
+def test_a_search_ends_with_what_it_found(monkeypatch):
+    """Without an allowance for more equilibria."""
+    monkeypatch.setattr(searching, "MOST", 4)
+    monkeypatch.setattr(searching, "MOST_PER_STEP", 0)
+    with pytest.raises(
+        ConvergenceError, match=r"not between .* with 4 equilibria.* The 2 that were"
+    ) as raised:
+        critical_speeds(bouncing(), stiffening(98.0, 107.0), [95.0, 100.0, 103.0, 170.0])
+    assert_allclose([one.speed for one in raised.value.partial], [98.0, 98.0], rtol=2e-5)
+
+
+@pytest.mark.closed_form
+def test_tilting_pads_of_which_one_is_loaded_first_leave_the_list_proven():
+    """C jumps by a tenth where the upper pad gets a film, at 143.94 rad/s; the whirls are near 270."""
+    steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=1.5, outer_diameter=0.08, material=steel).split(6),
+        disks=(Disk(node=3, mass=50.0, polar_inertia=0.6, diametral_inertia=0.3),),
+        stations=(Station(node=0, name="left"), Station(node=6, name="right")),
+        speed=0.0,
+    )
+    pads = TiltingPadBearing(
+        radius=0.04,
+        length=0.04,
+        assembled_clearance=7e-5,
+        preload=0.3,
+        extent=math.pi / 3.0,
+        viscosity=0.02,
+        pivots=even_pivots(5, between_pads=True),
+    )
+    films = dict.fromkeys(("left", "right"), pads)
+    with pytest.warns(UnloadedPadWarning):
+        found = critical_speeds(rotor, films, [143.9, 144.0])
+    assert found == ()
+    assert found.work["eigenproblems"] > 14
+    with pytest.warns(UnloadedPadWarning):
+        below = rotor_equilibrium(rotor, films, 143.9).coefficients["left"]
+    above = rotor_equilibrium(rotor, films, 144.0).coefficients["left"]
+    assert above.damping[1, 1] > 1.1 * below.damping[1, 1]
 
 
 @pytest.mark.closed_form

@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm.bearings.pads import TiltingPadBearing, even_pivots
 from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.linear import equilibrium, rotor_equilibrium
 from rotorfilm.motion import simulate
@@ -50,6 +51,26 @@ def test_two_bearings_share_the_weight_by_the_lever():
         alone = equilibrium(film, at.loads[name], SPEED)
         assert_allclose(at.coefficients[name].position, alone.position, rtol=1e-7)
     assert at.residual < 1e-9
+
+
+@pytest.mark.closed_form
+def test_a_rotor_on_tilting_pads_rests_where_each_journal_does_alone():
+    """Pads that follow take no journal aside; held at the tilts of a centered journal they would."""
+    pads = TiltingPadBearing(
+        radius=0.05,
+        length=0.05,
+        assembled_clearance=7e-5,
+        preload=0.3,
+        extent=np.pi / 3.0,
+        viscosity=0.02,
+        pivots=even_pivots(5, between_pads=True),
+    )
+    for near in (SPEED, 1.5 * SPEED):
+        at = rotor_equilibrium(shaft(), {"left": pads, "": WIDE}, near)
+        place = at.coefficients["left"].position
+        assert abs(place[0]) < 1e-9 * abs(place[1])
+        assert_allclose(pads.at_rest().force(place, [0.0, 0.0], near), -at.loads["left"], atol=1e-6)
+        assert_allclose(place, equilibrium(pads, at.loads["left"], near).position, atol=1e-12)
 
 
 @pytest.mark.closed_form

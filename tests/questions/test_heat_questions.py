@@ -1,6 +1,7 @@
 """Questions about journals on an oil: which thermal rung answers, how far it is off, and what it assumes."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -195,10 +196,25 @@ def test_scene_with_a_viscosity_knows_nothing_of_the_oil():
     scene, bare = plain("eccentricity_ratio", own=own), plain("eccentricity_ratio", oil="", own=own)
     answer, other = scene.ask(), bare.ask()
     assert (answer.value, answer.error_estimate, answer.model) == (other.value, other.error_estimate, "map")
-    assert answer.within == "isothermal films"
+    assert re.fullmatch(r"isothermal films; but heat \(up to \d\d%\) is left out", answer.within)
     assert not answer.assumptions
     with pytest.raises(InputError, match="lubricant must give the oil"):
         ladder_of(plain("temperature", own=own))
+
+
+def test_what_is_left_out_beyond_the_tolerance_is_told_beside_it():
+    """1.5625 GPa of mean pressure on a bulk modulus of 1.5 GPa, and hardly a cooler film than none."""
+    text = (
+        "schema = 1\n[journal]\ndiameter = '80 mm'\nlength = '40 mm'\nclearance = '60 um'\n"
+        "viscosity = '20 mPa s'\n[operation]\nspeed = '1500 rpm'\nload = '5000 kN'\n"
+        "[question]\nquantity = 'eccentricity_ratio'\ntolerance = {}\n"
+    )
+    answer = parse_scene(text.format("0.02"), "test").ask()
+    within = "isothermal films; but heat (up to 100%) and compressibility (up to 104%) are left out"
+    assert (answer.met, answer.within) == (True, within)
+    assert f"meets the tolerance 0.02 within {within}: " in answer.message
+    loose = parse_scene(text.format("'103 %'"), "test").ask()
+    assert loose.within == "isothermal films; but compressibility (up to 104%) is left out"
 
 
 def test_temperatures_are_judged_by_their_rise():

@@ -13,7 +13,6 @@ from ...errors import (
     InputError,
     require_tuple,
     require_vector,
-    warn_user,
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
@@ -22,13 +21,13 @@ from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
 from ...results import BearingLosses
-from ..films.kernel_film import BoundKernel, continued
+from ..films.kernel_film import BoundKernel
 from ..reaction import FilmReaction, broadcast_state
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
 from .pad_bearing import PadBearing
-from .pad_film import PadFilm, PadMapFilm, require_pad_film
+from .pad_film import PadFilm, PadMapFilm, require_pad_film, warn_beyond_map
 from .pad_losses import LossyPadFilm
 
 _WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -67,9 +66,7 @@ class BoundLobes(BoundKernel):
     def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
         """Raise, or warn, about a state that has this status."""
         if status == Status.OUTSIDE:
-            films = ", ".join(f"{film:.3g}" for film in self.films(np.array([x, y])))
-            how = continued(self.kernel.film)
-            warn_user(f"least films of {films} m are beyond the map of a pad; its force is {how}")
+            warn_beyond_map(self.films(np.array([x, y])), self.kernel.film)
         else:
             super().report(status, x, y, vx, vy, speed)
 

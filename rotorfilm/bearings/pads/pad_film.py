@@ -9,9 +9,10 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ...errors import require_kind
+from ...errors import require_kind, warn_user
 from ...native.film_kernels import FilmKernel
 from ...progress import Report, silent
+from ..films.kernel_film import continued
 from ..films.ring.ring_grids import require_cells
 from .pad_build import FINE, PadResolution
 from .pad_grid import CELLS, pad_grid
@@ -155,3 +156,9 @@ def require_pad_film(film: PadFilm, extents: Iterable[float], slenderness: float
     if isinstance(film, PadMapFilm):
         for extent in extents:
             film.require_shape(extent, slenderness)
+
+
+def warn_beyond_map(least_films: Iterable[float], kernel: FilmKernel) -> None:
+    """Warn that a pad is beyond the map of its film, with the least film on each pad [m]."""
+    films = ", ".join(f"{film:.3g}" for film in least_films)
+    warn_user(f"least films of {films} m are beyond the map of a pad; its force is {continued(kernel)}")

@@ -17,9 +17,8 @@ from ...rotors.structure import Structure
 from ..large.condensed import TOLERANCE, Condensed, exact_structure, models
 from ..large.inverse_iteration import CONVERGED, PATIENCE, ROUNDED, dynamics, inverse_steps
 from ..large.second_order import motion_near
-from ..large.work import tally
 from ..rotor_rest import RotorEquilibrium, rest
-from .spanned_modes import SWINGS, CrossingCandidate, SpannedModes, synchronous
+from .spanned_modes import CrossingCandidate, Leap, Rests, SpannedModes
 from .sylvester import require_all_undamped
 
 REACH = 1.5
@@ -28,8 +27,17 @@ REACH = 1.5
 HALVINGS = 14
 """How often a step is halved in which the way of a whirl is not proven.
 
-What is left then is so short that only coefficients that jump explain it: whirls are counted at its ends.
+What is left then is so short that only coefficients that jump explain it: see `Leap`.
 """
+
+LEAP_HALVINGS = 12
+"""How often the way from one side of a jump to the other is halved."""
+
+MOST, MOST_PER_STEP = 5000, 100
+"""Rests of one search, beside those of each step of speeds."""
+
+JUMP = 1e-3
+"""Relative change of K or C of a bearing within a step that was halved so often, from which it is a jump."""
 
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
@@ -58,7 +66,7 @@ def crossings(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Ar
     Raises
     ------
     ConvergenceError
-        Of a step in which the way of a whirl cannot be proven, with those found before.
+        Of steps in which the way of a whirl cannot be proven, with those found in all of the range.
     """
     top = float(np.abs(speeds).max())
     grid = np.unique(np.append(speeds, 0.0)) if speeds.min() < 0.0 < speeds.max() else np.sort(speeds)
@@ -98,6 +106,11 @@ class _Search:
         return {}
 
     @cached_property
+    def unproven(self) -> list[tuple[float, float]]:
+        """Intervals of speed in which there may be more crossings."""
+        return []
+
+    @cached_property
     def exact(self) -> Structure:
         """All of the matrices of the rotor."""
         return exact_structure(self.rotor)
@@ -111,44 +124,92 @@ class _Search:
         return self.known[speed]
 
     def over(self, grid: Array) -> list[Crossing]:
-        """Return the crossings between the speeds of a rising grid."""
+        """Return the crossings between the speeds of a rising grid.
+
+        Raises
+        ------
+        ConvergenceError
+            Of what is not proven, with the crossings found in all of the range.
+        """
         found: list[Crossing] = []
+        most = MOST + MOST_PER_STEP * len(grid)
         for low, high in pairwise(grid.tolist()):
-            for one in self._between(low, high, HALVINGS, found):
+            for one in self._between(low, high, HALVINGS, most):
                 if abs(one.speed) > LEAST * self.top:
                     found.append(one)
-        return sorted(found, key=lambda one: one.speed)
+        found.sort(key=lambda one: one.speed)
+        if self.unproven:
+            raise ConvergenceError(self._doubt(len(found), most), partial=tuple(found))
+        return found
 
-    def _between(self, low: float, high: float, halvings: int, before: list[Crossing]) -> Iterator[Crossing]:
+    def _between(self, low: float, high: float, halvings: int, most: int) -> Iterator[Crossing]:
         """Yield the crossings of a step, or of its halves where not all of their ways are proven."""
+        if len(self.known) > most:
+            self._leave(low, high)
+            return
         middle = 0.5 * (low + high)
         found = self._proven(low, middle, high)
         if found is not None:  # one at the end is that of the next step too
             yield from (one for one in found if high == self.end or high - one.speed > NEAR * self.top)
-            return
-        if not halvings:
-            # K and C of a film jump here, and no whirl comes by.
-            if self._faster(low) == self._faster(high):
-                return
-            raise ConvergenceError(
-                f"the list of critical speeds must be proven complete, and was not between {low:.9g} and "
-                f"{high:.9g} rad/s: take closer speeds there, or leave the interval out",
-                partial=tuple(before),
-            )
-        yield from self._between(low, middle, halvings - 1, before)
-        yield from self._between(middle, high, halvings - 1, before)
+        elif halvings:
+            yield from self._between(low, middle, halvings - 1, most)
+            yield from self._between(middle, high, halvings - 1, most)
+        elif self._may_leap(self._rests(low, middle, high), (0.0, 1.0), LEAP_HALVINGS):
+            self._leave(low, high)
 
-    def _faster(self, speed: float) -> int:
-        """Return how many whirls are faster than the rotation, and decay or grow slowly."""
-        tally("eigenproblems")
-        values = np.linalg.eigvals(synchronous(self.model.structure, self.at(speed)).state_matrix())
-        slow = np.abs(values.real) <= SWINGS * abs(speed)
-        return int(np.sum(slow & (values.imag > abs(speed))))
+    def _may_leap(self, rests: Rests, part: tuple[float, float], halvings: int) -> bool:
+        """Return whether a whirl may have the frequency of the rotation on a part of the way over a jump."""
+        told = Leap(self.model, rests, part).candidates()
+        if told is not None and not told[0]:
+            return False
+        middle = 0.5 * (part[0] + part[1])
+        return not halvings or any(
+            self._may_leap(rests, half, halvings - 1) for half in ((part[0], middle), (middle, part[1]))
+        )
+
+    def _leave(self, low: float, high: float) -> None:
+        """Note that an interval is not proven."""
+        if self.unproven and self.unproven[-1][1] == low:
+            low = self.unproven.pop()[0]
+        self.unproven.append((low, high))
+
+    def _doubt(self, count: int, most: int) -> str:
+        """Return what is not proven, the likely cause, and what is known all the same."""
+        where = ", ".join(f"{low:.9g} and {high:.9g}" for low, high in self.unproven[:3])
+        if len(self.known) > most:
+            cause = f"whirls change too fast with the speed to follow them with {most} equilibria"
+        else:
+            jumps = [jump for step in self.unproven for jump in self._jumps(*step)]
+            cause = "; ".join(jumps[:3]) or "whirls change too fast with the speed there"
+        return (
+            "the list of critical speeds must be proven complete, and was not between "
+            f"{where} rad/s: {cause}. The {count} that were found are the partial result; take closer speeds "
+            "there, or leave the interval out"
+        )
+
+    def _jumps(self, low: float, high: float) -> Iterator[str]:
+        """Yield what is to be said of each bearing whose coefficients jump between two speeds."""
+        first, last = (self.at(speed).coefficients for speed in (low, high))
+        for name, one in first.items():
+            changes = {
+                of: float(np.abs(getattr(last[name], of) - own).max() / (np.abs(own).max() or 1.0))
+                for of, own in (("stiffness", one.stiffness), ("damping", one.damping))
+            }
+            of = max(changes, key=lambda kind: changes[kind])
+            if changes[of] > JUMP:
+                yield (
+                    f"the {of} of the bearing at {name!r} jumps there by {100.0 * changes[of]:.2g} %, as "
+                    "where a pad or a part of a film gains or loses its load"
+                )
+
+    def _rests(self, low: float, middle: float, high: float) -> Rests:
+        """Return the rests of a step by rising |speed|."""
+        ends = sorted((low, high), key=abs)
+        return self.at(ends[0]), self.at(middle), self.at(ends[1])
 
     def _proven(self, low: float, middle: float, high: float) -> list[Crossing] | None:
         """Return the crossings of a step; None if more steps must tell."""
-        ends = sorted((low, high), key=abs)
-        span = SpannedModes(self.model, (self.at(ends[0]), self.at(middle), self.at(ends[1])))
+        span = SpannedModes(self.model, self._rests(low, middle, high))
         told = span.candidates()
         if told is None:
             return None

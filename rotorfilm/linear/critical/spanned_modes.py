@@ -33,6 +33,8 @@ SWINGS = 3.0
 BENT = 2.0
 """How much more K and C of films may bend within a step than the parabola through its ends and middle."""
 
+Rests = tuple[RotorEquilibrium, RotorEquilibrium, RotorEquilibrium]
+
 
 class CrossingCandidate(NamedTuple):
     """A whirl that may have the frequency of the rotation in a step, once at most.
@@ -64,7 +66,7 @@ class SpannedModes:
     """
 
     model: Condensed
-    rests: tuple[RotorEquilibrium, RotorEquilibrium, RotorEquilibrium]
+    rests: Rests
 
     @property
     def middle(self) -> float:
@@ -164,6 +166,45 @@ class SpannedModes:
             rows = film_rows(structure, name, len(film.stiffness))
             changed = changed + rows.T @ (force @ (rows @ right))
         return np.asarray(changed)
+
+
+@dataclass(frozen=True)
+class Leap(SpannedModes):
+    """The modes in the middle of a part of the way over a jump of K and C, straight from side to side.
+
+    A whirl that has nowhere on the way the frequency of the rotation is on the same side of it before and
+    after the jump.
+
+    Parameters
+    ----------
+    model : Condensed
+    rests : tuple of three RotorEquilibrium
+        As of `SpannedModes`: the jump is between the ends.
+    part : (float, float) [1]
+        Shares of the way at which the part begins and ends.
+    """
+
+    part: tuple[float, float]
+
+    @property
+    def middle(self) -> float:
+        """|speed| in the middle of the part [rad/s]."""
+        low, high = abs(self.rests[0].speed), abs(self.rests[2].speed)
+        return low + 0.5 * (self.part[0] + self.part[1]) * (high - low)
+
+    @property
+    def half(self) -> float:
+        """Half the width of the part [rad/s]."""
+        return super().half * (self.part[1] - self.part[0])
+
+    @cached_property
+    def systems(self) -> tuple[SecondOrder, ...]:
+        """Equations of small motion at the ends and in the middle of the part, of synchronous motion."""
+        first, last = (synchronous(self.model.structure, at) for at in (self.rests[0], self.rests[2]))
+        shares = self.part[0], 0.5 * (self.part[0] + self.part[1]), self.part[1]
+        return tuple(
+            SecondOrder(*(a + share * (b - a) for a, b in zip(first, last, strict=True))) for share in shares
+        )
 
 
 def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:

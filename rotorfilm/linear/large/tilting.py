@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any, Protocol, TypeGuard
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, UnloadedPadWarning
 from ...model import Array, JournalForce, Reaction, require_reactions
 from ...results import Coefficients
 from ...rotors.structure import Structure
+from ...warming import Settling
 from ..coefficients import coefficients
 
 
@@ -59,18 +61,26 @@ def film_rows(structure: Structure, name: str, size: int) -> Array:
 
 
 def force_at(bearing: Any, place: Array, speed: float) -> Array:
-    """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments."""
+    """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments.
+
+    States of a bearing's own, as the tilts of pads, rest too; of pads without film nothing is said here.
+    """
     if resists_tilt(bearing):
         return bearing.tilting_force(place, speed)
-    force: Array = bearing.force(place, np.zeros(2), speed)
-    return force
+    if not isinstance(bearing, Settling):
+        force: Array = bearing.force(place, np.zeros(2), speed)
+        return force
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnloadedPadWarning)
+        return np.asarray(bearing.at_rest().force(place, np.zeros(2), speed))
 
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
-    """Return d(force)/d(place), square."""
+    """Return d(force)/d(place), square, of the force that `force_at` returns."""
     if resists_tilt(bearing):
         return -bearing.tilting_coefficients(place, speed).stiffness
-    slopes: Array = bearing.jacobian(place, np.zeros(2), speed)[:, :2]
+    film: Any = bearing.at_rest() if isinstance(bearing, Settling) else bearing
+    slopes: Array = film.jacobian(place, np.zeros(2), speed)[:, :2]
     return slopes
 
 

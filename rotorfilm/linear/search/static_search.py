@@ -18,6 +18,9 @@ _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _NEUTRAL = 1e-11
 _LARGEST_MOVE = (6.0, 1.0)
+_HALVINGS = (
+    26  # the load of a tilting pad begins as the root of the way: steps beyond its edge are far too long
+)
 _ACROSS = (0.1, 0.2, 0.4, 0.8)
 _LESS = 1.4
 
@@ -129,7 +132,7 @@ def _damped(target: StaticTarget, point: StaticPoint, step_s: float, step_phi: f
     share = min(
         1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
     )
-    for halvings in range(10):
+    for halvings in range(_HALVINGS):
         part = 0.5**halvings * share
         s = min(point.s + part * step_s, LARGEST_S)
         trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
@@ -171,5 +174,6 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
 
 
 def is_found(target: StaticTarget, point: StaticPoint) -> bool:
-    """Return whether the residual is below 1e-12, or what roundoff leaves of the gap and of the force."""
-    return point.norm <= max(_TOLERANCE, 1e-15 * (1.0 + math.exp(point.s)), target.noise / target.size)
+    """Return whether the residual is below 1e-12, or what roundoff leaves of gap, place and force."""
+    steep = max(1.0 + math.exp(point.s), *(abs(slope) for slope in point.matrix))
+    return point.norm <= max(_TOLERANCE, 1e-15 * steep, target.noise / target.size)

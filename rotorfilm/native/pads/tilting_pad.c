@@ -223,7 +223,9 @@ static int find_light(const rf_tilting_pad *pad, double xi, double sense, const 
         return refine(pad, xi, sense, below, above, rest);
     rest->unloaded = 1;
     rest->eta = sense * end;
-    return status <= RF_OUTSIDE && end < lowest ? RF_AT_WALL : status;
+    if (status > RF_OUTSIDE)
+        return status;
+    return end < lowest ? RF_AT_WALL : RF_OK; /* without film it is beyond no map */
 }
 
 int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double sense, rf_pad_rest *rest)

@@ -28,6 +28,7 @@ REMARKS = (
         NOTABLE,
         "heat: the oil that flows back before the contact warms by about {inlet_warming:.2g} K, which takes "
         "{inlet_thinning:.0%} of its viscosity",
+        moves="heat",
     ),
     Remark(
         "piezoviscosity",
@@ -40,6 +41,7 @@ REMARKS = (
         DENSER,
         "compressibility: {densification:.0%} under the contact, which thins its film about as much; "
         "`compressible = true` takes it into account",
+        moves="compressibility",
     ),
     Remark(
         "flatness",

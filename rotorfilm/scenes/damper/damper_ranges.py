@@ -43,8 +43,14 @@ REMARKS = (
         NOTABLE,
         "heat: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the oil warms by about "
         "{warming:.2g} K (Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+        moves="heat",
     ),
-    Remark("compression", 0.01, "compressibility: {compression:.2%} by the largest pressure"),
+    Remark(
+        "compression",
+        0.01,
+        "compressibility: {compression:.2%} by the largest pressure",
+        moves="compressibility",
+    ),
 )
 """What the physics of a squeeze film leaves out, by the numbers of `damper_numbers`."""
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from ...bearings.oil.compression import compression
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import Lubricant
@@ -51,6 +52,7 @@ REMARKS = (
         NOTABLE,
         "heat: the oil warms by about {warming:.2g} K ({power:.3g} W in the film, {side_flow:.3g} m3/s out "
         "of its ends, Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+        moves="heat",
     ),
     Remark(
         "unknown",
@@ -66,7 +68,12 @@ REMARKS = (
         "tension and rupture elsewhere",
         below=True,
     ),
-    Remark("compression", 0.01, "compressibility: {compression:.2%} by the mean pressure"),
+    Remark(
+        "compression",
+        0.01,
+        "compressibility: {compression:.2%} by the mean pressure",
+        moves="compressibility",
+    ),
     Remark(
         "tilt",
         TILT,
@@ -147,13 +154,13 @@ def film_numbers(
     """
     (R, L, c, mu), omega = dimensions, abs(speed)
     kinematic = mu / oil.density
-    mean = math.hypot(*load) / (2.0 * R * L)
+    compressed = compression(load, R, L, oil.bulk_modulus)
     return {
         "taylor": omega * R * c / kinematic * math.sqrt(c / R),
         "inertia": omega * c**2 / kinematic,
         "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
-        "pressure": mean / ATMOSPHERE,
-        "compression": mean / oil.bulk_modulus,
+        "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
+        "compression": compressed,
         "tilt": 2e3 * c / L,
     }
 

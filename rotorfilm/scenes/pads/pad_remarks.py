@@ -20,6 +20,7 @@ PAD_REMARKS = (
         NOTABLE,
         "heat: along one pad the oil warms by about {warming:.2g} K if it keeps its heat, which takes "
         "{thinning:.0%} of its viscosity; nor does hot oil go on from pad to pad",
+        moves="heat",
     ),
     *(remark for remark in REMARKS if remark.number not in ("thinning", "unknown")),
 )

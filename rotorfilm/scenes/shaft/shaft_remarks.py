@@ -17,7 +17,7 @@ from ...model import Reaction
 from ...rotors import ShaftElement, ShaftRotor
 from ..journal.journal_remarks import film_remarks
 from ..lubricant_table import Lubricant
-from ..remarks import Remark, said
+from ..remarks import Remark, prefixed, said
 
 STIFF = 1e10
 """Stiffness of bearings [N/m] by which the weight is shared out."""
@@ -67,7 +67,7 @@ def shaft_remarks(
         if isinstance(bearing, JournalBearing):
             x, y = loads[name].tolist()
             found = film_remarks(bearing, oil, speed, (x, y))
-            lines += [f"{name}, at {speed:.4g} rad/s: {line}" for line in found]
+            lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)
     return tuple(lines)
 
 

@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, UnloadedPadWarning, require_finite, require_number, warn_user
 from ....model import Array, Tangent
+from ....native import Status
 from ....native.pads.tilting_kernel import RestPoint
 from ....readable.result import Readable
 from ....results import BearingLosses, Equilibrium
 from ...reaction import broadcast_state
 from ..losses_of_pads import PadUnderJournal, losses_of_pads
+from ..pad_film import warn_beyond_map
 from ..pad_losses import LossyPadFilm
 from .held_pads import TURN, PadSlopes, pad_slopes, turning
 from .pad_contact import report_pads
@@ -90,7 +92,9 @@ class TiltingPadsAtRest:
         return self.bearing.minimum_film(position)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on a journal at rest, shape (2,) [N], with a warning of pads without film.
+        """Return the force on a journal at rest, shape (2,) [N].
+
+        It warns of pads without film, and of those beyond the map of their film.
 
         Raises
         ------
@@ -109,6 +113,8 @@ class TiltingPadsAtRest:
                 "film and no unique tilt, and may flutter",
                 UnloadedPadWarning,
             )
+        if point.status == Status.OUTSIDE:
+            warn_beyond_map(point.pads["least"], self.bearing.kernel.film)
         return point.force
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:

@@ -1,9 +1,18 @@
 """Tilting pads whose place or tilt is hard to find: loads that one pad carries nearly alone, splines."""
 
+import re
+
 import numpy as np
 import pytest
 
-from rotorfilm import PadMapFilm, equilibrium, even_pivots
+from rotorfilm import (
+    EquilibriumError,
+    PadMapFilm,
+    TiltingPadBearing,
+    ValidityWarning,
+    equilibrium,
+    even_pivots,
+)
 from rotorfilm.bearings.pads.tilting.held_pads import TURN
 from rotorfilm.bearings.pads.tilting.pivots import directions
 
@@ -28,6 +37,29 @@ def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, h
     alone = equilibrium(bearing, [0.0, load[1]], SPEED)
     assert at.position[1] == pytest.approx(alone.position[1], rel=2e-3)
     assert abs(at.position[0]) > 0.3 * bearing.clearance
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+def test_an_overloaded_pad_is_told_as_an_overloaded_journal_is():
+    bearing = TiltingPadBearing(
+        radius=0.04,
+        length=0.04,
+        assembled_clearance=7e-5,
+        preload=0.3,
+        extent=np.pi / 3.0,
+        viscosity=0.02,
+        pivots=even_pivots(5, between_pads=True),
+    )
+    equilibrium(bearing, (0.0, -2e4), 314.0)
+    beyond = r"least films of 6\.11e-09, .* are beyond the map of a pad; its force is extrapolated there"
+    with pytest.warns(ValidityWarning, match="makes a mean pressure of 1.56e"), pytest.warns(match=beyond):
+        equilibrium(bearing, (0.0, -5e6), 314.0)
+    with pytest.raises(
+        EquilibriumError, match=r"the film's capacity .*: the largest film force found is"
+    ) as why:
+        equilibrium(bearing, (0.0, -5e7), 314.0)
+    carried = float(re.search(r"found is (\S+) N", str(why.value))[1])
+    assert 5e6 < carried < 5e7
 
 
 CIRCLES = [
