@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -81,8 +82,7 @@ class SpannedModes:
     @cached_property
     def systems(self) -> tuple[SecondOrder, ...]:
         """Equations of small motion at the three speeds, as synchronous motion has them, of one mass."""
-        found = [synchronous(self.model.structure, at) for at in self.rests]
-        return tuple(system.weighing(found[1].mass) for system in found)
+        return of_one_mass([synchronous(self.model.structure, at) for at in self.rests])
 
     @cached_property
     def modes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -202,9 +202,17 @@ class Leap(SpannedModes):
         """Equations of small motion at the ends and in the middle of the part, of synchronous motion."""
         first, last = (synchronous(self.model.structure, at) for at in (self.rests[0], self.rests[2]))
         shares = self.part[0], 0.5 * (self.part[0] + self.part[1]), self.part[1]
-        return tuple(
-            SecondOrder(*(a + share * (b - a) for a, b in zip(first, last, strict=True))) for share in shares
+        return of_one_mass(
+            [
+                SecondOrder(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))
+                for share in shares
+            ]
         )
+
+
+def of_one_mass(systems: Sequence[SecondOrder]) -> tuple[SecondOrder, ...]:
+    """Return the same motions with the mass of the middle one, as what is between them is made."""
+    return tuple(system.weighing(systems[1].mass) for system in systems)
 
 
 def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
