@@ -18,10 +18,9 @@ from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .critical.crossings import Crossing, crossings
 from .large.condensed import MARGIN, models, usual_frequency
-from .large.likeness import matches
+from .large.likeness import tracked
 from .large.work import COUNTS, CountedTuple, counted
 from .rotor_modes import (
-    RotorModes,
     Whirls,
     directions,
     log_decrement,
@@ -118,7 +117,7 @@ def campbell(
     require_range(highest_frequency)
     with counted(*COUNTS) as work:
         points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
-    tracks = _tracks(points, rotor.assembly.mass)
+    tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
     direction = np.full((len(tracks), len(grid)), math.nan)
     for row, track in enumerate(tracks):
@@ -263,25 +262,6 @@ def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
         speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])
         result[: len(speeds), column] = speeds
     return result
-
-
-def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
-    """Return, for each mode, its index among the modes of each speed at which it was found."""
-    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
-    current = list(range(len(tracks)))
-    for column in range(1, len(points)):
-        before, after = points[column - 1], points[column]
-        partner = matches(before, after, mass)
-        following = []
-        for k in range(len(after.eigenvalues)):
-            if k in partner:
-                following.append(current[partner[k]])
-            else:
-                tracks.append({})
-                following.append(len(tracks) - 1)
-            tracks[following[-1]][column] = k
-        current = following
-    return tracks
 
 
 @arguments
