@@ -15,10 +15,9 @@ from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
 from .critical.crossings import Crossing, crossings
-from .large.likeness import matches
+from .large.likeness import tracked
 from .large.work import COUNTS, CountedTuple, counted
 from .rotor_modes import (
-    RotorModes,
     Whirls,
     directions,
     log_decrement,
@@ -115,7 +114,7 @@ def campbell(
     require_range(highest_frequency)
     with counted(*COUNTS) as work:
         points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
-    tracks = _tracks(points, rotor.assembly.mass)
+    tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
     direction = np.full((len(tracks), len(grid)), math.nan)
     for row, track in enumerate(tracks):
@@ -200,25 +199,6 @@ def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpe
         )
         for one in found
     ]
-
-
-def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
-    """Return, for each mode, its index among the modes of each speed at which it was found."""
-    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
-    current = list(range(len(tracks)))
-    for column in range(1, len(points)):
-        before, after = points[column - 1], points[column]
-        partner = matches(before, after, mass)
-        following = []
-        for k in range(len(after.eigenvalues)):
-            if k in partner:
-                following.append(current[partner[k]])
-            else:
-                tracks.append({})
-                following.append(len(tracks) - 1)
-            tracks[following[-1]][column] = k
-        current = following
-    return tracks
 
 
 @arguments

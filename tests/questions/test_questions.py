@@ -178,7 +178,10 @@ def test_what_the_physics_leaves_out_is_warned_of():
     )
     with pytest.warns(ValidityWarning, match=r"left out: heat: the oil warms by about .* K"):
         answer = hot.ask()
-    assert "meets the tolerance 0.01 within isothermal films: " in answer.message
+    assert (
+        "meets the tolerance 0.01 within isothermal films; but heat (up to 100%) is left out: "
+        in answer.message
+    )
 
 
 @pytest.mark.convergence

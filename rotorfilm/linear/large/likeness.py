@@ -22,3 +22,22 @@ def matches(before: RotorModes, after: RotorModes, mass: Any) -> dict[int, int]:
     cost = apart + 0.2 * (1.0 - likeness)
     rows, columns = linear_sum_assignment(cost)
     return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
+
+
+def tracked(points: list[RotorModes], mass: Any) -> list[dict[int, int]]:
+    """Return, for each mode, its index among the modes of each speed at which it was found."""
+    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
+    current = list(range(len(tracks)))
+    for column in range(1, len(points)):
+        before, after = points[column - 1], points[column]
+        partner = matches(before, after, mass)
+        following = []
+        for k in range(len(after.eigenvalues)):
+            if k in partner:
+                following.append(current[partner[k]])
+            else:
+                tracks.append({})
+                following.append(len(tracks) - 1)
+            tracks[following[-1]][column] = k
+        current = following
+    return tracks
