@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -95,9 +96,7 @@ def simulate(
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
-    if isinstance(reaction, Mapping) and not any(
-        isinstance(film, SteppedReaction) for film in reaction.values()
-    ):
+    if _all_forces(reaction):
         if method is not None:
             raise InputError(f"method must be None where every station has its film, got {method!r}")
         return simulate_rotor(
@@ -144,6 +143,13 @@ def simulate(
     run = _trajectory(system, kept)
     require_turned(film, rotor, run.signals)
     return run
+
+
+def _all_forces(reaction: object) -> TypeGuard[Mapping[str, Reaction]]:
+    """Return whether films are given by station, and none of them steps."""
+    return isinstance(reaction, Mapping) and not any(
+        isinstance(film, SteppedReaction) for film in reaction.values()
+    )
 
 
 def _shown(run: Trajectory, labels: list[str]) -> Trajectory:

@@ -13,7 +13,7 @@ from ...bearings.films.conserved.conserved_film import bdf2
 from ...bearings.films.conserved.oil_steps import MOST_GROWTH
 from ...bearings.stepped_reaction import SteppedReaction, StepTrial
 from ...errors import ConvergenceError, FilmContactError, InputError, require_kind
-from ...model import Array, Dynamic
+from ...model import Array, Dynamic, Reaction
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 
 CONVERGED = 1e-9
@@ -68,7 +68,7 @@ class Moment(NamedTuple):
 
 
 def stations_of(
-    rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]
+    rotor: Dynamic, films: SteppedReaction | Mapping[str, Reaction | SteppedReaction]
 ) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ...bearings.cubic import cubic
 from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, FilmContactError, InputError, require_finite
-from ...model import Array, Dynamic, breakpoints
+from ...model import Array, Dynamic, Reaction, breakpoints
 from ...results import Trajectory
 from ...signals import Signal, indices, names, units
 from ..compiled.journal_films import CONTACT_GAP
@@ -31,7 +31,7 @@ HALVINGS = 12
 
 def simulate_steps(
     rotor: Dynamic,
-    films: SteppedReaction | Mapping[str, SteppedReaction],
+    films: SteppedReaction | Mapping[str, Reaction | SteppedReaction],
     times: Array,
     duration: float,
     initial_state: ArrayLike | None,
