@@ -72,7 +72,7 @@ def stations_of(
 ) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
-    named = films if isinstance(films, Mapping) else {"": films}
+    named: Mapping[str, Any] = films if isinstance(films, Mapping) else {"": films}
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
     for name, film in named.items():
         said = f"reaction[{name!r}]" if name else "reaction"
