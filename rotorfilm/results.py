@@ -201,10 +201,9 @@ class Trajectory(Drawable):
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of one signal, shape (n,)."""
-        try:
-            return self.signals[name]
-        except KeyError:
-            raise KeyError(f"signal must be one of {', '.join(self.signals)}, got {name!r}") from None
+        if name not in self.signals:
+            raise KeyError(f"signal must be one of {', '.join(self.signals)}, got {name!r}")
+        return self.signals[name]
 
     @property
     def position(self) -> Array:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...bearings.seal import AnnularSeal
@@ -27,7 +26,7 @@ from ...scenes.excitation_table import (
     UnbalanceTable,
     require_kind,
 )
-from ...scenes.shaft.rotor_runs import run_span, run_times
+from ...scenes.shaft.rotor_runs import largest_distance, run_span, run_times
 from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
 from .shaft_films import ShaftFilms, film_levels
 
@@ -41,9 +40,6 @@ RTOL, FINE_RTOL = 1e-6, 1e-8
 
 MODES = 18
 """Modes in each plane of what answers are judged by: three times those of the widest reduced model."""
-
-BETWEEN = 8
-"""Places between two samples at which the spline through them is looked at."""
 
 LEAST_CHANGE = 1e-4
 """Change of the viscosity, at least, by which the error of a map is told."""
@@ -81,13 +77,6 @@ class ShakenShaft(NamedTuple):
     def peak(self, run: Trajectory) -> float:
         """Return the largest displacement of the places in a motion [m]."""
         return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
-
-
-def largest_distance(time: Array, x: Array, y: Array) -> float:
-    """Return the largest distance from the origin of the splines through samples (n,) [m]."""
-    share = np.arange(BETWEEN) / BETWEEN
-    fine = np.append((time[:-1, None] + np.diff(time)[:, None] * share).ravel(), time[-1])
-    return float(np.hypot(CubicSpline(time, x)(fine), CubicSpline(time, y)(fine)).max())
 
 
 @dataclass(frozen=True, kw_only=True)

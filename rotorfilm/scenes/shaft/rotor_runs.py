@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from ...bearings.seal import AnnularSeal
 from ...errors import ContactError, InputError, warn_user
@@ -29,6 +30,9 @@ A_TURN = 24
 
 FEWEST, MOST = 1001, 200_001
 """Samples of a run."""
+
+BETWEEN = 8
+"""Places between two samples at which the spline through them is looked at."""
 
 OTHER_RUNS = {"blade_loss": "rotorfilm damper-run"}
 """Command for an excitation that is none of these runs."""
@@ -142,6 +146,13 @@ def run_times(duration: float, fastest: float) -> Array:
             f"than {A_TURN}: peaks may lie between them; a shorter operation.duration has more"
         )
     return np.linspace(0.0, duration, min(count, MOST))
+
+
+def largest_distance(time: Array, x: Array, y: Array) -> float:
+    """Return the largest distance from the origin of the splines through samples (n,) [m]."""
+    share = np.arange(BETWEEN) / BETWEEN
+    fine = np.append((time[:-1, None] + np.diff(time)[:, None] * share).ravel(), time[-1])
+    return float(np.hypot(CubicSpline(time, x)(fine), CubicSpline(time, y)(fine)).max())
 
 
 def run_span(scene: Scene) -> tuple[float, float]:
