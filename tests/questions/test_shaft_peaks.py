@@ -12,9 +12,9 @@ from scipy.signal import lsim
 from rotorfilm import AnnularSeal, ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
 from rotorfilm.questions.registry import ladder_of
 from rotorfilm.questions.shaft import shaft_peaks
-from rotorfilm.scenes.shaft.rotor_runs import largest_distance
 from rotorfilm.rotors.shaft.shaft_models import split
 from rotorfilm.scenes import read_scene
+from rotorfilm.scenes.shaft.rotor_runs import largest_distance
 from rotorfilm.scenes.shaft.shaft_parts import BearingTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
