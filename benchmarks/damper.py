@@ -151,7 +151,7 @@ def centered_damping(damper: PorousDamper) -> float:
 
 def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
     """Draw accuracy over cost, and damping over the grading."""
-    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(13.5, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     rungs = {name: values for name, values in found.items() if values[2] > 0.0}
     for name, (cost, median, high) in rungs.items():
@@ -174,7 +174,7 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
     right.set(
         xlabel="grading", ylabel="damping / that of a solid cage", title="small motion, Phi = .02, H/L = .1"
     )
-    right.legend(fontsize=8)
+    right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     figure.savefig(path, dpi=110)
 
 
