@@ -222,17 +222,17 @@ def time_at(line: Line, error: float) -> float:
 
 def chart(lines: list[Line], path: Path) -> None:
     """Save the work-precision lines."""
-    figure = Figure(figsize=(7.0, 4.5), layout="constrained")
+    figure = Figure(figsize=(8.6, 4.5), layout="constrained")
     axes = figure.subplots()
     for line, marker in zip(lines, "osv^D", strict=False):
         axes.loglog(line.times, line.errors, marker=marker, label=line.name)
     axes.set(
-        xlabel="wall time [s]",
+        xlabel="processor time [s]",
         ylabel="largest journal error / clearance",
         title="66 degrees of freedom on two maps, 20 turns after the loss of a blade",
     )
     axes.grid(True, alpha=0.3)
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
     figure.savefig(path, dpi=150)
 
 
