@@ -238,7 +238,10 @@ def test_data_of_a_python_fmu_hold_the_table(model, tmp_path, monkeypatch, kept)
     again = decode(data, {name: name for name in class_modules(model)})
     assert again.reaction.film.table is not None
     state = motions(1)[0]
-    np.testing.assert_array_equal(again.force(state[:2], state[2:]), model.force(state[:2], state[2:]))
+    # A table that is made twice in a process is the same to round-off.
+    np.testing.assert_allclose(
+        again.force(state[:2], state[2:]), model.force(state[:2], state[2:]), rtol=1e-11
+    )
     with pytest.raises(InputError, match="table must be that of the damper"):
         replace(again.reaction, cage=replace(CAGE, permeability=5e-13))
     assert not (tmp_path / "absent").exists()
