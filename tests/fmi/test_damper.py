@@ -232,16 +232,15 @@ def test_springs_add_up():
 
 @pytest.mark.parametrize("model", [SUPPORT, Sprung(reaction=FINITE, stiffness=1e5)], ids=["short", "finite"])
 def test_data_of_a_python_fmu_hold_the_table(model, tmp_path, monkeypatch, kept):
+    # Made anew, so that it keeps no film of a table that was made before: two tables differ by round-off.
+    model = replace(model, reaction=replace(model.reaction))
     data = encode(model)
     # Nothing to find, nothing to make.
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "absent"))
     again = decode(data, {name: name for name in class_modules(model)})
     assert again.reaction.film.table is not None
     state = motions(1)[0]
-    # A table that is made twice in a process is the same to round-off.
-    np.testing.assert_allclose(
-        again.force(state[:2], state[2:]), model.force(state[:2], state[2:]), rtol=1e-11
-    )
+    np.testing.assert_array_equal(again.force(state[:2], state[2:]), model.force(state[:2], state[2:]))
     with pytest.raises(InputError, match="table must be that of the damper"):
         replace(again.reaction, cage=replace(CAGE, permeability=5e-13))
     assert not (tmp_path / "absent").exists()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TypeGuard
 
 import numpy as np
@@ -16,7 +17,7 @@ from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
 from ...reactions.added_mass import require_turned, require_turning
 from ...results import Trajectory
-from ...rotors import mount
+from ...rotors import MountedRotor, mount
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
 from ..compiled.compiled_form import compiled_form
@@ -96,38 +97,19 @@ def simulate(
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
+    if isinstance(reaction, SteppedReaction | Mapping) and method is not None:
+        raise InputError(f"method must be None for films by station or such that step, got {method!r}")
+    in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if _all_forces(reaction):
-        if method is not None:
-            raise InputError(f"method must be None where every station has its film, got {method!r}")
-        return simulate_rotor(
-            mount(rotor, reaction),
-            duration=duration,
-            times=grid,
-            initial_state=initial_state,
-            rtol=rtol,
-            max_step=max_step,
-        )
+        return in_c(mount(rotor, reaction), initial_state=initial_state)
     if isinstance(reaction, SteppedReaction | Mapping):
-        if method is not None:
-            raise InputError(f"method must be None for films that step by themselves, got {method!r}")
         return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
     film: Reaction = in_time(reaction)
     system = Coupled(rotor, film)
     require_turning(film, rotor)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
-    if method is None and (mounted := compiled_form(rotor, film)) is not None:
-        labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
-        try:
-            run = simulate_rotor(
-                mounted, duration=duration, times=grid, initial_state=state, rtol=rtol, max_step=max_step
-            )
-        except ContactError as contact:
-            raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
-        except ConvergenceError:
-            # With scipy's own message, if it gives up too.
-            pass
-        else:
-            return _shown(run, labels)
+    if method is None and (run := _compiled(rotor, film, partial(in_c, initial_state=state))) is not None:
+        return run
     settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
@@ -150,6 +132,22 @@ def _all_forces(reaction: object) -> TypeGuard[Mapping[str, Reaction]]:
     return isinstance(reaction, Mapping) and not any(
         isinstance(film, SteppedReaction) for film in reaction.values()
     )
+
+
+def _compiled(
+    rotor: Dynamic, film: Reaction, in_c: Callable[[MountedRotor], Trajectory]
+) -> Trajectory | None:
+    """Return the compiled motion; None where it does not take rotor and film, or does not come to the end."""
+    mounted = compiled_form(rotor, film)
+    if mounted is None:
+        return None
+    labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
+    try:
+        return _shown(in_c(mounted), labels)
+    except ContactError as contact:
+        raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
+    except ConvergenceError:
+        return None  # scipy gives its own message, if it gives up too
 
 
 def _shown(run: Trajectory, labels: list[str]) -> Trajectory:

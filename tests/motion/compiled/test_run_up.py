@@ -195,5 +195,5 @@ def test_films_by_station_are_mounted_and_run():
     np.testing.assert_array_equal(run["left_y"], same["left_y"])
     with pytest.raises(KeyError, match=r"signal must be one of .*left_x.* got 'leftx'"):
         run["leftx"]
-    with pytest.raises(InputError, match="method must be None where every station has its film"):
+    with pytest.raises(InputError, match="method must be None for films by station or such that step"):
         simulate(rotor, films, duration=0.05, method=object)
