@@ -1,4 +1,4 @@
-"""The example gallery: the scripts that it executes, the files that they read, and the pictures that they draw."""
+"""The example gallery: its scripts, the files that they read, and the pictures that they draw."""
 
 import re
 import shutil
