@@ -56,11 +56,13 @@ static void set_differences(double ratio, double *a, double *b, double *c)
 
 /* A step by differences a, b, c over dt. */
 static int solve_step(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap,
-                      const rf_oil_past *past, const double *by, const double *carried, rf_oil_found *found)
+                      const rf_oil_past *past, double dt, const double *by, const double *carried,
+                      rf_oil_found *found)
 {
     const size_t m = shape->nodes;
     rf_oil_work work;
     found->rate = by[0];
+    found->lag = by[2] * dt;
     rf_store_oil(equations, gap, by[0]);
     for (size_t q = 0; q < shape->lines * m; ++q) {
         const double held = by[1] * past->content[q] + (by[2] != 0.0 ? by[2] * past->before[q] : 0.0);
@@ -101,12 +103,12 @@ int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, c
     if (ratio <= MOST_GROWTH) {
         set_differences(ratio, &a, &b, &c);
         const double second[3] = {a / dt, b / dt, c / dt};
-        status = solve_step(&equations, shape, gap, past, second, carried, found);
+        status = solve_step(&equations, shape, gap, past, dt, second, carried, found);
         done = status != RF_OK || !is_in_debt(shape, found->theta);
     }
     if (!done) {
         const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};
-        status = solve_step(&equations, shape, gap, past, first, carried, found);
+        status = solve_step(&equations, shape, gap, past, dt, first, carried, found);
     }
     memcpy(found->old, equations.old, all * sizeof *found->old);
     rf_close_oil(&equations);
@@ -158,7 +160,7 @@ int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, r
         status = settle(&equations, shape, gap, rate, carried, carried + all, found);
     if (status == RF_OK)
         memcpy(found->old, equations.old, all * sizeof *found->old);
-    found->rate = 0.0;
+    found->rate = found->lag = 0.0;
     rf_close_oil(&equations);
     free(carried);
     return status;
