@@ -32,7 +32,7 @@ FLOWS = slice(2, 5)
 """Flows in the sums."""
 
 HEADS = 1, 5, SUMS + 3, 3
-"""Numbers of a block before those of the cells: last inner step, motion, sums with mean flows, what passed."""
+"""Numbers of a block before the cells: length of the last inner step, motion, sums and means, what passed."""
 
 HEAD = sum(HEADS)
 

@@ -58,7 +58,7 @@ class SteppedFilm:
 
     The input u is the motion of the journal at the end of a step. On the way there it goes along the cubic
     with the positions and velocities of both ends, in inner steps of a turn/192 and .02 clearances at most,
-    halved where the film is not found. Outputs belong to the end of the last step, the mean flows to the whole
+    halved where the film is not found. Outputs belong to the end of the last step, mean flows to the whole
     of it. They have the differences of the inner steps, so that in steps of any length, to round-off,
 
         oil_volume - oil_volume before = dt (mean_inflow + mean_drawn_in - mean_side_flow).
@@ -103,12 +103,10 @@ class SteppedFilm:
         """Signals force_x, force_y on the journal, side_flow, drawn_in, inflow, oil_volume, mean flows."""
         force, volume = self.scales
         flows, means = (
-            [
-                Signal(name=before + name, unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text + after)
-                for name, text in FLOW_NAMES.items()
-            ]
-            for before, after in (("", ""), ("mean_", "; mean over the last step"))
-        )
+            [Signal(name=f"{kind}{name}", unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text + when)
+             for name, text in FLOW_NAMES.items()]
+            for kind, when in (("", ""), ("mean_", "; mean over the last step"))
+        )  # fmt: skip
         oil = "oil in the gap, over the openings too"
         held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
         return (*force_outputs(force * NOMINAL_SPEED), *flows, held, *means)

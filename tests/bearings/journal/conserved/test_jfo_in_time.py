@@ -122,7 +122,8 @@ def test_mean_flows_balance_the_oil_over_steps_of_any_length(name):
 def test_mean_flows_are_of_second_order():
     # What leaves in half a turn, in steps that are not those of the shaft.
     passed = [
-        [TURN / 2 / steps * followed(FILM, steps, 0.5)[k, 1:].sum() for k in (6, 8)] for steps in (96, 192, 384)
+        [TURN / 2 / steps * followed(FILM, steps, 0.5)[k, 1:].sum() for k in (6, 8)]
+        for steps in (96, 192, 384)
     ]
     change = [np.hypot(*np.subtract(b, a)) for a, b in itertools.pairwise(passed)]
     assert 1.6 < np.log2(change[0] / change[1]) < 2.6
