@@ -20,15 +20,24 @@ static size_t neighbor(const rf_oil_shape *shape, size_t i, int forward)
     return i > 0 ? i - 1 : shape->lines - 1;
 }
 
-/* Of a line as the oil goes: by how much theta at the face behind it is above its own. */
+/* Of a line as the oil goes: by how much theta at the face behind it is above its own.
+
+   Theta of the last cell before a film says how far the film reaches into it, and is no slope of the oil that arrives:
+   there is no rise behind that cell. Behind the cell before, the slope is that of the oil which arrives, and fades as the
+   last cell fills, so that nothing jumps when the film enters the next cell. */
 static double rise(const rf_oil_shape *shape, size_t i, size_t j, int forward, const double *theta)
 {
-    const size_t m = shape->nodes;
-    const double here = theta[i * m + j];
+    const size_t m = shape->nodes, next = neighbor(shape, i, forward);
+    const double here = theta[i * m + j], there = theta[next * m + j];
     const double behind = here - theta[neighbor(shape, i, !forward) * m + j];
-    const double ahead = theta[neighbor(shape, i, forward) * m + j] - here;
-    const double product = behind * ahead;
-    return product > 0.0 ? product / (behind + ahead) : 0.0;
+    double ahead = there - here, share = 1.0;
+    if (there >= 1.0 || !(behind * ahead > 0.0))
+        return 0.0;
+    if (theta[neighbor(shape, next, forward) * m + j] >= 1.0 && ahead > behind) {
+        share = behind < 1.0 - here ? (1.0 - there) / (1.0 - here - behind) : 0.0;
+        ahead = behind;
+    }
+    return share * behind * ahead / (behind + ahead);
 }
 
 void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const double *theta, double *carried)

@@ -102,8 +102,9 @@ class SteppedFilm:
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y on the journal, side_flow, drawn_in, inflow, oil_volume, mean flows."""
         force, volume = self.scales
+        flow = volume * NOMINAL_SPEED
         flows, means = (
-            [Signal(name=f"{kind}{name}", unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text + when)
+            [Signal(name=f"{kind}{name}", unit="m3/s", nominal=flow, description=f"{text}{when}")
              for name, text in FLOW_NAMES.items()]
             for kind, when in (("", ""), ("mean_", "; mean over the last step"))
         )  # fmt: skip
