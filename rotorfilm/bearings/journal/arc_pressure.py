@@ -2,8 +2,8 @@
 
 From the coupling functions of `coupling`, H^3 u_j' = sum b_i (S_i - <S_i>/<1>) with (k_j^2 K + M) b = <X g>;
 at a share x of the way from the middle of the bearing to its end
-p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) cos(j pi x/2) u_j. Over all odd modes an eigenvalue l of K
-against M counts 1 - cosh(x z)/cosh(z), z = (L/D)/sqrt(l).
+p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) cos(j pi x/2) u_j. Over all odd modes an eigenvalue l
+of K against M counts 1 - cosh(x z)/cosh(z), z = (L/D)/sqrt(l).
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def splitting_pressure(
 
 
 def _along(modes: int | None, ratio: Array, slenderness: float, axial: Array) -> Array:
-    """Return sum_j 4/(pi j) sin(j pi/2) cos(j pi axial/2)/(1 + k_j^2 ratio) over some odd axial modes, or all."""
+    """Return sum_j 4/(pi j) sin(j pi/2) cos(j pi axial/2)/(1 + k_j^2 ratio) over odd axial modes j."""
     if modes is None:
         z = np.minimum(slenderness / np.sqrt(ratio), LARGEST)
         return np.asarray(1.0 - np.cosh(axial * z) / np.cosh(z))
