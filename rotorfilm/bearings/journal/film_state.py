@@ -108,7 +108,8 @@ def film_state(
     """Return force, flow and friction of a bearing at one state, and the pressure where the film has a field.
 
     A `ReynoldsFilm` has a field, and so has a `SplittingFilm`, which has no losses. The pressure of the
-    latter is that of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), tension included.
+    latter is that of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), with its
+    tension.
 
     Parameters
     ----------
