@@ -2,12 +2,10 @@
 
 Their equations damp with the wrong sign, hold a wedge term though the race does not spin, and are linear,
 so that nothing in them can jump; what they conclude is checked here. Their B is B_s/2 at L/D = 1/2, which
-they do not give. With `--feed` it also prints what decides their statements on feed and on transients,
-in two minutes.
+they do not give. `damper_feed.py` judges what they say of feed and transients.
 """
 
 import math
-import sys
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -52,32 +50,6 @@ def transient(reaction, beta=-2.8, rate=0.0):
     return SPEED * run.time, rf.transmitted_ratio(run, rotor)
 
 
-def print_transients():
-    """Print where T_r starts, its maximum and where it ends, for both readings of the initial condition."""
-    for beta, rate in ((-2.8, 0.0), (0.0, -2.8)):
-        for label, case in fed.items():
-            time, ratio = transient(support(0.12, **case), beta, rate)
-            k = int(np.argmax(ratio))
-            print(
-                f"beta {beta:g}, its rate {rate:g}, {label}: T_r starts at {ratio[0]:.2f}, has its maximum "
-                f"{ratio[k]:.2f} at T = {time[k]:.2f} and is {ratio[-1]:.2f} at T = 20"
-            )
-
-
-def print_jumps():
-    """Print where the rotor jumps up at B = .04, and the ends of the jump in T_r."""
-    for label, case in fed.items():
-        found = orbits(support(0.04, **case))
-        at = next(fold.unbalance for fold in found.folds if fold.upward)
-        low, high = found.branches[0], found.branches[-1]
-        ends = (low.transmissibility[-1], np.interp(at, high.unbalance, high.transmissibility))
-        top = high.transmissibility.max()
-        print(
-            f"{label}: jump at U = {at / UNIT:.3f} from T_r = {ends[0]:.2f} to {ends[1]:.2f}, "
-            f"greatest {top:.2f}"
-        )
-
-
 cases = {"solid": {}, "porous": {"phi": 0.001, "grading": 0.1}}
 fed = {**cases, "porous, suction": {**cases["porous"], "suction": 0.1}}
 fed["porous, fed at the ends"] = {**cases["porous"], "ends": (0.2, 0.15)}
@@ -102,7 +74,4 @@ for name, number, at in (("lower", 0, 0.35), ("upper", -1, 0.5)):
     print(f"smaller orbits of the porous damper, {name} branch: {leaky < dense}")
 peaks = [found.branches[-1].transmissibility.max() for found in thin.values()]
 print(f"greatest transmissibility smaller at this speed: {peaks[1] < peaks[0]}")
-if "--feed" in sys.argv:
-    print_transients()
-    print_jumps()
 print("unbalance ratio at which the rotor on the solid damper jumps:", solid[0])

@@ -51,30 +51,21 @@ for label, (film, style) in FILMS.items():
             solid = f"{name}{'xy'[i]}{'xy'[j]}" if style == "-" else None
             axes.plot(CHI, matrix[:, i, j], style, color=color, label=solid)
     damped[label] = C
-load.set(
-    title="Figure 2", xlabel="eccentricity ratio [1]", ylabel="load coefficient q psi$^2$/(mu omega) [1]"
-)
-path.set(
-    title="Figure 3: journal, load along -y",
-    xlabel="x / clearance [1]",
-    ylabel="y / clearance [1]",
-    aspect="equal",
-)
-path.plot(
-    np.cos(np.linspace(-np.pi, 0.0, 91)), np.sin(np.linspace(-np.pi, 0.0, 91)), color="0.7", linewidth=0.8
-)
-stiffness.set(
-    title="Figure 4", xlabel="eccentricity ratio [1]", ylabel="stiffness / (mu omega b psi$^{-3}$) [1]"
-)
-damping.set(title="Figure 5", xlabel="eccentricity ratio [1]", ylabel="damping / (mu b psi$^{-3}$) [1]")
+load.set(title="Figure 2", ylabel="load coefficient q psi$^2$/(mu omega) [1]")
+path.set(title="Figure 3: journal, load along -y", xlabel="x / clearance [1]", ylabel="y / clearance [1]")
+path.set_aspect("equal")
+wall = np.linspace(-np.pi, 0.0, 91)
+path.plot(np.cos(wall), np.sin(wall), color="0.7", linewidth=0.8)
+stiffness.set(title="Figure 4", ylabel="stiffness / (mu omega b psi$^{-3}$) [1]")
+damping.set(title="Figure 5", ylabel="damping / (mu b psi$^{-3}$) [1]")
+for axes in (load, stiffness, damping):
+    axes.set_xlabel("eccentricity ratio [1]")
 for axes in (stiffness, damping):
     axes.set_yscale("symlog", linthresh=1.0)
 for axes in (load, path, stiffness, damping):
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8)
-figure.suptitle(
-    "Sussi & Fridman (1978), length/diameter 0.5. Dashed: first, solid: second, dotted: Reynolds rupture"
-)
+figure.suptitle("Length/diameter 0.5. Dashed: first, solid: second approximation, dotted: Reynolds rupture")
 figure.savefig("journal_paper.png", dpi=110)
 
 k = int(np.argmin(np.abs(CHI - 0.5)))
