@@ -1,7 +1,6 @@
 """The documentation site: `python -m sphinx docs docs/_build`, with every example executed."""
 
 import re
-import shutil
 import sys
 from importlib import metadata
 from pathlib import Path
@@ -9,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 import glossary
 import interface_tasks
-from pictures import Pictures
+from example_gallery import Pictures, write_examples
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
@@ -37,37 +36,8 @@ numpydoc_show_class_members = False
 # The pages are read on the forge too, where links go to folders and scripts.
 suppress_warnings = ["myst.xref_missing", "myst.header", "config.cache"]
 
-
-def titled(source: str) -> str:
-    """Return an example whose docstring begins with a title, as the gallery wants it."""
-    docstring = re.match(r'"""(.*?)"""', source, re.S)
-    assert docstring is not None
-    first, _, rest = docstring.group(1).partition("\n")
-    title, colon, more = first.rstrip(".").partition(":")
-    text = f"{more.strip()}.\n" if colon else ""
-    heading = f"{title}\n{'=' * len(title)}\n\n{text}{rest}"
-    # The gallery executes a script in its folder, without the name of its file.
-    body = source[docstring.end() :].replace("Path(__file__)", 'Path("example.py").resolve()')
-    return f'"""\n{heading}\n"""{body}'
-
-
-def write_examples(folder: Path) -> Path:
-    """Write what the gallery executes: the examples under titles, and their scene files."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    (folder / "GALLERY_HEADER.rst").write_text(
-        "Examples\n========\n\nEach was executed when this page was built.\n"
-    )
-    for path in EXAMPLES.iterdir():
-        if path.suffix == ".py":
-            (folder / path.name).write_text(titled(path.read_text(encoding="utf-8")), encoding="utf-8")
-        elif path.suffix == ".toml":
-            shutil.copy(path, folder)
-    return folder
-
-
 sphinx_gallery_conf = {
-    "examples_dirs": str(write_examples(HERE / "_examples")),
+    "examples_dirs": str(write_examples(EXAMPLES, HERE / "_examples")),
     "gallery_dirs": "gallery",
     "filename_pattern": r"\.py",
     "image_scrapers": (Pictures(),),

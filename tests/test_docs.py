@@ -5,11 +5,13 @@ from collections import Counter
 from pathlib import Path
 
 import draw_pictures
+import example_gallery
 import interface_tasks
 import pytest
 
 import rotorfilm
 from rotorfilm import charts
+from rotorfilm.scenes import Scene
 
 ROOT = Path(__file__).parents[1]
 
@@ -94,3 +96,13 @@ def test_no_name_has_two_places_of_equal_length():
     for name in rotorfilm.__all__:
         lengths = [length for length, _, _ in interface_tasks.fitting(name)]
         assert len(set(lengths)) == len(lengths), name
+
+
+def test_the_gallery_has_every_script_and_every_file_that_one_reads(tmp_path):
+    examples = ROOT / "examples"
+    folder = example_gallery.write_examples(examples, tmp_path / "gallery")
+    assert {path.name for path in folder.glob("*.py")} == {path.name for path in examples.glob("*.py")}
+    scenes = sorted(folder.glob("*.toml"))
+    assert [path.name for path in scenes] == sorted(path.name for path in examples.glob("*.toml"))
+    for path in scenes:
+        Scene.load(path)  # which reads the records that a scene names

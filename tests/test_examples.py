@@ -20,7 +20,7 @@ from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 STUDIES = EXAMPLES.parent / "benchmarks" / "studies"
-SCRIPTS = [*sorted(EXAMPLES.glob("*.py")), STUDIES / "damper_paper.py"]
+SCRIPTS = [*sorted(EXAMPLES.glob("*.py")), STUDIES / "damper_paper.py", STUDIES / "journal_paper.py"]
 SCENES = sorted(EXAMPLES.glob("*.toml"))
 WARNS = {
     "rotor_questions.toml": "left out: (drive|impeller)_end, at 251.3 rad/s: (heat|cavitation)",
@@ -108,6 +108,8 @@ LAST_NUMBER = {
     # the clearance of the machine, 1 % below to 1 % above with such sensors
     "fit_clearance.py": pytest.approx(1.0, abs=0.015),
     # fold of the response of a solid damper at Bs = .08, Omega_s = .4
+    # Sussi & Fridman (1978): from the second approximation on damping is symmetric
+    "journal_paper.py": pytest.approx(1.0, abs=1e-12),
     "damper_paper.py": pytest.approx(0.3931, abs=5e-5),
 }
 

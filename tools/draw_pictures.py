@@ -36,6 +36,7 @@ DRAWN = {
     "python benchmarks/bush.py bush.png": ["bush"],
     "python benchmarks/damper.py damper_ladder.png": ["damper_ladder"],
     "python benchmarks/studies/damper_paper.py": ["damper_paper"],
+    "python benchmarks/studies/journal_paper.py": ["journal_paper"],
     "python benchmarks/conserved_damper.py damper_turn.png": ["damper_turn"],
     "python benchmarks/periodic_orbits.py orbits_cost.png": ["orbits_cost"],
     "python benchmarks/rotor_size.py rotor_size.png": ["rotor_size"],

@@ -2,7 +2,7 @@
 
 Their equations damp with the wrong sign, hold a wedge term though the race does not spin, and are linear,
 so that nothing in them can jump; what they conclude is checked here. Their B is B_s/2 at L/D = 1/2, which
-they do not give.
+they do not give. `damper_feed.py` judges what they say of feed and transients.
 """
 
 import math
@@ -42,10 +42,10 @@ def orbits(reaction, unbalances=U):
     return rf.synchronous_orbits(rotor, reaction, UNIT * unbalances)
 
 
-def transient(reaction):
-    """Return T and T_r(T) from eps = .6, beta = -2.8 rad, turning with the rotor (figure 4)."""
+def transient(reaction, beta=-2.8, rate=0.0):
+    """Return T and T_r(T) from eps = .6 (figure 4); their -2.8 may be beta [rad] or its rate."""
     rotor = rf.RigidRotor(mass=MASS, speed=SPEED, unbalance=0.4 * UNIT, gravity=(0.0, 0.0))
-    start = cartesian_state((0.6, -2.8, 0.0, SPEED), CLEARANCE)
+    start = cartesian_state((0.6, beta, 0.0, (1.0 + rate) * SPEED), CLEARANCE)
     run = rf.simulate(rotor, reaction, duration=20.0 / SPEED, samples=301, initial_state=start, rtol=1e-5)
     return SPEED * run.time, rf.transmitted_ratio(run, rotor)
 

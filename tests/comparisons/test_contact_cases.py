@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import ContactGrid, FixedSteps, PointContact
+from rotorfilm import ContactGrid, FixedSteps, PointContact, SineLoad
 from rotorfilm.bearings.contact.motion.contact_state import ContactRun
 from rotorfilm.bearings.contact.point_contact import perturbed
 from rotorfilm.charts import plot_contact_cases, plot_contact_limits, plot_contact_precision, save
@@ -176,6 +176,27 @@ def test_cases_run_by_a_plan(monkeypatch):
     result = cases.contact_cases(24, tolerance=1e-2, report=lambda fraction, text: told.append(fraction))
     assert [run.time[-1] for run in result.curves["4.1"][0].runs] == pytest.approx([0.4] * 3)
     assert told == sorted(told)
+
+
+@pytest.mark.literature
+def test_the_published_scheme_contradicts_figures_6_and_7():
+    # Its text has amplitudes that fall with W, and omega = 2 with the largest.
+    # Euler takes (1 - exp(-i omega dt))/dt for i omega.
+    contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(16, 12)))
+    rest = contact.stationary()
+    small, k, c, dt = 0.02, 1.54, 0.03, 0.2
+
+    def amplitudes(W, omega):
+        load = SineLoad(amplitude=small, frequency=omega)
+        control = FixedSteps(step=dt, order=1)
+        run = contact.simulate(rest, duration=18.0, W=W, load=load, control=control)
+        s = (1.0 - np.exp(-1j * omega * dt)) / dt
+        return amplitude(run, 18.0 - 2.0 * np.pi), 2.0 * np.pi / 3.0 * small / abs(W * s**2 + c * s + k)
+
+    (light, by_hand), (heavy, by_hand_too) = amplitudes(0.1, 1.0), amplitudes(1.0, 1.0)
+    assert (light, heavy) == pytest.approx((by_hand, by_hand_too), rel=0.05)
+    assert heavy > 2.0 * light
+    assert heavy > 2.0 * amplitudes(1.0, 2.0)[0]
 
 
 @pytest.mark.literature

@@ -1,8 +1,9 @@
-"""Pressure of a splitting film in the middle of the bearing, and the tension that films carry.
+"""Pressure of a splitting film, and the tension that films carry.
 
 From the coupling functions of `coupling`, H^3 u_j' = sum b_i (S_i - <S_i>/<1>) with (k_j^2 K + M) b = <X g>;
-in the middle of the bearing p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) u_j. Over all odd modes
-an eigenvalue l of K against M counts 1 - 1/cosh((L/D)/sqrt(l)).
+at a share x of the way from the middle of the bearing to its end
+p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) cos(j pi x/2) u_j. Over all odd modes an eigenvalue l
+of K against M counts 1 - cosh(x z)/cosh(z), z = (L/D)/sqrt(l).
 """
 
 from __future__ import annotations
@@ -88,6 +89,32 @@ def middle_pressure(
     film: SplittingFilm, eccentricity: Array, source: Array, slenderness: float
 ) -> tuple[Array, Array]:
     """Return angles [rad] from the line of maximum film and p / (12 viscosity (R/c)^2) [1/s], each (B, N)."""
+    gamma, pressure = splitting_pressure(film, eccentricity, source, slenderness, np.zeros(1))
+    return gamma, pressure[:, :, 0]
+
+
+def splitting_pressure(
+    film: SplittingFilm, eccentricity: Array, source: Array, slenderness: float, axial: Array
+) -> tuple[Array, Array]:
+    """Return the pressure of a splitting film at places along the bearing.
+
+    Parameters
+    ----------
+    film : SplittingFilm
+    eccentricity : ndarray, shape (2, B) [1]
+    source : ndarray, shape (2, B) [1/s]
+    slenderness : float [1]
+        Length / diameter.
+    axial : ndarray, shape (M,) [1]
+        From the middle of the bearing, 0, to its end, 1.
+
+    Returns
+    -------
+    gamma : ndarray, shape (B, N) [rad]
+        Angles from the line of maximum film.
+    pressure : ndarray, shape (B, N, M) [1/s]
+        p / (12 viscosity (R/c)^2).
+    """
     frame = polar_frame(eccentricity, source)
     arc = film.rupture.arc(frame.chi, frame.turn, slenderness, film.basis)
     here = whitened_functions(frame.chi, arc.start, arc.end, film.basis)
@@ -96,17 +123,19 @@ def middle_pressure(
     load = np.einsum("bxi,bx->bi", here.X, here.root[..., 0] * g)
     eigenvalues, vectors = np.linalg.eigh(here.S.swapaxes(-1, -2) @ here.S)
     ratio = np.maximum(eigenvalues, np.finfo(float).tiny)
-    amplitude = _middle(film.order[1], ratio, slenderness) * np.einsum("bij,bi->bj", vectors, load)
-    slope = np.einsum("bxi,bij,bj->bx", here.S, vectors, amplitude) * here.root[..., 0]
-    return gamma, slope @ _running_sum(gamma.shape[1]).T
+    profile = _along(film.order[1], ratio[..., None], slenderness, axial)
+    amplitude = profile * np.einsum("bij,bi->bj", vectors, load)[..., None]
+    slope = np.einsum("bxi,bij,bjm->bxm", here.S, vectors, amplitude) * here.root
+    return gamma, _running_sum(gamma.shape[1]) @ slope
 
 
-def _middle(modes: int | None, ratio: Array, slenderness: float) -> Array:
-    """Return sum_j 4/(pi j) sin(j pi/2)/(1 + k_j^2 ratio) over the first odd axial modes, or over all."""
+def _along(modes: int | None, ratio: Array, slenderness: float, axial: Array) -> Array:
+    """Return sum_j 4/(pi j) sin(j pi/2) cos(j pi axial/2)/(1 + k_j^2 ratio) over odd axial modes j."""
     if modes is None:
-        return 1.0 - 1.0 / np.cosh(np.minimum(slenderness / np.sqrt(ratio), LARGEST))
+        z = np.minimum(slenderness / np.sqrt(ratio), LARGEST)
+        return np.asarray(1.0 - np.cosh(axial * z) / np.cosh(z))
     j = 2.0 * np.arange(modes) + 1.0
-    factor = 4.0 / (math.pi * j) * np.sin(0.5 * math.pi * j)
+    factor = 4.0 / (math.pi * j) * np.sin(0.5 * math.pi * j) * np.cos(0.5 * math.pi * j * axial[:, None])
     return np.sum(factor / (1.0 + (0.5 * math.pi * j / slenderness) ** 2 * ratio[..., None]), axis=-1)
 
 

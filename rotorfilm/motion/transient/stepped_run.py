@@ -67,7 +67,8 @@ def simulate_steps(
     halvings, done = 0, 0
     while done < count:
         left = duration * (done + 1) / count - now.time
-        length = left if halvings == 0 else min(left, duration / count * 0.5**halvings)
+        piece = duration / count * 0.5**halvings
+        length = left if left < 1.5 * piece else piece  # no step of what round-off leaves
         try:
             reached = loop.step(now, before, length)
         except (FilmContactError, ConvergenceError) as failure:

@@ -2,7 +2,8 @@
 
    Parameters viscosity [Pa s]; where table film says so supply_pressure [Pa] or supply_flow of each opening [m3/s]; where it
    says so stiffness [N/m]. Inputs x, y, vx, vy [m, m/s], speed [rad/s] at the end of a step. Outputs at the end of the last
-   step: force_x, force_y [N], side_flow, drawn_in, inflow [m3/s], oil_volume [m3].
+   step: force_x, force_y [N], side_flow, drawn_in, inflow [m3/s], oil_volume [m3]; over that step
+   mean_side_flow, mean_drawn_in, mean_inflow [m3/s].
    Tables: film (12: radius, clearance [m], film area [m2], length/diameter, cavitation pressure [Pa], share of the speed that
    carries oil, 1/distance to a groove all round, limits of inner steps as rf_oil_film_si has them, whether there is a supply,
    whether it is a flow, whether there are springs), lines (5 x N: spacing, direction), cells (2 x N x M: conductance, opening),
@@ -16,7 +17,9 @@
    rest at the start values. x, y, vx, vy, speed are the motion at the end of a step; on the way there the journal goes along
    the cubic with the positions and velocities of both ends, in inner steps of a part of a turn, by differences of second
    order (BDF2) and limited transport (van Leer), halved where the film is not found. Outputs belong to the end of the last
-   step: force on the journal, flows out of and into the ends, inflow from the openings, oil in the gap.
+   step: force on the journal, flows out of and into the ends, inflow from the openings, oil in the gap. The mean flows are
+   those over the whole communication step, by the same differences as the oil, so that to round-off
+   oil_volume - oil_volume before = step (mean_inflow + mean_drawn_in - mean_side_flow).
 
    Equations:
    d(theta H)/dt + rate d(theta H)/dxi = d(H^3 dP/dxi)/dxi + (2 radius/length)^2 d(H^3 dP/dz)/dz
@@ -133,7 +136,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     shape->conductance = cells->numbers;
     self->at_supply = supplied->numbers;
     const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
-    const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_SUMS, 0, 0};
+    const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_ANSWERS, 0, 0};
     *sizes = mine;
     return take_openings(self, cells->numbers + (size_t)n * m, (size_t)n * m, count, why);
 }
@@ -191,7 +194,7 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
 {
     const model *self = kernel;
     (void)why;
-    memcpy(y, at->x + RF_OIL_ANSWER, RF_OIL_SUMS * sizeof *y);
+    memcpy(y, at->x + RF_OIL_ANSWER, RF_OIL_ANSWERS * sizeof *y);
     for (size_t k = 0; k < 2; ++k)
         y[k] -= self->stiffness * at->x[RF_OIL_MOTION + k];
     return RF_OK;

@@ -20,15 +20,24 @@ static size_t neighbor(const rf_oil_shape *shape, size_t i, int forward)
     return i > 0 ? i - 1 : shape->lines - 1;
 }
 
-/* Of a line as the oil goes: by how much theta at the face behind it is above its own. */
+/* Of a line as the oil goes: by how much theta at the face behind it is above its own.
+
+   Theta of the last cell before a film says how far the film reaches into it, and is no slope of the oil that arrives:
+   there is no rise behind that cell. Behind the cell before, the slope is that of the oil which arrives, and fades as the
+   last cell fills, so that nothing jumps when the film enters the next cell. */
 static double rise(const rf_oil_shape *shape, size_t i, size_t j, int forward, const double *theta)
 {
-    const size_t m = shape->nodes;
-    const double here = theta[i * m + j];
+    const size_t m = shape->nodes, next = neighbor(shape, i, forward);
+    const double here = theta[i * m + j], there = theta[next * m + j];
     const double behind = here - theta[neighbor(shape, i, !forward) * m + j];
-    const double ahead = theta[neighbor(shape, i, forward) * m + j] - here;
-    const double product = behind * ahead;
-    return product > 0.0 ? product / (behind + ahead) : 0.0;
+    double ahead = there - here, share = 1.0;
+    if (there >= 1.0 || !(behind * ahead > 0.0))
+        return 0.0;
+    if (theta[neighbor(shape, next, forward) * m + j] >= 1.0 && ahead > behind) {
+        share = behind < 1.0 - here ? (1.0 - there) / (1.0 - here - behind) : 0.0;
+        ahead = behind;
+    }
+    return share * behind * ahead / (behind + ahead);
 }
 
 void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const double *theta, double *carried)
@@ -56,11 +65,13 @@ static void set_differences(double ratio, double *a, double *b, double *c)
 
 /* A step by differences a, b, c over dt. */
 static int solve_step(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap,
-                      const rf_oil_past *past, const double *by, const double *carried, rf_oil_found *found)
+                      const rf_oil_past *past, double dt, const double *by, const double *carried,
+                      rf_oil_found *found)
 {
     const size_t m = shape->nodes;
     rf_oil_work work;
     found->rate = by[0];
+    found->lag = by[2] * dt;
     rf_store_oil(equations, gap, by[0]);
     for (size_t q = 0; q < shape->lines * m; ++q) {
         const double held = by[1] * past->content[q] + (by[2] != 0.0 ? by[2] * past->before[q] : 0.0);
@@ -101,12 +112,12 @@ int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, c
     if (ratio <= MOST_GROWTH) {
         set_differences(ratio, &a, &b, &c);
         const double second[3] = {a / dt, b / dt, c / dt};
-        status = solve_step(&equations, shape, gap, past, second, carried, found);
+        status = solve_step(&equations, shape, gap, past, dt, second, carried, found);
         done = status != RF_OK || !is_in_debt(shape, found->theta);
     }
     if (!done) {
         const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};
-        status = solve_step(&equations, shape, gap, past, first, carried, found);
+        status = solve_step(&equations, shape, gap, past, dt, first, carried, found);
     }
     memcpy(found->old, equations.old, all * sizeof *found->old);
     rf_close_oil(&equations);
@@ -158,7 +169,7 @@ int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, r
         status = settle(&equations, shape, gap, rate, carried, carried + all, found);
     if (status == RF_OK)
         memcpy(found->old, equations.old, all * sizeof *found->old);
-    found->rate = 0.0;
+    found->rate = found->lag = 0.0;
     rf_close_oil(&equations);
     free(carried);
     return status;

@@ -17,6 +17,7 @@ typedef struct rf_oil_found {
     uint8_t *full;
     double *old; /* N x M: what the storage of the step held */
     double rate; /* of that storage */
+    double lag;  /* how the step differs: rate dt change = dt flow + lag times the change in the step before */
     rf_oil_work work;
 } rf_oil_found;
 

@@ -100,6 +100,15 @@ static int set_answer(traveler *self, const rf_oil_gap *gap, double rate)
     return status;
 }
 
+/* Set what each flow was in a step, by the very differences by which the oil in the gap changed. */
+static void add_up(traveler *self, double dt)
+{
+    const double *flow = self->block + RF_OIL_ANSWER + RF_OIL_OUT;
+    double *passed = self->block + RF_OIL_PASSED;
+    for (size_t k = 0; k < RF_OIL_FLOWS; ++k)
+        passed[k] = dt > 0.0 ? (dt * flow[k] + self->found.lag * passed[k]) / (self->found.rate * dt) : 0.0;
+}
+
 /* Take what was found as the end of a step of length dt. */
 static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
 {
@@ -113,7 +122,9 @@ static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, dou
         row(self, 0)[q] = self->found.theta[q] * gap->line[q / nodes];
         row(self, 4)[q] = self->found.full[q];
     }
-    return set_answer(self, gap, self->film->carrying * motion[4]);
+    const int status = set_answer(self, gap, self->film->carrying * motion[4]);
+    add_up(self, dt);
+    return status;
 }
 
 int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why)
@@ -132,6 +143,7 @@ int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block
     }
     if (status == RF_OK) {
         memcpy(row(&self, 1), row(&self, 0), self.all * sizeof(double));
+        memcpy(self.block + RF_OIL_MEANS, self.block + RF_OIL_ANSWER + RF_OIL_OUT, RF_OIL_FLOWS * sizeof(double));
         memcpy(block, self.block, rf_oil_numbers(&film->shape) * sizeof *block);
     }
     close_traveler(&self);
@@ -172,7 +184,7 @@ static int follow(traveler *self, double t, const double *begin, const double *e
                   int64_t *work, rf_message *why)
 {
     const double length = dt / (double)pieces;
-    double motion[RF_MOTION];
+    double motion[RF_MOTION], passed[RF_OIL_FLOWS] = {0.0};
     for (int64_t k = 1; k <= pieces; ++k) {
         const double share = (double)k / (double)pieces, time = t + dt * share;
         memcpy(motion, end, sizeof motion);
@@ -184,7 +196,11 @@ static int follow(traveler *self, double t, const double *begin, const double *e
         status = judged(inner_step(self, motion, length, work + 1), time, motion, why);
         if (status != RF_OK)
             return status;
+        for (size_t i = 0; i < RF_OIL_FLOWS; ++i)
+            passed[i] += self->block[RF_OIL_PASSED + i];
     }
+    for (size_t i = 0; i < RF_OIL_FLOWS; ++i)
+        self->block[RF_OIL_MEANS + i] = passed[i] / dt;
     work[0] = pieces;
     return RF_OK;
 }

@@ -20,14 +20,19 @@ typedef struct rf_oil_film_si {
     double largest_way;   /* of the journal in an inner step, in clearances */
 } rf_oil_film_si;
 
-/* What the film remembers is a block of numbers: the length of the last step [s], the motion at its end, the sums
-   there as of oil_shape.h in N, m3/s and m3, and of the cells theta H, the same before the last step, P, theta, and 1
+/* What the film remembers is a block of numbers: the length of the last inner step [s], the motion at its end, the sums
+   there as of oil_shape.h in N, m3/s and m3 and the mean flows [m3/s] of the last step, so that these times its length are
+   what the oil in the gap has changed by; what the flows were in the last inner step [m3]; and of the cells theta H, the same before the last step, P, theta, and 1
    in cells that are full. */
 enum {
     RF_OIL_LENGTH = 0,
     RF_OIL_MOTION = 1,
     RF_OIL_ANSWER = RF_OIL_MOTION + RF_MOTION,
-    RF_OIL_CELLS = RF_OIL_ANSWER + RF_OIL_SUMS,
+    RF_OIL_MEANS = RF_OIL_ANSWER + RF_OIL_SUMS,
+    RF_OIL_FLOWS = RF_OIL_VOLUME - RF_OIL_OUT,
+    RF_OIL_PASSED = RF_OIL_MEANS + RF_OIL_FLOWS,
+    RF_OIL_CELLS = RF_OIL_PASSED + RF_OIL_FLOWS,
+    RF_OIL_ANSWERS = RF_OIL_PASSED - RF_OIL_ANSWER,
     RF_OIL_ROWS = 5
 };
 

@@ -60,6 +60,7 @@ class OilFoundStruct(ctypes.Structure):
     _fields_: ClassVar[Sequence[Any]] = [
         *((name, c_void_p) for name in ("pressure", "theta", "full", "old")),
         ("rate", c_double),
+        ("lag", c_double),
         ("work", OilWorkStruct),
     ]
 

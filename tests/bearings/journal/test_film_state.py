@@ -4,10 +4,19 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline, RegularGridInterpolator
 
 from rotorfilm.bearings.films.cavitation import FullFilm
 from rotorfilm.bearings.films.geometry import Groove, Pad
-from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm, ShortFilm, SplittingFilm, film_state
+from rotorfilm.bearings.journal import (
+    ComplementarityArc,
+    JournalBearing,
+    ReynoldsFilm,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+    film_state,
+)
 from rotorfilm.errors import FilmContactError, InputError
 from rotorfilm.linear import coefficients, equilibrium
 
@@ -186,9 +195,46 @@ def test_state_of_a_film_without_a_field_has_force_and_losses_only():
     assert state.maximum_pressure is None
 
 
-def test_state_needs_a_film_with_losses():
-    with pytest.raises(InputError, match=r"film must be a law with losses.*got SplittingFilm"):
-        film_state(dataclasses.replace(bearing(0.5), film=SplittingFilm()), [0, 0], [0, 0], omega)
+def test_state_needs_a_film_with_losses_or_a_field():
+    with pytest.raises(InputError, match=r"film must be a law with losses.*got SpectralArcFilm"):
+        film_state(dataclasses.replace(bearing(0.5), film=SpectralArcFilm()), [0, 0], [0, 0], omega)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("order", [(1, 1), (2, 1), (2, 3), (4, None)])
+@pytest.mark.parametrize("v", [(0.0, 0.0), (2e-3, -5e-3)])
+def test_the_pressure_of_a_splitting_film_makes_its_force(order, v):
+    b = dataclasses.replace(bearing(0.5), film=SplittingFilm(order=order))
+    state = film_state(b, [0.3 * c, -0.4 * c], v, omega)
+    # Nodes of an arc may pass 2 pi on their way.
+    angle = np.unwrap(state.angle)
+    axial = CubicSpline(state.axial, state.pressure, axis=1).integrate(0.0, 0.5 * b.length)
+    ends = np.array([angle[0] - (angle[1] - angle[0]) / 2.0, angle[-1] + (angle[-1] - angle[-2]) / 2.0])
+    assert np.ptp(ends) == pytest.approx(np.pi, abs=0.01)
+    normal = np.stack([np.cos(angle), np.sin(angle)])
+    force = -2.0 * R * CubicSpline(angle, axial * normal, axis=1).integrate(*ends)
+    np.testing.assert_allclose(force, state.force, rtol=2e-3, atol=2e-3 * np.hypot(*state.force))
+    np.testing.assert_allclose(state.pressure[:, -1], 0.0, atol=1e-12 * state.maximum_pressure)
+    expected = c - c * (0.3 * np.cos(angle) - 0.4 * np.sin(angle))
+    np.testing.assert_allclose(state.thickness, expected)
+    with pytest.raises(InputError, match="film must be a law with losses"):
+        _ = state.power_loss
+    assert "maximum pressure" in str(state)
+    assert state.plot().get_ylabel() == "axial [mm]"
+
+
+@pytest.mark.literature
+def test_a_rich_splitting_film_has_the_pressure_of_reynolds_equation():
+    # On the arc that complementarity finds.
+    rich = SplittingFilm(order=(12, None), constant=True, rupture=ComplementarityArc())
+    at = [0.5 * c, 0.1 * c], [0.0, 0.0], omega
+    found = film_state(dataclasses.replace(bearing(0.5), film=rich), *at)
+    grid = film_state(dataclasses.replace(bearing(0.5), film=ReynoldsFilm(cells=(192, 16))), *at)
+    order = np.argsort(grid.angle)
+    lines = grid.angle[order], grid.axial
+    there = RegularGridInterpolator(lines, grid.pressure[order], bounds_error=False, fill_value=None)
+    places = np.stack(np.meshgrid(found.angle, found.axial, indexing="ij"), -1)
+    np.testing.assert_allclose(found.pressure, there(places), atol=0.02 * grid.maximum_pressure)
 
 
 @pytest.mark.parametrize(

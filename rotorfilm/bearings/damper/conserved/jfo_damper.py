@@ -126,7 +126,7 @@ class JFODamper(SteppedFilm):
         return 0.0
 
     def answer(self, state: FilmMemory) -> Array:
-        """Return the outputs of a state, shape (6,), the force with that of the springs."""
+        """Return the outputs of a state, shape (9,), the force with that of the springs."""
         found = super().answer(state)
         found[:2] -= self.stiffness * state.motion[:2]
         return found

@@ -95,12 +95,16 @@ class ConservedState(NamedTuple):
         Half the speed, with which the oil is carried.
     equations : OilCells
     solution : OilSolution
+    difference : tuple of float [1/s], [1]
+        Of the step that ended here: rate of its storage, and share that the change in the step before has;
+        rate dt (change of the oil) = dt (flow) + share (change before).
     """
 
     gap: Gap
     rate: float
     equations: OilCells
     solution: OilSolution
+    difference: tuple[float, float] = (0.0, 0.0)
 
     @property
     def content(self) -> Array:

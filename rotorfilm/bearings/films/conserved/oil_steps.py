@@ -97,6 +97,15 @@ def oil_step(
     return step_oil(film, gap, rate, dt, past, (like.theta, like.full))
 
 
+def passed_oil(before: Array, flow: Array, state: ConservedState, dt: float) -> Array:
+    """Return the oil [m3] of flows [m3/s] at the end of a step, by the differences that its storage has.
+
+    Of `before`, what passed in the step before. So what entered less what left is what the oil changed by.
+    """
+    rate, share = state.difference
+    return (dt * flow + share * before) / (rate * dt)
+
+
 def packed_oil(memory: OilMemory, **further: Array) -> bytes:
     """Return a memory, and further numbers, as bytes to the last bit."""
     buffer = io.BytesIO()

@@ -28,8 +28,13 @@ from .oil_kernel import OilSolution, oil_struct, report_search
 SUMS = 6
 """Force, flows and oil of a film, as `oil_sums` has them."""
 
-HEAD = 1 + 5 + SUMS
-"""Numbers of a block before those of the cells: length of the last step, motion, sums."""
+FLOWS = slice(2, 5)
+"""Flows in the sums."""
+
+HEADS = 1, 5, SUMS + 3, 3
+"""Numbers of a block before the cells: length of the last inner step, motion, sums and means, what passed."""
+
+HEAD = sum(HEADS)
 
 ROWS = ("content", "before", "pressure", "theta", "full")
 """What a block has of the cells."""
@@ -204,16 +209,20 @@ class MovingFilm(NamedTuple):
         return OilFilmStruct(shape_of(self.film)[0], *self[1:])
 
 
-def block_of(length: float, motion: Array, sums: Array, rows: Mapping[str, np.ndarray]) -> Array:
-    """Return the block of numbers of which `rf_oil_travel` goes on."""
-    return np.concatenate([[length], motion, sums, *(np.ravel(rows[name]) for name in ROWS)])
+def block_of(heads: tuple[float, Array, Array, Array], rows: Mapping[str, np.ndarray]) -> Array:
+    """Return the block of numbers of which `rf_oil_travel` goes on; `heads` as `parts_of` returns them."""
+    return np.concatenate([*(np.ravel(head) for head in heads), *(np.ravel(rows[name]) for name in ROWS)])
 
 
-def parts_of(block: Array, shape: tuple[int, ...]) -> tuple[float, Array, Array, dict[str, np.ndarray]]:
-    """Return length, motion, sums and the rows of cells of a block."""
+def parts_of(
+    block: Array, shape: tuple[int, ...]
+) -> tuple[tuple[float, Array, Array, Array], dict[str, np.ndarray]]:
+    """Return length, motion, answer and what passed, and the rows of cells of a block."""
+    length, *heads = np.split(block[:HEAD].copy(), np.cumsum(HEADS[:-1]))
     cells = dict(zip(ROWS, block[HEAD:].reshape(len(ROWS), *shape), strict=True))
     full = cells.pop("full").astype(np.uint8)
-    return float(block[0]), block[1:6].copy(), block[6:HEAD].copy(), {**cells, "full": full}
+    motion, answer, passed = heads
+    return (float(length[0]), motion, answer, passed), {**cells, "full": full}
 
 
 def _gap(rows: list[Array]) -> OilGapStruct:
@@ -242,7 +251,7 @@ def _state(
     pressure, theta, full, old = found
     equations = film.equations(gap, rate, Storage(made.rate, np.zeros(old.shape)))._replace(old=old)
     solution = OilSolution(pressure, theta, full, made.work.solutions, made.work.newton)
-    return ConservedState(gap, rate, equations, solution)
+    return ConservedState(gap, rate, equations, solution, (made.rate, made.lag))
 
 
 def _float(numbers: Array) -> Array:

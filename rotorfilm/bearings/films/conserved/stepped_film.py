@@ -18,8 +18,8 @@ from .conserved_film import ConservedFilm, ConservedState, circular_gap
 from .conserved_motion import step_stiffness, sudden_slopes
 from .oil_kernel import OilSolution
 from .oil_spec import OilNumbers, oil_spec
-from .oil_steps import OilMemory, after_step, oil_step, packed_oil, unpacked_oil
-from .step_kernel import MovingFilm, block_of, oil_sums, parts_of
+from .oil_steps import OilMemory, after_step, oil_step, packed_oil, passed_oil, unpacked_oil
+from .step_kernel import FLOWS, MovingFilm, block_of, oil_sums, parts_of
 
 LARGEST_ANGLE = 2.0 * math.pi / 192.0
 """Rotation of the shaft in one inner step [rad]."""
@@ -27,7 +27,7 @@ LARGEST_ANGLE = 2.0 * math.pi / 192.0
 LARGEST_WAY = 0.02
 """Way of the journal in one inner step, in clearances."""
 
-FLOWS = {
+FLOW_NAMES = {
     "side_flow": "oil that leaves through both ends",
     "drawn_in": "oil that enters through both ends",
     "inflow": "oil that leaves all openings for the film, less what arrives there",
@@ -42,12 +42,15 @@ class FilmMemory(NamedTuple):
     oil : OilMemory
     motion : ndarray, shape (5,) [m, m, m/s, m/s, rad/s]
         x, y, vx, vy, speed of the journal.
-    output : ndarray, shape (6,) [N, N, m3/s, m3/s, m3/s, m3]
+    output : ndarray, shape (9,) [N, N, m3/s, m3/s, m3/s, m3, m3/s, m3/s, m3/s]
+    passed : ndarray, shape (3,) [m3]
+        Of side flow, what is drawn in and inflow, in the last inner step.
     """
 
     oil: OilMemory
     motion: Array
     output: Array
+    passed: Array
 
 
 class SteppedFilm:
@@ -55,11 +58,10 @@ class SteppedFilm:
 
     The input u is the motion of the journal at the end of a step. On the way there it goes along the cubic
     with the positions and velocities of both ends, in inner steps of a turn/192 and .02 clearances at most,
-    halved where the film is not found. Outputs belong to the end of the last step. In their balance
+    halved where the film is not found. Outputs belong to the end of the last step, mean flows to the whole
+    of it. They have the differences of the inner steps, so that in steps of any length, to round-off,
 
-        (3 oil_volume - 4 oil_volume before + the one before that)/(2 dt) = inflow + drawn_in - side_flow
-
-    nothing is lost: that is how steps of equal length go.
+        oil_volume - oil_volume before = dt (mean_inflow + mean_drawn_in - mean_side_flow).
     """
 
     @property
@@ -98,15 +100,17 @@ class SteppedFilm:
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y on the journal, side_flow, drawn_in, inflow, oil_volume."""
+        """Signals force_x, force_y on the journal, side_flow, drawn_in, inflow, oil_volume, mean flows."""
         force, volume = self.scales
-        flows = [
-            Signal(name=name, unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text)
-            for name, text in FLOWS.items()
-        ]
+        flow = volume * NOMINAL_SPEED
+        flows, means = (
+            [Signal(name=f"{kind}{name}", unit="m3/s", nominal=flow, description=f"{text}{when}")
+             for name, text in FLOW_NAMES.items()]
+            for kind, when in (("", ""), ("mean_", "; mean over the last step"))
+        )  # fmt: skip
         oil = "oil in the gap, over the openings too"
         held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
-        return (*force_outputs(force * NOMINAL_SPEED), *flows, held)
+        return (*force_outputs(force * NOMINAL_SPEED), *flows, held, *means)
 
     def start(self, u: ArrayLike) -> FilmMemory:
         """Return the steady film at rest at u = (x, y, vx, vy, speed); the velocity counts later.
@@ -141,8 +145,8 @@ class SteppedFilm:
         if dt == 0.0:
             return state, state.output, {"steps": 0, "solutions": 0}
         require_positive("dt", dt)
-        length, shares = state.oil.length, state.oil._asdict()
-        begin = block_of(length, state.motion, state.output, shares)
+        heads = state.oil.length, state.motion, state.output, state.passed
+        begin = block_of(heads, state.oil._asdict())
         block, steps, solutions = self.moving.travel(begin, t, target, dt)
         end = self._remembered(block)
         return end, end.output.copy(), {"steps": steps, "solutions": solutions}
@@ -150,7 +154,10 @@ class SteppedFilm:
     def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         found = self._found(state, u, dt, near)
-        end = FilmMemory(after_step(state.oil, found, dt), u, self._output(found))
+        sums = self._sums(found)
+        passed = passed_oil(state.passed, sums[FLOWS], found, dt)
+        output = np.concatenate([sums, passed / dt])
+        end = FilmMemory(after_step(state.oil, found, dt), u, output, passed)
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
         return StepTrial(end, end.output, slope, found.solution.solutions + 1)
@@ -165,17 +172,17 @@ class SteppedFilm:
         return force * sudden_slopes(self.film, film) / np.array([*[self.clearance] * 4, 1.0])
 
     def answer(self, state: FilmMemory) -> Array:
-        """Return the outputs of a state, shape (6,)."""
+        """Return the outputs of a state, shape (9,)."""
         return state.output.copy()
 
     def pack(self, state: FilmMemory) -> bytes:
         """Return a state as bytes, to the last bit."""
-        return packed_oil(state.oil, motion=state.motion, output=state.output)
+        return packed_oil(state.oil, motion=state.motion, output=state.output, passed=state.passed)
 
     def unpack(self, content: bytes) -> FilmMemory:
         """Return the state in bytes; raise InputError if it is of other cells."""
         oil, further = unpacked_oil(content, self.film.cells.opening.shape)
-        return FilmMemory(oil, further["motion"], further["output"])
+        return FilmMemory(oil, further["motion"], further["output"], further["passed"])
 
     @property
     def moving(self) -> MovingFilm:
@@ -184,15 +191,15 @@ class SteppedFilm:
         return MovingFilm(self.film, self.clearance, share, *self.scales, LARGEST_ANGLE, LARGEST_WAY)
 
     def _remembered(self, block: Array) -> FilmMemory:
-        length, motion, output, rows = parts_of(block, self.film.cells.opening.shape)
-        return FilmMemory(OilMemory(length=length, **rows), motion, output)
+        (length, *heads), rows = parts_of(block, self.film.cells.opening.shape)
+        return FilmMemory(OilMemory(length=length, **rows), *heads)
 
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
         gap = circular_gap(self.film.cells, u[:2] / self.clearance)
         like = None if near is None else near.oil
         return oil_step(self.film, state.oil, gap, self.carrying(u), dt, near=like)
 
-    def _output(self, state: ConservedState) -> Array:
+    def _sums(self, state: ConservedState) -> Array:
         force, volume = self.scales
         return oil_sums(self.film, state) * np.repeat([force, volume], [2, 4])
 

@@ -98,6 +98,26 @@ def test_the_other_sense_of_rotation_is_the_mirror_image(supply):
     np.testing.assert_allclose(there.sum(), 0.0, atol=1e-14)
 
 
+@pytest.mark.closed_form
+def test_the_last_cell_before_a_film_has_no_slope(supply):
+    # Its theta tells how far the film reaches into it, and what leaves is that of upstream transport.
+    film = ring(36, supply)
+    gap = circular_gap(film.cells, np.zeros(2))
+    arriving = np.linspace(0.4, 0.5, 11)
+    leaves = []
+    for fill in (0.0, 0.3, 0.7, 1.0 - 1e-9, 1.0):
+        theta = np.ones((36, 4))
+        theta[10:21] = arriving[:, None]
+        theta[21] = 0.51 + 0.49 * fill
+        leaves.append(sharpened_oil(film, gap, 0.5, theta)[:, 0])
+    faces = np.cumsum(leaves, axis=1)  # through the face after a cell, beyond what its theta carries
+    scale = 0.5 * 0.01 * film.cells.width[0]
+    np.testing.assert_allclose(faces[:, 21], 0.0, atol=1e-12 * scale)
+    np.testing.assert_allclose(faces[:, 19], 0.5 * scale, rtol=1e-9)  # half of its rise per cell
+    shares = np.array([1.0, 0.7, 0.3, 0.0, 0.0])
+    np.testing.assert_allclose(faces[:, 20], 0.5 * scale * shares, atol=1e-8 * scale)
+
+
 def test_a_cell_never_gives_more_oil_than_it_has(supply):
     # Of a cell that had 1 and has .1, differences of second order would leave less than nothing.
     film = ring(36, supply)

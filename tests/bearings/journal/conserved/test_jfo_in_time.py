@@ -49,7 +49,8 @@ def test_is_a_stepped_model():
     assert isinstance(FILM, Stepped)
     assert [s.name for s in FILM.inputs] == ["x", "y", "vx", "vy", "speed"]
     assert [s.name for s in FILM.outputs] == [
-        "force_x", "force_y", "side_flow", "drawn_in", "inflow", "oil_volume"
+        "force_x", "force_y", "side_flow", "drawn_in", "inflow", "oil_volume",
+        "mean_side_flow", "mean_drawn_in", "mean_inflow",
     ]  # fmt: skip
 
 
@@ -81,10 +82,70 @@ def test_steps_are_of_second_order():
 @pytest.mark.closed_form
 def test_no_oil_is_made_or_lost():
     steps = 192
-    _, _, out, drawn, fed, volume = followed(FILM, steps)
+    _, _, out, drawn, fed, volume = followed(FILM, steps)[:6]
     stored = (1.5 * volume[2:] - 2.0 * volume[1:-1] + 0.5 * volume[:-2]) * steps / TURN
     assert np.abs(stored).max() > 0.1 * out.max()
     np.testing.assert_allclose(stored, (fed + drawn - out)[2:], atol=1e-10 * out.max())
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("name", ["pressed", "starved", "bathed"])
+def test_mean_flows_balance_the_oil_over_steps_of_any_length(name):
+    plain = dataclasses.replace(BEARING, grooves=(), supply_pressure=0.0)
+    film = {
+        "pressed": FILM,
+        "starved": JFOFilm(
+            bearing=dataclasses.replace(BEARING, supply_pressure=0.0), cells=(36, 4), supply_flow=1.5e-5
+        ),
+        "bathed": JFOFilm(bearing=plain, cells=(36, 4), cavitation_pressure=-1e5, submerged=True),
+    }[name]
+    state, t = film.start(motion(0.0)), 0.0
+    before = film.answer(state)
+    np.testing.assert_array_equal(before[6:], before[2:5])
+    pieces = 0
+    for share in (1 / 24, 1 / 500, 1 / 7, 1 / 192, 1 / 11, 1 / 150):
+        dt = share * TURN
+        state, output, work = film.step(state, t, motion(t + dt), dt)
+        t, pieces = t + dt, max(pieces, work["steps"])
+        out, drawn, fed = output[6:]
+        stored = output[5] - before[5]
+        assert dt * (fed + drawn - out) == pytest.approx(stored, abs=1e-14 * output[5] + 1e-11 * dt * out)
+        trial = film.attempt(state, motion(t + 1e-4), 1e-4)
+        out, drawn, fed = trial.output[6:]
+        stored = trial.output[5] - output[5]
+        assert 1e-4 * (fed + drawn - out) == pytest.approx(stored, abs=1e-14 * output[5] + 1e-15 * out)
+        before = output
+    assert pieces > 10
+
+
+@pytest.mark.convergence
+def test_mean_flows_are_of_second_order():
+    # What leaves in half a turn, in steps that are not those of the shaft.
+    passed = [
+        [TURN / 2 / steps * followed(FILM, steps, 0.5)[k, 1:].sum() for k in (6, 8)]
+        for steps in (96, 192, 384)
+    ]
+    change = [np.hypot(*np.subtract(b, a)) for a, b in itertools.pairwise(passed)]
+    assert 1.6 < np.log2(change[0] / change[1]) < 2.6
+    assert change[1] < 1e-3 * np.hypot(*passed[2])
+
+
+@pytest.mark.closed_form
+def test_a_starved_film_in_steps_has_its_dynamic_stiffness():
+    # A quarter of the oil that a header at 2 bar gives: the film starts late, and moves with the journal.
+    starved = dataclasses.replace(BEARING, supply_pressure=0.0)
+    film = JFOFilm(bearing=starved, cells=(60, 4), supply_flow=1.5e-5)
+    at, small, nu, steps = np.array([4e-5, -4.5e-5]), 1e-4 * c, 0.5 * omega, 360
+    dt, forces = 2.0 * np.pi / nu / steps, []
+    state = film.start([*at, 0.0, 0.0, omega])
+    for t in dt * np.arange(1, 3 * steps + 1):
+        u = [at[0] + small * np.sin(nu * t), at[1], small * nu * np.cos(nu * t), 0.0, omega]
+        state, output, _ = film.step(state, t - dt, u, dt)
+        forces.append(output[:2])
+    phase = np.exp(-1j * nu * dt * np.arange(1, steps + 1))
+    seen = -2j / steps / small * (phase @ (np.array(forces[-steps:]) - forces[-1]))
+    expected = film.complex_stiffness(at, omega, 1j * nu)
+    np.testing.assert_allclose(seen, expected[:, 0], atol=4e-3 * np.abs(expected).max())
 
 
 @pytest.mark.closed_form
@@ -128,7 +189,7 @@ def test_sudden_slopes_are_those_of_moves_with_the_same_oil(flow):
     fed = dataclasses.replace(BEARING, supply_pressure=0.0 if flow else 2e5)
     film, u, dt = JFOFilm(bearing=fed, cells=(36, 4), supply_flow=flow), motion(0.0), 1e-6 * TURN
     oil = remembered(film.film.solve(circular_gap(film.film.cells, u[:2] / c), 0.5 * omega))
-    state, none = FilmMemory(oil, u, np.zeros(6)), np.zeros(2)
+    state, none = FilmMemory(oil, u, np.zeros(9), np.zeros(3)), np.zeros(2)
     moves = [(np.eye(5)[k] * 1e-9, none) for k in (0, 1)]
     moves += [(np.zeros(5), 1e-6 * unit) for unit in np.eye(2)]
     moves += [(np.eye(5)[4] * 1e-3 * omega, none)]
@@ -164,9 +225,11 @@ def test_long_steps_are_divided_along_the_cubic():
     state, dt = FILM.start(motion(0.0)), TURN / 16.0
     whole, output, work = FILM.step(state, 0.0, motion(dt), dt)
     assert work["steps"] == 12
+    means = np.zeros(3)
     for k in range(1, 13):
-        state, _, _ = FILM.step(state, 0.0, between(motion(0.0), motion(dt), dt, k / 12.0), dt / 12.0)
-    np.testing.assert_allclose(FILM.answer(state), output, rtol=1e-12)
+        state, piece, _ = FILM.step(state, 0.0, between(motion(0.0), motion(dt), dt, k / 12.0), dt / 12.0)
+        means += piece[6:] / 12.0
+    np.testing.assert_allclose([*FILM.answer(state)[:6], *means], output, rtol=1e-12)
     np.testing.assert_array_equal(whole.motion, motion(dt))
 
 
@@ -213,6 +276,7 @@ def test_steps_whose_film_is_not_found_are_halved():
     assert pieces in (2, 4, 8, 16)
     for _ in range(pieces):
         state = film.step(state, 0.0, u, dt / pieces)[0]
+    state.output[6:] = end.output[6:]  # mean flows, over all pieces
     assert film.pack(state) == film.pack(end)
 
 
