@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import Radau, solve_ivp
 from scipy.linalg import expm
 
 from rotorfilm import (
