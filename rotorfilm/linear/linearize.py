@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
 from ..inputs.si_arguments import quantities
-from ..model import Array, Linearization, Model
+from ..model import Array, Dynamic, Linearization, Model
 from ..results import Equilibrium
 from ..signals import JOURNAL_INPUTS, Signal, names
-from ..warming import Remembering
+from ..warming import Remembering, RestingStates
 
 if TYPE_CHECKING:
     import control
@@ -60,7 +60,7 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
     InputError
         If the point does not fit the model, or an Equilibrium is given for a model that is no film.
     """
-    if isinstance(model, Remembering) and isinstance(at, Equilibrium):
+    if isinstance(model, Remembering) and not isinstance(model, Dynamic) and isinstance(at, Equilibrium):
         from .memory.film_system import film_system
 
         return film_system(model, at, name=name).system
@@ -105,9 +105,12 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
 
 def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
     given = names(model.inputs)
+    u = np.array([*at.position, 0.0, 0.0, at.speed])
+    if given == list(JOURNAL_INPUTS) and isinstance(model, RestingStates):
+        return OperatingPoint(x=model.rest_state(at.position, at.speed), u=u)
     if given != list(JOURNAL_INPUTS) or model.states:
         raise InputError(
             "at must be an OperatingPoint for a model that is no film with the inputs "
             f"{', '.join(JOURNAL_INPUTS)}, got an Equilibrium for the inputs {given}"
         )
-    return OperatingPoint(u=np.array([*at.position, 0.0, 0.0, at.speed]))
+    return OperatingPoint(u=u)

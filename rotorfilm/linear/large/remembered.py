@@ -11,7 +11,7 @@ from ...errors import ConvergenceError
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 from ...rotors.structure import Structure
-from ...warming import Remembering
+from ...warming import Settling
 from ..memory.phase_count import growing_count
 from ..rotor_rest import RotorEquilibrium, rest
 from .condensed import models, usual_frequency
@@ -102,7 +102,7 @@ def require_all_growing(
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if not any(isinstance(bearing, Remembering) for bearing in bearings.values()):
+    if not any(isinstance(bearing, Settling) for bearing in bearings.values()):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
