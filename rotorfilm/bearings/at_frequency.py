@@ -147,4 +147,6 @@ def coefficients_of(
     K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
     damping = K.imag / nu if slope is None else slope.real
     known = {"stiffness": K.real, "damping": damping, "position": position, "speed": speed, "frequency": nu}
-    return ReducedCoefficients(**known) if frequency is not None else MemoryCoefficients(**known, motion=motion)
+    return (
+        ReducedCoefficients(**known) if frequency is not None else MemoryCoefficients(**known, motion=motion)
+    )

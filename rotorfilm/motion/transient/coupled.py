@@ -160,7 +160,9 @@ class Coupled:
     def scale(self) -> Array:
         """Return the magnitude of each state: a film's nominal value where it has the same signal."""
         nominal = {
-            prefixed(j.station, signal).name: signal.nominal for j in self.journals for signal in j.film.inputs
+            prefixed(j.station, signal).name: signal.nominal
+            for j in self.journals
+            for signal in j.film.inputs
         }
         rotor = [nominal.get(signal.name, signal.nominal) for signal in self.rotor.states]
         return np.array([*rotor, *(signal.nominal for j in self.journals for signal in j.film.states)])

@@ -18,7 +18,6 @@ from rotorfilm import (
     BallSupport,
     BushReaction,
     ClassicalBeam,
-    ContactError,
     ContactLaw,
     Cooling,
     Disk,
@@ -36,6 +35,7 @@ from rotorfilm import (
     TiltingPadBearing,
     TurningBalls,
     Unbalance,
+    coefficients,
     equilibrium,
     even_pivots,
     export_fmu,
@@ -44,10 +44,8 @@ from rotorfilm import (
     mount,
     periodic_orbit,
     rotor_equilibrium,
-    rotor_modes,
     rotor_threshold,
     simulate,
-    simulate_rotor,
     unbalance_response,
     whirl_threshold,
 )
@@ -59,9 +57,20 @@ OIL = {"oil": Oil.iso_vg(32), "cooling": Cooling(supply_temperature=313.15, bush
 SIZE = {"radius": 0.05, "length": 0.05}
 PADS = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24)))
 LIGHT = TiltingPadBearing(
-    **SIZE, viscosity=0.02, pivots=even_pivots(5), extent=np.pi / 3.0, preload=0.3, pad_clearance=1e-4, film=PADS
+    **SIZE,
+    viscosity=0.02,
+    pivots=even_pivots(5),
+    extent=np.pi / 3.0,
+    preload=0.3,
+    pad_clearance=1e-4,
+    film=PADS,
 )
-DAMPED = {"A": np.diag([-1.0, -4.0]), "B": np.ones((2, 1)), "C": np.array([[0.3, 2.0]]), "D": np.array([[-0.8]])}
+DAMPED = {
+    "A": np.diag([-1.0, -4.0]),
+    "B": np.ones((2, 1)),
+    "C": np.array([[0.3, 2.0]]),
+    "D": np.array([[-0.8]]),
+}
 LAW = ContactLaw(
     offset=0.3, span=2.1, exponent=1.5, operating=-1.8, **DAMPED, static_error=0.0, damping_error=0.0,
     film_scale=1e-6, time_scale=1e-4, force_scale=200.0,
@@ -87,6 +96,10 @@ FILMS = {
 """All kinds of bearings with states."""
 
 IN_CONTACT, PUSH, DURATION, LINEAR = -4.55e-4, 1e-5, 1e-3, 3e-3
+"""Place of a shaft on its bush [m], push in nominal velocities, time [s], and what is linear in it."""
+
+WARMING, END = 1e-3, 1e-4
+"""What the temperature of a film changes in an orbit, relative, and duration of an FMU [s]."""
 
 NO_REST = {"turning balls", "worn bush"}
 """Whose states never rest: balls go round, and wear goes on."""
@@ -150,13 +163,18 @@ def resting(kind, shape, unbalance=0.0, speed=SPEED):
     return rotor, films, mounted, settled(mounted, x, size if kind in NO_REST else len(x))
 
 
-cells = pytest.mark.parametrize(("kind", "shape"), list(product(FILMS, ROTORS)))
+def cells(*slow, without=frozenset()):
+    """Return a decorator over all kinds of films but some, and all rotors; slow pairs are for long runs."""
+    pairs = [
+        pytest.param(*pair, marks=[pytest.mark.long] * (pair in slow or pair[1] in slow))
+        for pair in product(FILMS, ROTORS)
+        if pair[0] not in without
+    ]
+    return pytest.mark.parametrize(("kind", "shape"), pairs)
 
 
-@cells
+@cells(without={"worn bush"})
 def test_the_rest_is_that_of_the_state_space(kind, shape):
-    if kind == "worn bush":
-        pytest.skip("its arc is no place that the search for an equilibrium takes yet")
     rotor, films, _, x = resting(kind, shape)
     found = rest_of(rotor, films)
     assert x[: len(found)] == pytest.approx(found, abs=1e-9 * 1e-4)
@@ -169,15 +187,13 @@ def leading(kind, shape, speed):
     return values[np.abs(values.imag) > 1.0].real.max()
 
 
-@cells
+@cells(("warm lobes", "flexible"), without=NO_REST)
 def test_the_threshold_is_that_of_the_state_space(kind, shape):
-    if kind in NO_REST:
-        pytest.skip("states that never rest have no exponents")
     rotor, films = placed(kind, shape)
     if shape == "rigid":
         found = whirl_threshold(films[""], rotor.static_load, rotor.mass, (200.0, 1500.0))
     else:
-        found = rotor_threshold(rotor, films, np.linspace(200.0, 1500.0, 8))
+        found = rotor_threshold(rotor, films, np.linspace(200.0, 1500.0, 4))
     if found.speed is None:
         assert found.reason.startswith("stable at every speed")
         assert max(leading(kind, shape, speed) for speed in (200.0, 1500.0)) < 0.0
@@ -188,7 +204,7 @@ def test_the_threshold_is_that_of_the_state_space(kind, shape):
 
 
 def exact(mounted, start, push, times):
-    """Return the states at some times by another method: of small motion about a rest the exponential of A."""
+    """Return the states at some times by another method: about a rest the matrix exponential."""
     A = mounted.linearization(0.0, start, ()).A
     if np.abs(mounted.derivative(0.0, start, ()) / scales(mounted)).max() < 1e-6:
         return np.array([start + expm(t * A) @ push for t in times])
@@ -204,7 +220,7 @@ def exact(mounted, start, push, times):
     return found.y.T
 
 
-@cells
+@cells(("warm lobes", "flexible"), ("worn bush", "flexible"))
 def test_a_transient_is_that_of_the_state_space(kind, shape):
     """After a push so small that motion about a rest stays linear."""
     _, films, mounted, x = resting(kind, shape)
@@ -215,8 +231,54 @@ def test_a_transient_is_that_of_the_state_space(kind, shape):
     states = exact(mounted, x, push, run.time)
     outputs = [mounted.output(0.0, z, ()) for z in states]
     known = {signal.name: row for signal, row in zip(mounted.outputs, np.transpose(outputs), strict=True)}
-    known |= {signal.name: row for signal, row in zip(mounted.states, states.T, strict=True) if signal.name in run.signals}
+    known |= {
+        signal.name: row
+        for signal, row in zip(mounted.states, states.T, strict=True)
+        if signal.name in run.signals
+    }
     assert set(known) == set(run.signals)
     for name, row in known.items():
         size = np.abs(row - row[0]).max()
         assert run[name] == pytest.approx(row, abs=LINEAR * size + 1e-9 * np.abs(row).max()), name
+
+
+@cells(without=NO_REST)
+def test_a_small_orbit_is_that_of_the_state_space(kind, shape):
+    rotor, films, mounted, x = resting(kind, shape)
+    turning, _ = placed(kind, shape, unbalance=1e-6)
+    A, C = (getattr(mounted.linearization(0.0, x, ()), name) for name in "AC")
+    quarter = 0.5 * np.pi / SPEED
+    push = mount(turning, films).derivative(0.0, x, ()) - 1j * mount(turning, films).derivative(
+        quarter, x, ()
+    )
+    exact = C @ np.linalg.solve(1j * SPEED * np.eye(len(A)) - A, push)
+    names, tolerance = (
+        [signal.name for signal in mounted.outputs],
+        WARMING if kind.startswith("warm") else 1e-8,
+    )
+    if shape == "rigid":
+        at = coefficients(films[""], x[:2], SPEED)
+        dynamic = at.stiffness + 1j * SPEED * at.damping - SPEED**2 * rotor.mass * np.eye(2)
+        found = np.linalg.solve(dynamic, turning.unbalance * SPEED**2 * np.array([1.0, -1j]))
+        assert found == pytest.approx(exact[:2], rel=tolerance)
+    else:
+        response = unbalance_response(turning, films, [SPEED])
+        rows = [names.index(label) for label in response.output_labels if label in names]
+        found = response.frdata[[k for k, label in enumerate(response.output_labels) if label in names], 0, 0]
+        size = np.abs(exact[rows])
+        assert np.abs(found - exact[rows]) == pytest.approx(0.0, abs=tolerance * size.max())
+    with pytest.raises(InputError, match=r"bearings must have no states of their own here, got some at the"):
+        periodic_orbit(mount(turning, films))
+
+
+@cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"))
+def test_an_fmu_of_both_has_the_motion_of_the_model(kind, shape, tmp_path):
+    _, films, mounted, _ = resting(kind, shape)
+    path = export_fmu(mounted, tmp_path / "both.fmu", "2.0")
+    told = fmpy.simulate_fmu(str(path), stop_time=END, output_interval=END, step_size=END)
+    run = simulate(mounted.rotor, films, duration=END, samples=2)
+    for name in (signal.name for signal in mounted.rotor.outputs):
+        last, size = run[name][-1], np.abs(run[name]).max()
+        assert told[f"mounted_rotor.{name}"][-1] == pytest.approx(
+            last, rel=1e-3, abs=1e-9 * max(size, 1e-4)
+        ), name
