@@ -19,10 +19,10 @@ from .inverse_iteration import whirl_near
 from .second_order import journal_rows, remembering, second_order
 
 REACH = 20.0
-"""Frequency / speed up to which exponents are told apart in the phase; most faster ones hardly feel the oil."""
+"""Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
 
 MOVED = 1e-2
-"""Relative distance from all exponents with K and C of one frequency, and the reverse, of a fast one that does."""
+"""Relative distance of a fast exponent that does from all with K and C of one frequency."""
 
 _REAL = 1e-8
 

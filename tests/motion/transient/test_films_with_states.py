@@ -1,7 +1,7 @@
 """Every bearing with states of its own under a rigid, a Jeffcott and a flexible rotor: all analyses agree.
 
-The reference is the state space of `mount(rotor, bearings)`: its rest by Newton's method, its eigenvalues, its
-response to unbalance and its matrix exponential.
+The reference is the state space of `mount(rotor, bearings)`: its rest by Newton's method, its eigenvalues,
+its response to unbalance and its matrix exponential.
 """
 
 from dataclasses import replace
@@ -27,6 +27,7 @@ from rotorfilm import (
     JournalBearing,
     LobedBearing,
     Oil,
+    OperatingPoint,
     PadMapFilm,
     RigidRotor,
     ShaftElement,
@@ -35,17 +36,20 @@ from rotorfilm import (
     TiltingPadBearing,
     TurningBalls,
     Unbalance,
+    closed_loop,
     coefficients,
     equilibrium,
     even_pivots,
     export_fmu,
     f4k20_bush,
+    linearize,
     lobe_set,
     mount,
     periodic_orbit,
     rotor_equilibrium,
     rotor_threshold,
     simulate,
+    transmissibility,
     unbalance_response,
     whirl_threshold,
 )
@@ -282,3 +286,33 @@ def test_an_fmu_of_both_has_the_motion_of_the_model(kind, shape, tmp_path):
         assert told[f"mounted_rotor.{name}"][-1] == pytest.approx(
             last, rel=1e-3, abs=1e-9 * max(size, 1e-4)
         ), name
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FILMS if kind not in NO_REST])
+def test_the_closed_loop_is_the_state_space(kind):
+    """Its poles are the eigenvalues of the mounted rotor; a film keeps its temperature."""
+    rotor, films, mounted, x = resting(kind, "rigid")
+    rest = equilibrium(films[""], rotor.static_load, SPEED)
+    poles = np.linalg.eigvals(closed_loop(rotor, films[""], rest).A)
+    A = mounted.linearization(0.0, x, ()).A
+    wanted = np.linalg.eigvals(A[:4, :4] if kind.startswith("warm") else A)
+    assert np.sort_complex(poles) == pytest.approx(np.sort_complex(wanted), rel=1e-6)
+    gain = transmissibility(rotor, films[""], rotor.static_load, [SPEED]).frdata[:, :, 0]
+    at = coefficients(films[""], rest.position, SPEED)
+    dynamic = at.stiffness + 1j * SPEED * at.damping
+    wanted = dynamic @ np.linalg.inv(dynamic - SPEED**2 * rotor.mass * np.eye(2))
+    assert gain == pytest.approx(wanted, rel=1e-6, abs=1e-9)
+
+
+def test_a_closed_loop_of_states_that_never_rest_names_the_way():
+    rotor, films, mounted, x = resting("turning balls", "rigid")
+    rest = equilibrium(films[""], rotor.static_load, SPEED)
+    with pytest.raises(InputError, match=r"at must tell the states cage_angle, .* linearize\(mount\(rotor"):
+        closed_loop(rotor, films[""], rest)
+    assert linearize(mounted, OperatingPoint(x=x)).nstates == len(x)
+
+
+def test_a_flexible_rotor_asks_for_its_films_by_station():
+    rotor, films = placed("tilting pads", "flexible")
+    with pytest.raises(InputError, match=r"mapping with a film for each of the stations \['left', 'right'\]"):
+        simulate(rotor, films["left"], duration=1e-3)
