@@ -119,8 +119,8 @@ def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
         )
     if model.states:
         raise InputError(
-            f"at must tell the states {', '.join(names(model.states))} of this reaction, which an Equilibrium "
-            "does not: linearize(mount(rotor, {station: reaction}), OperatingPoint(x=...)) takes the states "
-            "of rotor and reaction together"
+            f"at must tell the states {', '.join(names(model.states))} of this reaction, which an "
+            "Equilibrium does not: linearize(mount(rotor, {station: reaction}), OperatingPoint(x=...)) takes "
+            "the states of rotor and reaction together"
         )
     return OperatingPoint(u=u)

@@ -211,7 +211,7 @@ class _Band(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, and roundoff of each."""
+    """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
 
     values: NDArray[np.complex128]
     shapes: NDArray[np.complex128]

@@ -168,6 +168,26 @@ def stability_changes(
     return CountedTuple(found, work)
 
 
+def first_growing(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+) -> tuple[float, complex] | None:
+    """Return the lowest of rising speeds at which a motion grows, and its eigenvalue; None where none does.
+
+    Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
+    again within the range goes unseen.
+    """
+    search = _Stability(rotor, bearings)
+    at = search.growth(float(speeds[-1]))
+    if not at.growing:
+        return None
+    low, high = -1, len(speeds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        found = search.growth(float(speeds[middle]))
+        low, high, at = (low, middle, found) if found.growing else (middle, high, at)
+    return float(speeds[high]), complex(at.motions.eigenvalues[at.places[0]])
+
+
 class _Growth(NamedTuple):
     """How much each eigenvalue grows, falling, and to which motion it belongs; a whirl has two."""
 

@@ -13,7 +13,7 @@ from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.cosim import critical_macro_step
-from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
 from rotorfilm.linear import (
     campbell,
     closed_loop,
@@ -551,3 +551,18 @@ def test_roundoff_of_eigenvalues_is_bounded_by_their_condition():
         order = np.argsort(values.real)
         wrong = np.abs(values[order] - np.arange(1.0, 7.0))
         assert np.all(wrong <= roundoff(matrix, left, right)[order])
+
+
+def test_an_unbalance_response_beyond_the_threshold_is_warned_of():
+    rotor, films = friswell(), both(FILM)
+    threshold = rotor_threshold(rotor, films, np.linspace(50.0, 400.0, 8)).speed
+    speeds = threshold * np.array([0.8, 0.9, 0.99, 1.01, 1.1])
+    unbalance_response(rotor, films, speeds[:3])
+    with pytest.warns(ValidityWarning, match=f"got {speeds[3]:.6g} rad/s and more") as caught:
+        unbalance_response(rotor, films, speeds)
+    assert len(caught) == 1
+
+
+def test_a_station_without_bearing_is_named():
+    with pytest.raises(EquilibriumError, match=r"free to move; the stations \['right'\] have no"):
+        rotor_equilibrium(rigid_shaft(), {"left": SPRING}, 100.0)

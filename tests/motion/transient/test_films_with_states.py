@@ -36,6 +36,7 @@ from rotorfilm import (
     TiltingPadBearing,
     TurningBalls,
     Unbalance,
+    base_response,
     closed_loop,
     coefficients,
     equilibrium,
@@ -54,6 +55,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.rotors import translations
 
 SPEED = 300.0
 STEEL = ElasticMaterial(density=7850.0, young_modulus=2.1e11, shear_modulus=8.1e10)
@@ -273,6 +275,25 @@ def test_a_small_orbit_is_that_of_the_state_space(kind, shape):
         assert np.abs(found - exact[rows]) == pytest.approx(0.0, abs=tolerance * size.max())
     with pytest.raises(InputError, match=r"bearings must have no states of their own here, got some at the"):
         periodic_orbit(mount(turning, films))
+
+
+@pytest.mark.parametrize("kind", ["tilting pads", "pads with inertia", "pads on springs", "lubricated balls"])
+@pytest.mark.parametrize("shape", ["Jeffcott", "flexible"])
+def test_the_ground_is_felt_at_its_own_frequency(kind, shape):
+    """K(s) of the films is that at the frequency of the ground, not at that of the shaft."""
+    rotor, films, mounted, x = resting(kind, shape)
+    A, C = (getattr(mounted.linearization(0.0, x, ()), name) for name in "AC")
+    pushed = np.zeros((len(x), 2))
+    pushed[len(rotor.states) // 2 : len(rotor.states)] = -translations(rotor)
+    response = base_response(rotor, rotor_equilibrium(rotor, films, SPEED), [90.0, 1500.0])
+    names = [signal.name for signal in mounted.outputs]
+    rows = [names.index(label) for label in response.output_labels if label in names]
+    places = [k for k, label in enumerate(response.output_labels) if label in names]
+    for k, frequency in enumerate((90.0, 1500.0)):
+        wanted = C[rows] @ np.linalg.solve(1j * frequency * np.eye(len(A)) - A, pushed)
+        assert response.frdata[places, :, k] == pytest.approx(
+            wanted, rel=1e-6, abs=1e-9 * np.abs(wanted).max()
+        )
 
 
 @cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"))
