@@ -30,6 +30,9 @@ _HELD = 1e-12
 """Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
 
 
+GROWN = 1e-4
+"""Growth rate / frequency that is growth whatever the roundoff, whose bound is wide for light elements."""
+
 _SAME = 1e-9
 """Relative difference below which two eigenvalues are one."""
 
@@ -54,8 +57,9 @@ class Whirls:
 
     @property
     def grows(self) -> NDArray[np.bool_]:
-        """Whether a whirl grows, by more than the roundoff of its eigenvalue."""
-        return np.asarray(self.eigenvalues.real > self.roundoff)
+        """Whether a whirl grows by more than the roundoff of its eigenvalue, or 1e-4 of its frequency."""
+        bound = np.minimum(self.roundoff, GROWN * np.abs(self.eigenvalues))
+        return np.asarray(self.eigenvalues.real > bound)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -176,16 +176,21 @@ def first_growing(
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
-    search = _Stability(rotor, bearings)
-    at = search.growth(float(speeds[-1]))
-    if not at.growing:
+
+    def growing(speed: float) -> NDArray[np.complex128]:
+        motions = motions_at(rotor, bearings, speed)
+        values = motions.eigenvalues
+        return values[motions.grows & (values.real > NEUTRAL * (np.abs(values) + speed))]
+
+    found = growing(float(speeds[-1]))
+    if not found.size:
         return None
     low, high = -1, len(speeds) - 1
     while high - low > 1:
         middle = (low + high) // 2
-        found = search.growth(float(speeds[middle]))
-        low, high, at = (low, middle, found) if found.growing else (middle, high, at)
-    return float(speeds[high]), complex(at.motions.eigenvalues[at.places[0]])
+        one = growing(float(speeds[middle]))
+        low, high, found = (low, middle, one) if one.size else (middle, high, found)
+    return float(speeds[high]), complex(found[np.argmax(found.real)])
 
 
 class _Growth(NamedTuple):

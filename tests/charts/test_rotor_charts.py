@@ -45,8 +45,12 @@ def test_campbell_diagram_in_rpm_and_hertz(tmp_path):
 
 
 def test_a_campbell_diagram_draws_no_roundoff_as_growth():
-    axes = plot_campbell(replace(CHART, roundoff=np.array([[2.0] * 3, [2.0, 2.0, np.nan]])))
-    assert "grows" not in lines(axes)
+    values = np.array([[-1e-9 + 10j, 1e-9 + 12j, 1e-7 + 14j]])
+    chart = replace(CHART, eigenvalues=values, direction=np.ones((1, 3)), roundoff=np.full((1, 3), 1e-8))
+    drawn = lines(plot_campbell(chart))
+    assert np.isfinite(drawn["grows"].get_ydata()).tolist() == [False, False, True]
+    chart = replace(chart, roundoff=np.full((1, 3), 1e-6))
+    assert "grows" not in lines(plot_campbell(chart))
 
 
 def test_log_decrement_is_that_of_the_modes():

@@ -118,7 +118,13 @@ class PadMatrices(Readable):
 
 @dataclass(frozen=True)
 class PadsStiffness:
-    """K(s) of a journal on pads that follow it; see `DynamicStiffness`."""
+    """K(s) of a journal on pads that follow it; see `DynamicStiffness`.
+
+    Parameters
+    ----------
+    matrices : PadMatrices
+        Of journal and pads together.
+    """
 
     matrices: PadMatrices
 
