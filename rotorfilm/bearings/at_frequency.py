@@ -53,7 +53,8 @@ class StatesStiffness:
         drive = B[:, :2] + s * B[:, 2:4]
         moved = np.linalg.solve(follow, drive)
         slope = np.linalg.solve(follow, B[:, 2:4] - moved)
-        return -(D[:2, :2] + s * D[:2, 2:4] + C[:2] @ moved), -(D[:2, 2:4] + C[:2] @ slope)
+        K, damping = D[:2, :2] + s * D[:2, 2:4] + C[:2] @ moved, D[:2, 2:4] + C[:2] @ slope
+        return -K.astype(complex), -damping.astype(complex)
 
     def stiffness(self, s: complex) -> Complex:
         """Return K(s) [N/m] alone."""
@@ -146,7 +147,7 @@ def coefficients_of(
     nu = abs(speed) if frequency is None else frequency
     K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
     damping = K.imag / nu if slope is None else slope.real
-    known = {"stiffness": K.real, "damping": damping, "position": position, "speed": speed, "frequency": nu}
-    return (
-        ReducedCoefficients(**known) if frequency is not None else MemoryCoefficients(**known, motion=motion)
+    found = ReducedCoefficients(
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
     )
+    return found if frequency is not None else MemoryCoefficients(**vars(found), motion=motion)

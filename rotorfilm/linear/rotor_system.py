@@ -107,7 +107,7 @@ def base_response(
     """
     grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
     push = -s.mass @ translations(rotor)
-    responses, labels = [], []
+    responses, labels = [], names(rotor.outputs)
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
         sense, labels = _outputs(rotor, near)

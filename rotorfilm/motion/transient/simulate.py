@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import TypeGuard
+from typing import TypeGuard, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -100,9 +100,11 @@ def simulate(
     if not _none_steps(reaction):
         if method is not None:
             raise InputError(f"method must be None for films that step, got {method!r}")
-        return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
-    by_station = isinstance(reaction, Mapping)
-    films = {name: in_time(film) for name, film in (reaction if by_station else {"": reaction}).items()}
+        stepped = cast(Mapping[str, Reaction | SteppedReaction], reaction)
+        return simulate_steps(rotor, stepped, grid, duration, initial_state, max_step)
+    given = reaction if isinstance(reaction, Mapping) else {"": reaction}
+    by_station = given is reaction
+    films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if by_station and method is None and takes_forces(rotor, films.values()):
         return in_c(mount(rotor, films), initial_state=initial_state)
