@@ -64,7 +64,7 @@ small = reduce_rotor(rotor, frequency=500.0, tolerance=1e-3).rotor
 again = rotor_threshold(small, films, speeds).speed
 print(f"with {len(small.states)} states for {len(rotor.states)}: {again / RPM:.1f} rpm")
 
-response = unbalance_response(rotor, films, resonant_speeds(speeds, critical))
+response = unbalance_response(rotor, films, resonant_speeds(speeds[speeds < onset.speed], critical))
 above, _ = plot_unbalance_response(response, ["small_x", "small_y", "left_x", "left_y"])
 save(above, Path("unbalance_response.png"))
 

@@ -67,6 +67,20 @@ class Settling(Protocol):
         """Return its force with the states at rest."""
 
 
+@runtime_checkable
+class RestingStates(Protocol):
+    """A Reaction whose states have a place where they rest under a journal at rest."""
+
+    def rest_state(self, position: ArrayLike, speed: float) -> NDArray[np.float64]:
+        """Return the state (n_states,) that rests.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        speed : float [rad/s]
+        """
+
+
 class AtRest(JournalForce, Protocol):
     """A force on a journal at rest whose own states rest too."""
 

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import Array, Linearization
 from ..results import Coefficients
 
 Complex = NDArray[np.complex128]
@@ -31,6 +32,42 @@ class DynamicStiffness(Protocol):
         ----------
         s : complex [1/s]
         """
+
+
+@dataclass(frozen=True)
+class StatesStiffness:
+    """K(s) of a reaction whose states follow the journal, exactly, from its linearization about a rest.
+
+    Parameters
+    ----------
+    at : Linearization
+        Its inputs begin with x, y, vx, vy, its outputs with the force.
+    """
+
+    at: Linearization
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m]; see `DynamicStiffness`."""
+        A, B, C, D = self.at
+        follow = s * np.eye(len(A)) - A
+        drive = B[:, :2] + s * B[:, 2:4]
+        moved = np.linalg.solve(follow, drive)
+        slope = np.linalg.solve(follow, B[:, 2:4] - moved)
+        K, damping = D[:2, :2] + s * D[:2, 2:4] + C[:2] @ moved, D[:2, 2:4] + C[:2] @ slope
+        return -K.astype(complex), -damping.astype(complex)
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) [N/m] alone."""
+        return self(s)[0]
+
+    def exponents(self, mass: float) -> Complex:
+        """Return all exponents of a rigid mass [kg] on it [1/s], the least damped first."""
+        A, B, C, D = self.at
+        size = len(A)
+        push = np.hstack([D[:2, :4], C[:2]]) / mass
+        whole = np.vstack([np.eye(2, 4 + size, 2), push, np.hstack([B[:, :4], A])])
+        values = np.linalg.eigvals(whole).astype(complex)
+        return values[np.argsort(-values.real)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,3 +129,25 @@ class MemoryCoefficients(ReducedCoefficients):
             position=self.position,
             speed=self.speed,
         )
+
+
+def coefficients_of(
+    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
+) -> ReducedCoefficients:
+    """Return Re K(i nu) and Im K(i nu)/nu, their limits at 0; `MemoryCoefficients` without a frequency.
+
+    Parameters
+    ----------
+    motion : DynamicStiffness
+    position, speed : ndarray, shape (2,) [m], and float [rad/s]
+        Where the journal rests.
+    frequency : float, optional [rad/s]
+        nu; by default that of the shaft.
+    """
+    nu = abs(speed) if frequency is None else frequency
+    K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
+    damping = K.imag / nu if slope is None else slope.real
+    found = ReducedCoefficients(
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
+    )
+    return found if frequency is not None else MemoryCoefficients(**vars(found), motion=motion)

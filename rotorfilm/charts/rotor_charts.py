@@ -49,7 +49,7 @@ def plot_campbell(
         "backward": chart.direction < -CIRCULAR,
         "mixed": np.abs(chart.direction) <= CIRCULAR,
     }
-    grows = np.where(chart.log_decrement < 0.0, chart.frequency, np.nan) / HERTZ
+    grows = np.where(chart.grows, chart.frequency, np.nan) / HERTZ
     _curves(axes, speeds, grows, "grows", color=UNSTABLE, style="-", width=5.0)
     for kind, (color, style) in kinds.items():
         _curves(axes, speeds, _where(masks[kind], chart.frequency) / HERTZ, kind, color=color, style=style)

@@ -53,21 +53,24 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
     waves = np.sin(2.0 * np.pi * np.outer(time / duration, cycles) + cycles)
     best: list[Array] = []
     for swing in SWINGS:
-        rows = _rows(model, time, start + swing * nominal * waves)
+        rows, why = _rows(model, time, start + swing * nominal * waves)
         best = max(best, rows, key=len)
         if len(best) == ROWS or not len(nominal):
             break
     if len(best) < 2:
-        best = _rows(model, time, np.tile(start, (ROWS, 1)))
+        best, why = _rows(model, time, np.tile(start, (ROWS, 1)))
     if len(best) < 2:
         raise FmuError(
-            f"model must have outputs over a step from its start values, got none within {time[1]!r} s"
+            "model must have outputs over a step from its start values, got none within "
+            f"{float(time[1]):.6g} s: {why}"
         )
     return np.array(best)
 
 
-def _rows(model: Model | Stepped, time: Array, inputs: Array) -> list[Array]:
+def _rows(model: Model | Stepped, time: Array, inputs: Array) -> tuple[list[Array], str]:
+    """Return the rows until the model ends them, and why it does."""
     rows: list[Array] = []
+    why = ""
     state: Any = None
     with warnings.catch_warnings(action="ignore"):
         for k, (t, u) in enumerate(zip(time, inputs, strict=True)):
@@ -77,13 +80,15 @@ def _rows(model: Model | Stepped, time: Array, inputs: Array) -> list[Array]:
                     _moved(model, time[last], state, inputs[last], t - time[last]) if k else _begun(model, u)
                 )
                 row = np.concatenate([[t], u, _answered(model, t, state, u)])
-            except Exception:
+            except Exception as failure:
                 # Whatever ends a model ends its table.
+                why = str(failure)
                 break
             if not np.isfinite(row).all():
+                why = f"outputs must be finite, got {row[1 + len(u) :]} at t = {t:.6g} s"
                 break
             rows.append(row)
-    return rows
+    return rows, why
 
 
 def _begun(model: Model | Stepped, u: Array) -> Any:

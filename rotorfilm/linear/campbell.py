@@ -46,6 +46,8 @@ class Campbell(Whirls, Drawable):
         As in `RotorModes`; nan likewise.
     error : float [1]
         Largest of those of `RotorModes`.
+    roundoff : ndarray, shape (n_modes, n_speeds) [1/s]
+        As in `RotorModes`; nan likewise.
     highest_frequency : float [rad/s]
         Modes that stay above it are left out; inf where none is.
     work : dict of str to int
@@ -56,6 +58,7 @@ class Campbell(Whirls, Drawable):
     eigenvalues: NDArray[np.complex128]
     direction: Array
     error: float = 0.0
+    roundoff: Array | float = 0.0
     highest_frequency: float = math.inf
     work: dict[str, int] = field(default_factory=dict, compare=False)
 
@@ -116,11 +119,12 @@ def campbell(
         points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
     tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
-    direction = np.full((len(tracks), len(grid)), math.nan)
+    direction, rounded = np.full((2, len(tracks), len(grid)), math.nan)
     for row, track in enumerate(tracks):
         for column, k in track.items():
             values[row, column] = points[column].eigenvalues[k]
             direction[row, column] = points[column].direction[k]
+            rounded[row, column] = np.asarray(points[column].roundoff)[k]
     lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
     order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
     return Campbell(
@@ -128,6 +132,7 @@ def campbell(
         eigenvalues=values[order],
         direction=direction[order],
         error=max(point.error for point in points),
+        roundoff=rounded[order],
         highest_frequency=min(highest_frequency, *(point.highest_frequency for point in points)),
         work=dict(work),
     )

@@ -37,7 +37,7 @@ def closed_loop(
     rotor : Dynamic
         Takes force_x, force_y and gives x, y, vx, vy of the journal; the connection is by these names.
     reaction : Reaction
-        The film.
+        The film; the states of tilting pads and of lubricated balls are states of the loop.
     at : Equilibrium
         Where the film is linearized; the rotor is taken at its initial state at t = 0.
     name : str, optional
@@ -54,7 +54,8 @@ def closed_loop(
     Raises
     ------
     InputError
-        If the rotor lacks one of these signals, or `at` is no Equilibrium.
+        If the rotor lacks one of these signals, `at` is no Equilibrium, or the film has states that never
+        rest: `linearize(mount(rotor, {"": reaction}), OperatingPoint(x=...))` takes those.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
     require_reaction("reaction", reaction, JournalForce, heavy=True)

@@ -134,14 +134,16 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         return warmer if abs(warmer) > _KELVIN else 0.0
 
     low = bearing.coldest()
-    rise = excess(low)
-    if rise > 0.0:
-        # Openings make the temperature of the balance rise a little with that of the film.
-        while excess(low + rise) > 0.0:
-            rise *= 2.0
-        low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        rise = excess(low)
+        if rise > 0.0:
+            # Openings make the temperature of the balance rise a little with that of the film.
+            while excess(low + rise) > 0.0:
+                rise *= 2.0
+            low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
     steps = sum(one.iterations for one in warmed.values())
-    return replace(warmed[low], temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
+    at = _found(bearing.at_temperature(low), load, speed)  # once more, for what it has to warn of
+    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
 
 
 def checked_load(load: ArrayLike) -> Array:

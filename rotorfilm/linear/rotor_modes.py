@@ -18,7 +18,7 @@ from ..readable.result import Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
-from .large.defects import WholeRotor, whirl_errors
+from .large.defects import WholeRotor, roundoff, whirl_errors
 from .large.remembered import motion_by_memory
 from .large.second_order import remembering, rest_near, small_motion
 from .large.work import COUNTS, counted, tally
@@ -30,6 +30,9 @@ _HELD = 1e-12
 """Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
 
 
+GROWN = 1e-4
+"""Growth rate / frequency that is growth whatever the roundoff, whose bound is wide for light elements."""
+
 _SAME = 1e-9
 """Relative difference below which two eigenvalues are one."""
 
@@ -38,6 +41,7 @@ class Whirls:
     """What eigenvalues say of whirl."""
 
     eigenvalues: NDArray[np.complex128]
+    roundoff: Array | float
 
     _shown: ClassVar[tuple[str, ...]] = ("frequency", "log_decrement")
 
@@ -50,6 +54,12 @@ class Whirls:
     def log_decrement(self) -> Array:
         """Logarithm of the ratio of two successive amplitudes [1]: negative where the whirl grows."""
         return log_decrement(self.eigenvalues)
+
+    @property
+    def grows(self) -> NDArray[np.bool_]:
+        """Whether a whirl grows by more than the roundoff of its eigenvalue, or 1e-4 of its frequency."""
+        bound = np.minimum(self.roundoff, GROWN * np.abs(self.eigenvalues))
+        return np.asarray(self.eigenvalues.real > bound)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,6 +78,8 @@ class RotorModes(Whirls, Readable):
     error : float [1]
         Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
         were.
+    roundoff : ndarray, shape (n,) [1/s]
+        How far roundoff may move an eigenvalue, by its condition: a growth rate below it is none.
     highest_frequency : float [rad/s]
         Up to which |s| the whirls are told; inf where all are.
     work : dict of str to int
@@ -80,6 +92,7 @@ class RotorModes(Whirls, Readable):
     shapes: NDArray[np.complex128]
     direction: Array
     error: float = 0.0
+    roundoff: Array | float = 0.0
     highest_frequency: float = math.inf
     work: dict[str, int] = field(default_factory=dict, compare=False)
 
@@ -165,6 +178,7 @@ def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorMod
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
         error=motions.error,
+        roundoff=np.broadcast_to(motions.roundoff, whirls.shape)[whirls],
         highest_frequency=min(highest_frequency, motions.highest_frequency),
     )
 
@@ -179,6 +193,7 @@ def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> Motions
         shapes=model.lifted(shapes),
         direction=directions(model.structure.mass, shapes, at.speed),
         error=max(part.error for part in parts),
+        roundoff=np.concatenate([part.roundoff for part in parts]),
         highest_frequency=math.inf if model.space is None else known_to,
     )
 
@@ -200,11 +215,12 @@ class _Band(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """Eigenvalues of such a band, rising in frequency, their shapes, and the largest relative error."""
+    """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
 
     values: NDArray[np.complex128]
     shapes: NDArray[np.complex128]
     error: float
+    roundoff: Array
 
 
 def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
@@ -217,19 +233,21 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) 
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     system = small_motion(model.structure, at, band.frequency)
     tally("eigenproblems")
-    values, left, vectors = eig(system.state_matrix(), left=True)
+    matrix = system.state_matrix()
+    values, left, vectors = eig(matrix, left=True)
+    rounded = roundoff(matrix, left, vectors)
     shapes = vectors[: len(system.mass)]
     whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
     chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if remembering(at):
-        return _remembered(model, at, band, known_to, values[order], shapes[:, order])
+        return _remembered(model, at, band, known_to, (values[order], shapes[:, order], rounded[order]))
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
         ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
         error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
-    return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error)
+    return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order])
 
 
 def _remembered(
@@ -237,25 +255,24 @@ def _remembered(
     at: RotorEquilibrium,
     band: _Band,
     known_to: float,
-    starts: np.ndarray,
-    shapes: np.ndarray,
+    next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> _Part:
     """Return the motions on films that remember next to those with K and C of one frequency."""
-    found: list[tuple[complex, np.ndarray]] = []
-    error = 0.0
-    for start, shape in zip(starts, shapes.T, strict=True):
+    found: list[tuple[complex, np.ndarray, float]] = []
+    error, (starts, shapes, rounded) = 0.0, next_to
+    for start, shape, rounding in zip(starts, shapes.T, rounded, strict=True):
         one = motion_by_memory(model.structure, at, band.frequency, complex(start), shape)
-        if one is None or any(abs(one.value - other) <= _SAME * abs(other) for other, _ in found):
+        if one is None or any(abs(one.value - other) <= _SAME * abs(other) for other, *_ in found):
             continue
-        found.append((one.value, one.right))
+        found.append((one.value, one.right, float(rounding)))
         if model.space is not None and oscillates(np.array(one.value)) and abs(one.value) <= known_to:
             whole = WholeRotor(model.whole, rest_near(at, one.value), band.frequency)
             ends = (model.lifted(vector[:, None]) for vector in (one.right, one.left))
             error = max(error, float(whirl_errors(model, whole, np.array([one.value]), *ends)[0]))
-    found.sort(key=lambda pair: pair[0].imag)
-    values = np.array([value for value, _ in found], dtype=complex)
-    vectors = np.array([vector for _, vector in found], dtype=complex).reshape(-1, len(shapes))
-    return _Part(values, vectors.T, error)
+    found.sort(key=lambda motion: motion[0].imag)
+    values = np.array([value for value, *_ in found], dtype=complex)
+    vectors = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
+    return _Part(values, vectors.T, error, np.array([rounding for *_, rounding in found]))
 
 
 def _is_held(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.inertial_model import added_mass
-from ..errors import InputError
+from ..errors import InputError, warn_user
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor, require_flexible, translations
@@ -19,11 +19,12 @@ from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .large.driven import DrivenResponse, with_rates
-from .large.second_order import second_order, small_motion
+from .large.second_order import rest_near, second_order, small_motion
 from .large.tilting import film_rows
 from .large.work import SOLVED, counted, tally, with_work
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
+from .rotor_threshold import first_growing
 
 if TYPE_CHECKING:
     import control
@@ -106,11 +107,11 @@ def base_response(
     """
     grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
     push = -s.mass @ translations(rotor)
-    sense, labels = _outputs(rotor, at)
-    responses = []
+    responses, labels = [], names(rotor.outputs)
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
-    for frequency in grid:
-        moved = np.linalg.solve(small_motion(s, at, frequency).dynamic_stiffness(frequency), push)
+    for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
+        sense, labels = _outputs(rotor, near)
+        moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
         responses.append(sense @ with_rates(moved, frequency))
     import control
 
@@ -148,7 +149,25 @@ def unbalance_response(
         If an argument breaks its rule, or the rotor has no unbalance.
     EquilibriumError
         If there is no equilibrium at one of the speeds.
+
+    Warns
+    -----
+    ValidityWarning
+        If a motion grows at the highest of the speeds: beyond the threshold no rotor stays in the response.
     """
+    found = driven_by_unbalance(rotor, bearings, speeds)
+    if (unstable := first_growing(rotor, bearings, np.asarray(found.frequency))) is not None:
+        warn_user(
+            f"speeds should be below the threshold of stability, got {unstable[0]:.6g} rad/s and more, where "
+            f"a motion of {abs(unstable[1].imag):.4g} rad/s grows: no rotor stays in the response there"
+        )
+    return found
+
+
+def driven_by_unbalance(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return `unbalance_response` without looking at stability."""
     require_flexible(rotor)
     if not rotor.assembly.unbalance.any():
         raise InputError("rotor must have an unbalance, got none")

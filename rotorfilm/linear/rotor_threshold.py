@@ -168,6 +168,31 @@ def stability_changes(
     return CountedTuple(found, work)
 
 
+def first_growing(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+) -> tuple[float, complex] | None:
+    """Return the lowest of rising speeds at which a motion grows, and its eigenvalue; None where none does.
+
+    Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
+    again within the range goes unseen.
+    """
+
+    def growing(speed: float) -> NDArray[np.complex128]:
+        motions = motions_at(rotor, bearings, speed)
+        values = motions.eigenvalues
+        return values[motions.grows & (values.real > NEUTRAL * (np.abs(values) + speed))]
+
+    found = growing(float(speeds[-1]))
+    if not found.size:
+        return None
+    low, high = -1, len(speeds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        one = growing(float(speeds[middle]))
+        low, high, found = (low, middle, one) if one.size else (middle, high, found)
+    return float(speeds[high]), complex(found[np.argmax(found.real)])
+
+
 class _Growth(NamedTuple):
     """How much each eigenvalue grows, falling, and to which motion it belongs; a whirl has two."""
 

@@ -21,7 +21,7 @@ from ..errors import (
     warn_user,
 )
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, require_reaction
+from ..model import Array, Dynamic, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
 from ..warming import Remembering, Settling, settled
 from .coefficients import coefficients
@@ -157,7 +157,7 @@ def _settling(
     """Return the threshold by the exponents of rotor and bearing together."""
 
     def least_damped(at: Equilibrium) -> complex:
-        if isinstance(reaction, Remembering):
+        if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
             return leading_exponent(reaction, at, mass)
         film: Settling = settled(reaction, at.position, at.speed)
         return complex(film.at_rest().modes(at.position, at.speed, mass)[0])
@@ -182,7 +182,9 @@ def _settling(
         speed_parameter=speed_parameter(speed=onset, clearance=reaction.clearance, mass=mass, load=load),
         equilibrium=rest,
     )
-    return counted_threshold(reaction, found) if isinstance(reaction, Remembering) else found
+    if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
+        return counted_threshold(reaction, found)
+    return found  # a film with states has no exponents but those that were found
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:

@@ -1,5 +1,7 @@
 """Charts of rotors draw the numbers that they are given."""
 
+from dataclasses import replace
+
 import control
 import numpy as np
 import pytest
@@ -40,6 +42,15 @@ def test_campbell_diagram_in_rpm_and_hertz(tmp_path):
     np.testing.assert_allclose(drawn["1x speed"].get_ydata(), [100 / 60, 200 / 60, 300 / 60])
     np.testing.assert_allclose(drawn["critical speed"].get_xdata(), [10.0 * 30 / np.pi])
     assert save(axes, tmp_path / "campbell.png").stat().st_size > 10_000
+
+
+def test_a_campbell_diagram_draws_no_roundoff_as_growth():
+    values = np.array([[-1e-9 + 10j, 1e-9 + 12j, 1e-7 + 14j]])
+    chart = replace(CHART, eigenvalues=values, direction=np.ones((1, 3)), roundoff=np.full((1, 3), 1e-8))
+    drawn = lines(plot_campbell(chart))
+    assert np.isfinite(drawn["grows"].get_ydata()).tolist() == [False, False, True]
+    chart = replace(chart, roundoff=np.full((1, 3), 1e-6))
+    assert "grows" not in lines(plot_campbell(chart))
 
 
 def test_log_decrement_is_that_of_the_modes():

@@ -206,6 +206,7 @@ def test_a_large_rotor_rests_where_all_its_coordinates_do():
     assert_allclose(found.coefficients["left"].stiffness, wanted.coefficients["left"].stiffness, rtol=1e-8)
 
 
+@pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
 @pytest.mark.closed_form
 @pytest.mark.parametrize("rotor", [long_rotor(30), long_rotor(30, loss_factor=0.01)], ids=["", "hysteresis"])
 def test_responses_in_few_shapes_are_those_of_all_coordinates(rotor):

@@ -7,12 +7,13 @@ import control
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.linalg import eig
 
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.cosim import critical_macro_step
-from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
 from rotorfilm.linear import (
     campbell,
     closed_loop,
@@ -28,6 +29,7 @@ from rotorfilm.linear import (
     unbalance_response,
     whirl_threshold,
 )
+from rotorfilm.linear.large.defects import roundoff
 from rotorfilm.linear.rotor_modes import log_decrement
 from rotorfilm.rotors import (
     ClassicalBeam,
@@ -520,3 +522,47 @@ def test_slow_forces_pass_to_the_housings():
     assert_allclose(np.abs(found.complex[:, :, 0]), np.eye(4), atol=0.05)
     with pytest.raises((InputError, EquilibriumError)):
         rotor_transmissibility(friswell(), {}, [1.0])
+
+
+@pytest.mark.closed_form
+def test_roundoff_is_no_growth():
+    """Nothing damps or drives this shaft: its growth rates are 0, and with skewed springs they are not."""
+    speeds = np.linspace(10.0, 500.0, 6)
+    chart = campbell(friswell(), both(SPRING), speeds)
+    assert np.any(chart.eigenvalues.real > 0.0)
+    assert not chart.grows.any()
+    assert np.nanmax(chart.roundoff) < 1e-6
+    skewed = LinearBearing(stiffness=((1e6, 10.0), (-10.0, 1e6)))
+    modes = rotor_modes(friswell(), both(skewed), 100.0)
+    assert np.sum(modes.grows) == len(modes.eigenvalues) / 2
+    assert not modes.grows[modes.direction < 0.0].any()
+
+
+@pytest.mark.closed_form
+def test_roundoff_of_eigenvalues_is_bounded_by_their_condition():
+    """T D T^-1 of integers is known exactly: eigenvalues 1 to 6, the worse the larger T is."""
+    rng = np.random.default_rng(3)
+    for size in (1, 4, 16):
+        T = np.eye(6) + np.tril(rng.integers(-size, size + 1, (6, 6)), -1)
+        inverse = np.round(np.linalg.inv(T))
+        assert_allclose(T @ inverse, np.eye(6), atol=0.0)
+        matrix = T @ np.diag(np.arange(1.0, 7.0)) @ inverse
+        values, left, right = eig(matrix, left=True)
+        order = np.argsort(values.real)
+        wrong = np.abs(values[order] - np.arange(1.0, 7.0))
+        assert np.all(wrong <= roundoff(matrix, left, right)[order])
+
+
+def test_an_unbalance_response_beyond_the_threshold_is_warned_of():
+    rotor, films = friswell(), both(FILM)
+    threshold = rotor_threshold(rotor, films, np.linspace(50.0, 400.0, 8)).speed
+    speeds = threshold * np.array([0.8, 0.9, 0.99, 1.01, 1.1])
+    unbalance_response(rotor, films, speeds[:3])
+    with pytest.warns(ValidityWarning, match=f"got {speeds[3]:.6g} rad/s and more") as caught:
+        unbalance_response(rotor, films, speeds)
+    assert len(caught) == 1
+
+
+def test_a_station_without_bearing_is_named():
+    with pytest.raises(EquilibriumError, match=r"free to move; the stations \['right'\] have no"):
+        rotor_equilibrium(rigid_shaft(), {"left": SPRING}, 100.0)

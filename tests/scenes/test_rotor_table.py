@@ -143,6 +143,7 @@ def test_every_key_arrives_in_its_unit():
     assert film == JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 
 
+@pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
 def test_the_answer_is_that_of_the_library():
     excitation = '[excitation]\nkind = "unbalance"\nunbalance = "500 g mm"\nnode = 2\n'
     asked = scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, excitation)

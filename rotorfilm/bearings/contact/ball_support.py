@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_kind, require_number, require_vector
+from ...errors import (
+    InputError,
+    require_finite,
+    require_kind,
+    require_number,
+    require_pair,
+    require_vector,
+    warn_user,
+)
+from ...inputs.kinds import arguments
 from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
+from ..at_frequency import Complex, ReducedCoefficients, StatesStiffness, coefficients_of
 from ..reaction import Called
 from .contact_kernel import MOST_CONTACTS, contact_spec
 from .contact_law import ContactLaw
@@ -111,7 +122,7 @@ class BallSupport(Called):
         """Return the force on the journal in slow motion [N], shape (2, ...).
 
         The static laws and the damping of slow motions under the load f = 1, where a ball is in contact;
-        `output` has the whole dynamic stiffness.
+        `output` has the whole dynamic stiffness, and `coefficients` its value at a frequency.
         """
         z, rate = self._approaches(position, velocity)
         carried = self.law.static_force(z)
@@ -126,6 +137,66 @@ class BallSupport(Called):
         n = self._motion[:, :2]
         blocks = [np.einsum("ai,i...,ib->ab...", self._push, by, n) for by in (by_position, by_velocity)]
         return np.concatenate([*blocks, np.zeros((2, 1, *z.shape[1:]))], axis=1)
+
+    def at_rest(self) -> BallSupport:
+        """Return this support: at rest its films add nothing to the static laws."""
+        return self
+
+    def rest_state(self, position: ArrayLike, speed: float) -> Array:
+        """Return `resting`; the speed does not enter."""
+        return self.resting(position)
+
+    def settled(self, found: Any) -> Any:
+        """Return an equilibrium as it is."""
+        return found
+
+    def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> Complex:
+        """Return K(s) of small motion about a rest, shape (2, 2) [N/m].
+
+        Parameters
+        ----------
+        position, speed : array_like, shape (2,) [m], and float [rad/s]
+            Of the journal; the speed does not enter.
+        s : complex [1/s]
+            Growth rate + i frequency.
+        """
+        return self._in_motion(require_pair("position", position)).stiffness(s)
+
+    @arguments
+    def coefficients(
+        self, position: ArrayLike, speed: float, frequency: float | None = None
+    ) -> ReducedCoefficients:
+        """Return Re K(i frequency) and Im K(i frequency)/frequency; see `linear.coefficients`.
+
+        Without a frequency they are `MemoryCoefficients`, at that of the shaft: modes, thresholds and
+        responses of rotors go by K(s).
+
+        Parameters
+        ----------
+        position, speed : array_like, shape (2,) [m], and float [rad/s]
+            Of the journal at rest.
+        frequency : float, optional [rad/s]
+
+        Warns
+        -----
+        ValidityWarning
+            If the frequency is above that to which the law was fitted.
+        """
+        if frequency is not None and abs(require_number("frequency", frequency)) > self.law.highest_frequency:
+            warn_user(
+                f"frequency should be at most {self.law.highest_frequency:.6g} rad/s, to which the law was "
+                f"fitted, got {frequency!r}"
+            )
+        q = require_pair("position", position)
+        return coefficients_of(self._in_motion(q), q, require_number("speed", speed), frequency)
+
+    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> Complex:
+        """Return the exponents of a rigid mass [kg] with the films [1/s], the least damped first."""
+        return self._in_motion(require_pair("position", position)).exponents(rotor_mass)
+
+    def _in_motion(self, position: Array) -> StatesStiffness:
+        """Return the dynamic stiffness about a rest."""
+        return StatesStiffness(self.linearization(0.0, self.resting(position), [*position, 0.0, 0.0, 0.0]))
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_x, force_y) [N] for u = (x, y, vx, vy, speed); t and the last three are not used."""

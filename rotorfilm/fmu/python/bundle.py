@@ -22,6 +22,7 @@ LIBRARY = {
     f"{PACKAGE}.native",
     f"{PACKAGE}.bearings.films.conserved.stepped_film",
     f"{PACKAGE}.bearings.rolling.ball_element",
+    f"{PACKAGE}.bearings.pads.tilting.tilting_pads",
 }
 """What a module imports that calls the compiled library."""
 

@@ -15,6 +15,8 @@ from ...errors import AbsentError, ConvergenceError
 from ...model import Array, Reaction
 from ...results import Coefficients
 from ...rotors import ShaftRotor, Station
+from ...warming import RestingStates
+from ..coefficients import coefficients
 from ..large.banded import BandedFactor, DenseFactor
 from ..large.condensed import exact_structure
 from ..large.inverse_iteration import dynamics, whirl_near
@@ -162,6 +164,13 @@ def cross_coupled(
     added = tuple(Station(node=node, name=name) for node, name in names.items())
     excited = replace(rotor, stations=(*rotor.stations, *added))
     at = rotor_equilibrium(excited, bearings, speed)
+    # The standard wants K and C of tilting pads, and of what else follows, at the frequency of the shaft.
+    synchronous = {
+        name: coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
+        for name, bearing in bearings.items()
+        if isinstance(bearing, RestingStates)
+    }
+    at = replace(at, coefficients={**at.coefficients, **synchronous})
     return CrossCoupledRotor(
         rotor=excited, at=at, shares={names[node]: share for node, share in nodes.items()}
     )

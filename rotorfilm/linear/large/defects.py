@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import block_diag
+from scipy.linalg import block_diag, matrix_balance
 
 from ...bearings.inertial_model import added_mass
 from ...model import Array
@@ -107,3 +107,22 @@ def seen_rows(structure: Structure) -> Array:
     probes = [readout.row[None, :n] for readout in structure.readouts if readout.signal.unit == "m"]
     housings = [] if structure.housings is None else [structure.housings]
     return np.concatenate([structure.journals, *housings, *probes])
+
+
+def roundoff(matrix: np.ndarray, left: np.ndarray, right: np.ndarray) -> Array:
+    """Return how far roundoff may move each eigenvalue of a matrix (n, n), shape (n,) [1/s].
+
+    The computed eigenvalues are those of a matrix that differs from the balanced one by about n roundoffs of
+    its norm, and each moves by its condition |l| |r| / |l* r| times that (Wilkinson, 1965).
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+    left, right : ndarray, shape (n, n)
+        Its eigenvectors, as columns.
+    """
+    balanced, (scale, _) = matrix_balance(matrix, permute=False, separate=True)
+    sizes = [np.linalg.norm(vectors, axis=0) for vectors in (left * scale[:, None], right / scale[:, None])]
+    overlap = np.abs(np.sum(left.conj() * right, axis=0))
+    condition = sizes[0] * sizes[1] / np.maximum(overlap, np.finfo(float).tiny)
+    return np.asarray(len(matrix) * np.finfo(float).eps * np.linalg.norm(balanced) * condition)

@@ -11,7 +11,7 @@ from ...errors import ConvergenceError
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 from ...rotors.structure import Structure
-from ...warming import Remembering
+from ...warming import Settling
 from ..memory.phase_count import growing_count
 from ..rotor_rest import RotorEquilibrium, rest
 from .condensed import models, usual_frequency
@@ -19,7 +19,10 @@ from .inverse_iteration import whirl_near
 from .second_order import journal_rows, remembering, second_order
 
 REACH = 20.0
-"""Frequency / speed up to which exponents are told apart in the phase; faster ones hardly feel the oil."""
+"""Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
+
+MOVED = 1e-2
+"""Relative distance of a fast exponent that does from all with K and C of one frequency."""
 
 _REAL = 1e-8
 
@@ -87,8 +90,8 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
         return complex(np.linalg.det(np.eye(len(rows)) + receptance @ change))
 
     reference = np.linalg.eigvals(system.state_matrix())
-    near = np.concatenate([reference, values])
-    return growing_count(ratio, _frequencies(near, abs(at.speed)), int(np.sum(reference.real > 0.0)))
+    frequencies = _frequencies(reference, values, abs(at.speed))
+    return growing_count(ratio, frequencies, int(np.sum(reference.real > 0.0)))
 
 
 def require_all_growing(
@@ -102,7 +105,7 @@ def require_all_growing(
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if not any(isinstance(bearing, Remembering) for bearing in bearings.values()):
+    if not any(isinstance(bearing, Settling) for bearing in bearings.values()):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
@@ -114,10 +117,20 @@ def require_all_growing(
         )
 
 
-def _frequencies(values: np.ndarray, speed: float) -> Array:
+def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Array:
     """Return frequencies from 0 on that tell apart what exponents and waves of oil do to the phase."""
+    values, upper = np.concatenate([reference, found]), reference[reference.imag >= 0.0]
     slow = values[np.abs(values) <= REACH * speed]
-    beside = np.concatenate([slow.imag + k * slow.real for k in (-2.0, -0.5, 0.0, 0.5, 2.0)])
+    near = np.concatenate([slow, _moved(found, upper), _moved(upper, found)])
+    beside = np.concatenate([near.imag + k * near.real for k in (-2.0, -0.5, 0.0, 0.5, 2.0)])
     top = 4.0 * max(float(np.abs(values).max()), speed)
     waves = speed * np.arange(1, 25) / 8.0
     return np.unique([0.0, *beside[beside > 0.0], *waves, *np.geomspace(0.01 * speed, top, 40)])
+
+
+def _moved(values: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return which of some exponents have none of others near them."""
+    if not len(others):
+        return values
+    distance = np.abs(values[:, None] - others).min(axis=1, initial=np.inf)
+    return np.asarray(values[distance > MOVED * np.abs(values)])

@@ -42,6 +42,7 @@ class RestEquations:
         if unknown:
             raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
         self.names = [name for name in structure.stations if name in bearings]
+        self.bare = [name for name in structure.stations if name not in bearings]
         self.given = [bearings[name] for name in self.names]
         self.bearings = list(self.given)
         self.speed = speed
@@ -84,7 +85,13 @@ class RestEquations:
 
     def free(self) -> EquilibriumError:
         """Return what to raise of bearings that leave the rotor free."""
-        return EquilibriumError(f"bearings must hold the rotor, got {self.names} that leave it free to move")
+        return EquilibriumError(
+            f"bearings must hold the rotor, got {self.names} that leave it free to move{self._without()}"
+        )
+
+    def _without(self) -> str:
+        """Return which stations have no bearing, for a message."""
+        return f"; the stations {self.bare} have no bearing" if self.bare else ""
 
     def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
@@ -184,6 +191,7 @@ class RestEquations:
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
             f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight{self._too_far(p)}"
+            f"{self._without()}"
         )
 
     def _too_far(self, p: Array) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,7 +14,10 @@ from ...model import Array
 STEP = 0.6
 """Largest turn of the phase from one frequency to the next [rad]."""
 
-_HALVINGS = 40
+NEAR_ONE = 0.5
+"""Distance of D/E from 1 at the last frequency."""
+
+_HALVINGS, _DOUBLINGS = 40, 40
 
 
 def growing_count(ratio: Callable[[float], complex], frequencies: Array, reference: int = 0) -> int:
@@ -29,7 +33,8 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
         From a frequency nu [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
     frequencies : ndarray, shape (n,) [rad/s]
         Rising from 0, close enough that no whole turn falls between two of them; steps in which the phase
-        turns far are halved. Beyond the last the phase must stay within a quarter of a turn.
+        turns far are halved. From the last they are doubled until D/E is near 1, so that the phase stays
+        within a quarter of a turn beyond them.
     reference : int
         The number of such roots of E.
 
@@ -38,11 +43,12 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
     ConvergenceError
         If the phase jumps: a root on the imaginary axis itself.
     """
-    values = [ratio(float(nu)) for nu in frequencies]
-    turn = 0.0
-    for k in range(len(values) - 1):
-        turn += _turn(ratio, (float(frequencies[k]), values[k]), (float(frequencies[k + 1]), values[k + 1]))
-    turn -= math.atan2(values[-1].imag, values[-1].real)
+    points = [(float(nu), ratio(float(nu))) for nu in frequencies]
+    while abs(points[-1][1] - 1.0) > NEAR_ONE and len(points) < len(frequencies) + _DOUBLINGS:
+        points.append((2.0 * points[-1][0], ratio(2.0 * points[-1][0])))
+    turn = sum(_turn(ratio, low, high) for low, high in pairwise(points))
+    last = points[-1][1]
+    turn -= math.atan2(last.imag, last.real)
     return reference - round(turn / math.pi)
 
 

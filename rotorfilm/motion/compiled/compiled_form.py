@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ...errors import InputError
 from ...model import Dynamic, Reaction
 from ...reactions.added_mass import inertial
@@ -31,9 +33,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     reaction : Reaction
         The bearing of that.
     """
-    bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
-    bare = bare.rotor if isinstance(bare, ShakenBaseRotor) else bare
-    if not _is_linear(bare) or not _is_compiled(reaction):
+    if not _is_linear(rotor) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
     if not all(map(_is_compiled, mounted.all_bearings.values())):
@@ -45,11 +45,23 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     return mounted
 
 
+def takes_forces(rotor: Dynamic, bearings: Iterable[Reaction]) -> bool:
+    """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
+
+    It takes the linear rotors of `compiled_form`, on bearings without states and added mass.
+    """
+    mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
+    every = (*bearings, *mounted)
+    return _is_linear(rotor) and not any(film.states or inertial(film) is not None for film in every)
+
+
 def _is_compiled(bearing: Reaction) -> bool:
     return inertial(bearing) is None and kernel_call(bearing) is not None
 
 
 def _is_linear(rotor: Dynamic) -> bool:
-    """Return whether a rotor has the equations of its matrices."""
-    base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(rotor, kind)), None)
-    return base is not None and all(getattr(type(rotor), name) is getattr(base, name) for name in EQUATIONS)
+    """Return whether a rotor, in bearings or not, has the equations of its matrices."""
+    bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
+    bare = bare.rotor if isinstance(bare, ShakenBaseRotor) else bare
+    base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
+    return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)

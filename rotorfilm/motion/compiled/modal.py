@@ -149,7 +149,7 @@ def take_apart(mounted: MountedRotor) -> Parts:
     Raises
     ------
     InputError
-        If the rotor is none with matrices, or a station is left without a bearing.
+        If the rotor is none with matrices, rests in no bearing, or in one with states.
     """
     found = mounted.all_bearings
     bare = mounted.bare
@@ -158,6 +158,12 @@ def take_apart(mounted: MountedRotor) -> Parts:
     bearings = [found[name] for name in names]
     if not names:
         raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
+    moving = [name for name in names if found[name].states]
+    if moving:
+        raise InputError(
+            f"bearings must have no states of their own here, got some at the stations {moving}: "
+            "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
+        )
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)

@@ -1,8 +1,10 @@
-"""A rotor and a film joined into one system of ordinary differential equations."""
+"""A rotor and the films at its journals joined into one system of ordinary differential equations."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +14,7 @@ from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, re
 from ...model import (
     Array,
     Dynamic,
+    Force,
     Linearization,
     Model,
     Reaction,
@@ -20,53 +23,113 @@ from ...model import (
     static_linearization,
 )
 from ...rotors.heavy_journals import HeavyJournals
+from ...rotors.stations import prefixed, station_names
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, indices, names
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
 
 
-class LoopWiring(NamedTuple):
-    """Which rotor outputs feed the film, and which rotor inputs take its force, as indices."""
+class Journal(NamedTuple):
+    """A journal of a rotor and the film around it.
 
+    Attributes
+    ----------
+    station : str
+    film : Reaction
+    dynamic : Dynamic or None
+        The film, if it has a derivative. Kept because checks against protocols are slow.
+    walled : bool
+        Whether the film itself says where the journal touches.
+    call : Force or None
+        Force of a film without states, for plain numbers.
+    motion, force : list of int
+        Rotor outputs that the film takes, and rotor inputs that take its force.
+    inner : slice
+        States of the film in the state of the system.
+    """
+
+    station: str
+    film: Reaction
+    dynamic: Dynamic | None
+    walled: bool
+    call: Force | None
     motion: list[int]
     force: list[int]
+    inner: slice
+
+    def value(self, t: float, x: Array, at: Array) -> Array:
+        """Return the force on the journal [N] at the whole state and the motion (x, y, vx, vy, speed)."""
+        if self.call is None:
+            return self.film.output(t, x[self.inner], at)[: len(FORCE_OUTPUTS)]
+        return np.array(self.call(*at.tolist()))
+
+    def slopes(self, t: float, x: Array, at: Array) -> Linearization:
+        """Return the derivatives of the film at the same arguments."""
+        if self.film.states:
+            return self.film.linearization(t, x[self.inner], at)
+        return static_linearization(self.film.jacobian(at[:2], at[2:4], at[4]))
 
 
-def connect(rotor: Dynamic, reaction: Reaction) -> LoopWiring:
-    """Return the wiring of a rotor and a film by the names of their signals.
+def connect(rotor: Dynamic, films: Mapping[str, Reaction]) -> list[Journal]:
+    """Return the journals of a rotor, wired to their films by the names of the signals.
 
     Raises
     ------
     InputError
-        If the rotor lacks an output that the film needs or an input for its force, has a further input,
-        which nobody would drive, or the film has states and such an input or no derivative.
+        If the rotor lacks an output that a film needs or an input for its force, a single film leaves a
+        further input, which nobody would drive, or a film has states and such an input or no derivative.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction, heavy=True)
-    inputs = names(rotor.inputs)
-    motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
-    force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)
-    if len(inputs) > len(force):
-        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
-    if reaction.states and not isinstance(reaction, Dynamic):
-        raise InputError(f"reaction must have a derivative for its states, got {reaction!r}")
-    if reaction.states and names(reaction.inputs) != list(JOURNAL_INPUTS):
+    for station, film in films.items():
+        require_reaction(f"reaction[{station!r}]" if station else "reaction", film, heavy=True)
+    inputs, outputs = names(rotor.inputs), names(rotor.outputs)
+    first = FORCE_OUTPUTS[0]
+    named = [name.removesuffix(f"_{first}") for name in inputs if name.endswith(f"_{first}")]
+    if list(films) == [""] and named and first not in inputs:
         raise InputError(
-            f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(reaction.inputs)}"
+            f"reaction must be a mapping with a film for each of the stations {named} of the rotor, such as "
+            f"{{{named[0]!r}: film}}, got {films['']!r}"
         )
-    return LoopWiring(motion, force)
+    counts = [len(rotor.states), *(len(film.states) for film in films.values())]
+    speed = JOURNAL_INPUTS[-1:]
+    journals = []
+    for (station, film), (start, end) in zip(films.items(), pairwise(accumulate(counts)), strict=True):
+        motion, force = station_names(station)
+        dynamic = film if isinstance(film, Dynamic) else None
+        if film.states and dynamic is None:
+            raise InputError(f"reaction must have a derivative for its states, got {film!r}")
+        if film.states and names(film.inputs) != list(JOURNAL_INPUTS):
+            raise InputError(
+                f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(film.inputs)}"
+            )
+        journals.append(
+            Journal(
+                station=station,
+                film=film,
+                dynamic=dynamic if film.states else None,
+                walled=isinstance(film, WalledReaction),
+                call=None if film.states else prepared_force(film),
+                motion=indices("rotor must have the outputs", outputs, [*motion, *speed]),
+                force=indices("rotor must have the inputs", inputs, force),
+                inner=slice(start, end),
+            )
+        )
+    if list(films) == [""] and len(inputs) > len(FORCE_OUTPUTS):
+        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
+    return journals
 
 
 class Coupled:
-    """dx/dt = g(t, x) of a rotor whose only input is the film force, with its exact Jacobian.
+    """dx/dt = g(t, x) of a rotor whose inputs are forces of films, with its exact Jacobian.
 
-    x holds the states of the rotor, and after them those of a film that has states.
+    x holds the states of the rotor, and after them those of each film that has states.
 
     Parameters
     ----------
     rotor : Dynamic
-    reaction : Reaction
+    films : mapping of str to Reaction
+        By station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
 
     Attributes
     ----------
@@ -76,41 +139,43 @@ class Coupled:
         Latest time at which `derivative` was asked for; reset it at will.
     """
 
-    def __init__(self, rotor: Dynamic, reaction: Reaction) -> None:
+    def __init__(self, rotor: Dynamic, films: Mapping[str, Reaction]) -> None:
         self.rotor = rotor
-        self.reaction = reaction
-        self.wiring = connect(rotor, reaction)
+        self.journals = connect(rotor, films)
         self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
         self.furthest = 0.0
-        self._no_force = np.zeros(len(self.wiring.force))
+        self._no_force = np.zeros(len(rotor.inputs))
+        self._taken = [k for journal in self.journals for k in journal.force]
         self._split = len(rotor.states)
-        # Asked once: checks against protocols are slow.
-        self._film = reaction if isinstance(reaction, Dynamic) else None
-        # What has walls of its own says itself where it is touched.
-        self._walled = isinstance(reaction, WalledReaction)
-        self._force = None if reaction.states else prepared_force(reaction)
-        self._heavy = HeavyJournals([reaction], [self.wiring.motion])
+        self._heavy = HeavyJournals(
+            [journal.film for journal in self.journals], [journal.motion for journal in self.journals]
+        )
 
     @property
     def initial_state(self) -> Array:
-        """The state of rotor and film at t = 0."""
-        film = np.zeros(0) if self._film is None else self._film.initial_state
-        return np.concatenate([self.rotor.initial_state, film])
+        """The state of rotor and films at t = 0."""
+        films = [j.dynamic.initial_state for j in self.journals if j.dynamic is not None]
+        return np.concatenate([self.rotor.initial_state, *films])
 
     def scale(self) -> Array:
-        """Return the magnitude of each state: the film's nominal value where it has the same signal."""
-        nominal = {signal.name: signal.nominal for signal in self.reaction.inputs}
+        """Return the magnitude of each state: a film's nominal value where it has the same signal."""
+        nominal = {
+            prefixed(j.station, signal).name: signal.nominal
+            for j in self.journals
+            for signal in j.film.inputs
+        }
         rotor = [nominal.get(signal.name, signal.nominal) for signal in self.rotor.states]
-        return np.array([*rotor, *(signal.nominal for signal in self.reaction.states)])
+        return np.array([*rotor, *(signal.nominal for j in self.journals for signal in j.film.states)])
 
-    def motion(self, t: float, x: Array) -> Array:
-        """Return (x, y, vx, vy, speed) of the journal at a state."""
-        return self.rotor.output(t, x[: self._split], self._no_force)[self.wiring.motion]
+    def sensed(self, t: float, x: Array) -> Array:
+        """Return the outputs of the rotor at a state."""
+        return self.rotor.output(t, x[: self._split], self._no_force)
 
-    def gap(self, t: float, x: Array) -> float:
-        """Return the clearance left on the closest side, relative to the radial clearance [1]."""
-        journal = self.motion(t, x)
-        return relative_film(self.reaction, journal[:2])
+    def closest(self, t: float, x: Array) -> tuple[float, Journal]:
+        """Return the least film of all journals, relative to its clearance [1], and the journal."""
+        sensed = self.sensed(t, x)
+        films = [(relative_film(j.film, sensed[j.motion[:2]]), j) for j in self.journals]
+        return min(films, key=lambda each: each[0])
 
     def derivative(self, t: float, x: Array) -> Array:
         """Return dx/dt at a state.
@@ -118,91 +183,106 @@ class Coupled:
         Raises
         ------
         FilmContactError
-            If the journal is not inside the clearance.
+            If a journal is not inside its clearance.
         ConvergenceError
-            If the film answers with something that is not finite.
+            If a film answers with something that is not finite.
         """
         self.furthest = max(self.furthest, t)
-        journal = self.motion(t, x)
-        rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, journal))
-        if self._film is None:
-            return rotor
-        return np.concatenate([rotor, self._film.derivative(t, x[self._split :], journal)])
+        sensed = self.sensed(t, x)
+        rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, sensed))
+        films = [
+            j.dynamic.derivative(t, x[j.inner], sensed[j.motion])
+            for j in self.journals
+            if j.dynamic is not None
+        ]
+        return np.concatenate([rotor, *films]) if films else rotor
 
     def jacobian(self, t: float, x: Array) -> Array:
-        """Return d(dx/dt)/dx: the rotor's own, plus the film's through the wiring."""
+        """Return d(dx/dt)/dx: the rotor's own, plus those of the films through the wiring."""
         self.work["jacobians"] += 1
-        journal = self.motion(t, x)
-        u = self._input(t, x, journal)
+        sensed = self.sensed(t, x)
+        u = self._input(t, x, sensed)
         rotor = self.rotor.linearization(t, x[: self._split], u)
-        try:
-            film = self._film_derivatives(t, x, journal)
-        except UndefinedDerivativeError:
-            film = self._film_derivatives(t, x, self._nudged(t, x, u, journal))
-        push, motion, rows = rotor.B[:, self.wiring.force], rotor.C[self.wiring.motion], len(FORCE_OUTPUTS)
-        forces = np.hstack([film.D[:rows] @ motion, film.C[:rows]])
+        whole, rows = np.zeros((len(x), len(x))), []
+        whole[: self._split, : self._split] = rotor.A
+        for journal in self.journals:
+            film, motion = self._slopes(journal, t, x, u, sensed), rotor.C[journal.motion]
+            whole[journal.inner, : self._split] = film.B @ motion
+            whole[journal.inner, journal.inner] = film.A
+            row = np.zeros((len(FORCE_OUTPUTS), len(x)))
+            row[:, : self._split] = film.D[: len(row)] @ motion
+            row[:, journal.inner] = film.C[: len(row)]
+            rows.append(row)
+        push, forces = rotor.B[:, self._taken], np.concatenate(rows)
         if self._heavy:
             own = x[: self._split]
             rates, sensed = self.rotor.derivative(t, own, u), self.rotor.output(t, own, u)
             forces, _ = self._heavy.slopes(rotor, push, push[:, :0], sensed, forces, rates)
-        whole = np.block([[rotor.A, np.zeros((len(rotor.A), len(film.A)))], [film.B @ motion, film.A]])
-        whole[: len(rotor.A)] += push @ forces
+        whole[: self._split] += push @ forces
         return whole
 
-    def film_outputs(self, time: Array, journal: Array, states: Array) -> Array:
-        """Return what the film adds to a trajectory: its outputs and its states, shape (n_signals, n).
+    def film_outputs(self, time: Array, sensed: Array, states: Array) -> Array:
+        """Return what the films add to a trajectory: their outputs and states, shape (n_signals, n).
 
         Parameters
         ----------
-        time, journal, states : ndarray, shapes (n,), (5, n) and (n_states, n)
-            The states are those of the rotor and of the film.
+        time, sensed, states : ndarray, shapes (n,), (n_outputs, n) and (n_states, n)
+            The outputs are those of the rotor, the states those of rotor and films.
         """
-        film = states[self._split :]
-        if self._heavy:
-            pairs = zip(time, states.T, journal.T, strict=True)
-            forces = [self._input(t, x, at)[self.wiring.force] for t, x, at in pairs]
-            return np.reshape(forces, (len(time), len(FORCE_OUTPUTS))).T
-        if not len(film):
-            return self.reaction.force(journal[:2], journal[2:4], journal[4])
-        outputs = [self.reaction.output(t, x, u) for t, x, u in zip(time, film.T, journal.T, strict=True)]
-        return np.concatenate([np.reshape(outputs, (len(time), -1)).T, film])
+        pulls = zip(time, states.T, sensed.T, strict=True) if self._heavy else ()
+        heavy = [self._input(*moment)[self._taken] for moment in pulls]
+        rows = []
+        for k, journal in enumerate(self.journals):
+            at, inner = sensed[journal.motion], states[journal.inner]
+            if journal.call is None:
+                pairs = zip(time, inner.T, at.T, strict=True)
+                outputs = [journal.film.output(t, x, u) for t, x, u in pairs]
+                shown = np.reshape(outputs, (len(time), len(journal.film.outputs))).T
+            else:
+                shown = np.array(journal.film.force(at[:2], at[2:4], at[4]))
+            if self._heavy:
+                shown[:2] = np.reshape(heavy, (len(time), len(self._taken))).T[2 * k : 2 * k + 2]
+            rows += [shown, inner]
+        return np.concatenate(rows)
 
-    def film_signals(self) -> tuple[Signal, ...]:
+    def film_signals(self) -> list[Signal]:
         """Return the signals of `film_outputs`."""
-        outputs, states = self.reaction.outputs, self.reaction.states
-        return (*outputs, *states) if states else outputs[: len(FORCE_OUTPUTS)]
+        known = []
+        for j in self.journals:
+            outputs = j.film.outputs if j.film.states else j.film.outputs[: len(FORCE_OUTPUTS)]
+            known += [prefixed(j.station, signal) for signal in (*outputs, *j.film.states)]
+        return known
 
-    def _input(self, t: float, x: Array, journal: Array) -> Array:
-        """Return the rotor's input at a journal state: the film force, in the rotor's order."""
-        if not self._walled:
-            require_inside(journal[:2], self.reaction.clearance, f" at t = {t:.9g} s")
-        self.work["film_evaluations"] += 1
-        force = self._film_force(t, x, journal)
-        if not np.all(np.isfinite(force)):
-            raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
-        u = np.empty(len(self.wiring.force))
-        u[self.wiring.force] = force
+    def _input(self, t: float, x: Array, sensed: Array) -> Array:
+        """Return the rotor's input where its outputs are `sensed`: the forces of the films."""
+        u = self._no_force.copy()
+        for journal in self.journals:
+            at = sensed[journal.motion]
+            if not journal.walled:
+                require_inside(at[:2], journal.film.clearance, f" at t = {t:.9g} s")
+            self.work["film_evaluations"] += 1
+            force = journal.value(t, x, at)
+            if not np.all(np.isfinite(force)):
+                raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
+            u[journal.force] = force
         return self._with_mass(t, x[: self._split], u) if self._heavy else u
 
     def _with_mass(self, t: float, x: Array, u: Array) -> Array:
-        """Return the rotor's input with the force of a film's added mass."""
+        """Return the rotor's input with the forces of the films' added masses."""
         rotor, sensed = self.rotor.linearization(t, x, u), self.rotor.output(t, x, u)
-        push, order = rotor.B[:, self.wiring.force], self.wiring.force
-        whole = np.empty_like(u)
+        push, order = rotor.B[:, self._taken], self._taken
+        whole = u.copy()
         whole[order] = self._heavy.forces(rotor, push, sensed, u[order], self.rotor.derivative(t, x, u))
         return whole
 
-    def _film_force(self, t: float, x: Array, journal: Array) -> Array:
-        if self._force is None:
-            return self.reaction.output(t, x[self._split :], journal)[: len(FORCE_OUTPUTS)]
-        return np.array(self._force(*journal.tolist()))
+    def _slopes(self, journal: Journal, t: float, x: Array, u: Array, sensed: Array) -> Linearization:
+        at = sensed[journal.motion]
+        try:
+            return journal.slopes(t, x, at)
+        except UndefinedDerivativeError:
+            return journal.slopes(t, x, self._nudged(journal, t, x, u, at))
 
-    def _film_derivatives(self, t: float, x: Array, journal: Array) -> Linearization:
-        if self.reaction.states:
-            return self.reaction.linearization(t, x[self._split :], journal)
-        return static_linearization(self.reaction.jacobian(journal[:2], journal[2:4], journal[4]))
-
-    def _nudged(self, t: float, x: Array, u: Array, journal: Array) -> Array:
+    def _nudged(self, journal: Journal, t: float, x: Array, u: Array, at: Array) -> Array:
         """Return the journal state with a trace of the velocity that it is about to have.
 
         A film without source has no derivative, but one along every direction of departure: the journal
@@ -210,11 +290,11 @@ class Coupled:
         """
         own = x[: self._split]
         rotor = self.rotor.linearization(t, own, u)
-        rate = rotor.C[self.wiring.motion] @ self.rotor.derivative(t, own, u)
+        rate = rotor.C[journal.motion] @ self.rotor.derivative(t, own, u)
         acceleration = rate[2:4]
         norm = float(np.hypot(*acceleration))
         direction = acceleration / norm if norm > 0.0 else np.array([1.0, 0.0])
-        nominal = self.reaction.inputs[2].nominal
-        nudged = journal.copy()
+        nominal = journal.film.inputs[2].nominal
+        nudged = at.copy()
         nudged[2:4] += NUDGE * nominal * direction
         return nudged

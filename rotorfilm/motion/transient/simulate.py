@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import TypeGuard
+from typing import TypeGuard, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from ...results import Trajectory
 from ...rotors import MountedRotor, mount
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
-from ..compiled.compiled_form import compiled_form
+from ..compiled.compiled_form import compiled_form, takes_forces
 from ..compiled.journal_films import CONTACT_GAP
 from ..compiled.simulate_rotor import simulate_rotor
 from ..compiled.times import require_longest_step, sample_times
@@ -97,19 +97,25 @@ def simulate(
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
-    if isinstance(reaction, SteppedReaction | Mapping) and method is not None:
-        raise InputError(f"method must be None for films by station or such that step, got {method!r}")
+    if not _none_steps(reaction):
+        if method is not None:
+            raise InputError(f"method must be None for films that step, got {method!r}")
+        stepped = cast(Mapping[str, Reaction | SteppedReaction], reaction)
+        return simulate_steps(rotor, stepped, grid, duration, initial_state, max_step)
+    given = reaction if isinstance(reaction, Mapping) else {"": reaction}
+    by_station = given is reaction
+    films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
-    if _all_forces(reaction):
-        return in_c(mount(rotor, reaction), initial_state=initial_state)
-    if isinstance(reaction, SteppedReaction | Mapping):
-        return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
-    film: Reaction = in_time(reaction)
-    system = Coupled(rotor, film)
-    require_turning(film, rotor)
+    if by_station and method is None and takes_forces(rotor, films.values()):
+        return in_c(mount(rotor, films), initial_state=initial_state)
+    system = Coupled(rotor, films)
+    for film in films.values():
+        require_turning(film, rotor)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
-    if method is None and (run := _compiled(rotor, film, partial(in_c, initial_state=state))) is not None:
-        return run
+    if not by_station and method is None:
+        run = _compiled(rotor, films[""], partial(in_c, initial_state=state))
+        if run is not None:
+            return run
     settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
@@ -122,16 +128,18 @@ def simulate(
         raise ContactError(str(contact), _trajectory(system, kept)) from contact
     except ConvergenceError as failure:
         raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
-    run = _trajectory(system, kept)
-    require_turned(film, rotor, run.signals)
-    return run
+    whole = _trajectory(system, kept)
+    for film in films.values():
+        require_turned(film, rotor, whole.signals)
+    return whole
 
 
-def _all_forces(reaction: object) -> TypeGuard[Mapping[str, Reaction]]:
-    """Return whether films are given by station, and none of them steps."""
-    return isinstance(reaction, Mapping) and not any(
-        isinstance(film, SteppedReaction) for film in reaction.values()
-    )
+def _none_steps(
+    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+) -> TypeGuard[Reaction | Mapping[str, Reaction]]:
+    """Return whether no film steps."""
+    films = reaction.values() if isinstance(reaction, Mapping) else (reaction,)
+    return not any(isinstance(film, SteppedReaction) for film in films)
 
 
 def _compiled(
@@ -166,23 +174,23 @@ def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
 
 
 def _require_gap(system: Coupled, t: float, state: Array) -> None:
-    gap = system.gap(t, state)
+    gap, journal = system.closest(t, state)
     if gap <= CONTACT_GAP:
+        where = f" of {journal.station!r}" if journal.station else ""
         raise ContactError(
-            f"journal reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
-            f"{system.reaction.clearance!r} m is left"
+            f"journal{where} reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
+            f"{journal.film.clearance!r} m is left"
         )
 
 
 def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     """Return the signals at the kept samples, without one that lies beyond the wall."""
-    inside = [(t, state) for t, state in kept if system.gap(t, state) > 0.0]
-    no_force = np.zeros(len(FORCE_OUTPUTS))
-    split, time = len(system.rotor.states), np.array([t for t, _ in inside])
-    outputs = np.array([system.rotor.output(t, state[:split], no_force) for t, state in inside])
+    inside = [(t, state) for t, state in kept if system.closest(t, state)[0] > 0.0]
+    time = np.array([t for t, _ in inside])
+    outputs = np.array([system.sensed(t, state) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
     states = np.array([state for _, state in inside]).reshape(len(inside), -1).T
-    film = system.film_outputs(time, outputs[system.wiring.motion], states)
+    film = system.film_outputs(time, outputs, states)
     known = (*system.rotor.outputs, *system.film_signals())
     signals = dict(zip(names(known), [*outputs, *film], strict=True))
     return Trajectory(time=time, signals=signals, work=dict(system.work), units=units(known))

@@ -19,8 +19,8 @@ from ...linear import (
     resonant_speeds,
     rotor_equilibrium,
     rotor_threshold,
-    unbalance_response,
 )
+from ...linear.rotor_system import driven_by_unbalance
 from ...model import Array
 from ...progress import Report, part_of, silent
 from ...readable.result import Drawable
@@ -111,7 +111,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
     report(0.85, "unbalance response")
     turned = resonant_speeds(speeds, critical)
-    response = unbalance_response(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
+    response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
     report(1.0, "done")
     return RotorAnswer(
         title=scene.title,

@@ -1,12 +1,30 @@
 """A journal on lubricated balls: statics, derivatives, symmetry, motion."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from rotorfilm import BallSupport, ContactLaw, InputError, RigidRotor, coefficients, equilibrium, simulate
+from rotorfilm import (
+    BallSupport,
+    ContactLaw,
+    Disk,
+    ElasticMaterial,
+    InputError,
+    LinearBearing,
+    RigidRotor,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    ValidityWarning,
+    campbell,
+    coefficients,
+    equilibrium,
+    mount,
+    simulate,
+)
 from rotorfilm.model import Dynamic, Reaction, Switched
 
 ANGLES = (math.radians(-135), math.radians(-90), math.radians(-45), math.radians(90))
@@ -22,6 +40,7 @@ def law(order=2):
     )  # fmt: skip
 
 
+STEEL = ElasticMaterial(density=7850.0, young_modulus=2.1e11, shear_modulus=8.1e10)
 SUPPORT = BallSupport(law=law(), angles=ANGLES, gap=-1e-6)
 
 
@@ -130,3 +149,67 @@ def test_a_rotor_swings_with_the_stiffness_of_the_balls():
 def test_names_the_broken_rule(change, message):
     with pytest.raises(InputError, match=message):
         BallSupport(**{"law": law(), "angles": ANGLES, **change})
+
+
+def damped_support():
+    """Return eight preloaded balls with one state each, whose damping is k a/(nu^2 + a^2), with a and k."""
+    a, k = 0.5, 0.08
+    one = replace(
+        law(), A=np.array([[-a]]), B=np.ones((1, 1)), C=np.array([[k * a]]), D=np.array([[-k]])
+    )  # -[Z(s) - Z(0)] = -k s/(s + a) in units of 50 N, 1e-6 m, 1e-4 s
+    support = BallSupport(law=one, angles=tuple(math.pi / 4 * np.arange(8)), gap=float(one.approach(20.0)))
+    return support, a / 1e-4, k * 50.0 / 1e-6
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("frequency", [0.0, 100.0, 2e4, 5.9e4])
+def test_coefficients_are_those_of_the_frequency(frequency):
+    """The sum of n n' is 4: the spring 4 k nu^2/(nu^2 + a^2) and the damper 4 k a/(nu^2 + a^2) are added."""
+    support, a, k = damped_support()
+    found = coefficients(support, (0.0, 0.0), 100.0, frequency=frequency)
+    static = -4.0 * float(support.law.static_slope(support.gap))
+    size = frequency**2 + a**2
+    assert found.frequency == frequency
+    assert found.stiffness == pytest.approx(
+        (static + 4.0 * k * frequency**2 / size) * np.eye(2), abs=1e-6 * static
+    )
+    assert found.damping == pytest.approx(4.0 * k * a / size * np.eye(2), abs=1e-9 * k / a)
+    assert coefficients(support, (0.0, 0.0), 100.0).damping == pytest.approx(
+        4.0 * k * a / (100.0**2 + a**2) * np.eye(2), abs=1e-9 * k / a
+    )
+
+
+def test_a_frequency_beyond_the_law_is_warned_of():
+    support, *_ = damped_support()
+    with pytest.warns(
+        ValidityWarning, match="frequency should be at most 60000 rad/s, to which the law was fitted"
+    ):
+        coefficients(support, (0.0, 0.0), 100.0, frequency=6.1e4)
+
+
+def test_a_campbell_diagram_has_the_damping_of_each_frequency():
+    """All log decrements of a shaft on two supports are those of the state space of both."""
+    support, *_ = damped_support()
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=0.15, outer_diameter=0.04, material=STEEL).split(4),
+        disks=(Disk(node=2, mass=3.0, polar_inertia=2e-3, diametral_inertia=1e-3),),
+        stations=(Station(name="left", node=0), Station(name="right", node=4)),
+        gravity=(0.0, 0.0),
+        speed=100.0,
+    )
+    films = {"left": support, "right": support}
+    modes = campbell(rotor, films, [100.0]).eigenvalues[:, 0]
+    mounted = mount(rotor, films)
+    values = np.linalg.eigvals(mounted.linearization(0.0, mounted.initial_state, ()).A)
+    below = modes[(modes.imag > 1e3) & (modes.imag < 5e4)]
+    assert len(below) >= 4
+    for value in below:
+        assert np.abs(values - value).min() < 1e-9 * abs(value)
+    slow = LinearBearing(
+        **{
+            name: getattr(coefficients(support, (0.0, 0.0), 100.0, frequency=0.0), name)
+            for name in ("stiffness", "damping")
+        }
+    )
+    wrong = campbell(rotor, dict.fromkeys(films, slow), [100.0]).log_decrement[:, 0]
+    assert wrong[0] > 1.02 * (-2.0 * np.pi * below[0].real / below[0].imag)

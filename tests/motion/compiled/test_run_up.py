@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import Radau, solve_ivp
 from scipy.linalg import expm
 
 from rotorfilm import (
@@ -195,5 +195,5 @@ def test_films_by_station_are_mounted_and_run():
     np.testing.assert_array_equal(run["left_y"], same["left_y"])
     with pytest.raises(KeyError, match=r"signal must be one of .*left_x.* got 'leftx'"):
         run["leftx"]
-    with pytest.raises(InputError, match="method must be None for films by station or such that step"):
-        simulate(rotor, films, duration=0.05, method=object)
+    whole = simulate(rotor, films, duration="50 ms", samples=11, rtol=1e-7, method=Radau)
+    np.testing.assert_allclose(whole["left_y"], run["left_y"], atol=1e-4 * FILM.clearance)

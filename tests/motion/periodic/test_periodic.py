@@ -25,6 +25,7 @@ BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1
 ROTOR = RigidRotor(mass=53.5, speed=157.08, unbalance=4e-3)
 
 
+@pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
 @pytest.mark.closed_form
 def test_orbit_on_springs_is_the_unbalance_response():
     speed = 300.0

@@ -104,7 +104,7 @@ def test_journal_released_anywhere_settles_at_the_static_equilibrium():
 
 
 def test_jacobian_of_the_coupled_system_agrees_with_differences():
-    system = Coupled(FRISWELL, BEARING)
+    system = Coupled(FRISWELL, {"": BEARING})
     x = np.array([3e-5, -5e-5, 2e-3, -1e-3])
     scale = system.scale()
     for k in range(4):

@@ -219,7 +219,7 @@ def test_a_film_that_is_lost_ends_a_run_with_what_there_is(rest):
 def test_arguments_break_a_rule(rest):
     from scipy.integrate import Radau
 
-    with pytest.raises(InputError, match="method must be None for films by station or such that step"):
+    with pytest.raises(InputError, match="method must be None for films that step"):
         simulate(rotor(rest), FILM, duration=TURN, method=Radau)
     with pytest.raises(InputError, match=r"initial_state must have shape \(4,\), got \(3,\)"):
         simulate(rotor(rest), FILM, duration=TURN, initial_state=np.zeros(3))

@@ -36,7 +36,7 @@ def test_a_shaft_at_rest_below_the_critical_speed_stays_and_wears_nothing():
 
 def test_the_jacobian_is_that_of_rotor_and_film():
     film = replace(WORN, wear_depth=tuple(np.random.default_rng(0).uniform(0.0, 5e-6, 32)))
-    system = Coupled(resting(12.0, film), film)
+    system = Coupled(resting(12.0, film), {"": film})
     x = system.initial_state + np.array([1e-7, -2e-7, 1e-4, 2e-4, *np.zeros(32)])
     steps = np.array([1e-9, 1e-9, 1e-5, 1e-5, *np.full(32, 1e-9)])
     columns = []
@@ -81,7 +81,7 @@ def test_a_shaft_thrown_at_the_housing_is_reported():
 
 
 def test_the_initial_state_is_that_of_both():
-    state = Coupled(resting(1.0), WORN).initial_state
+    state = Coupled(resting(1.0), {"": WORN}).initial_state
     run = simulate(resting(1.0), WORN, duration=1e-3, samples=2, initial_state=state)
     assert run["wear_0"].tolist() == [0.0, 0.0]
     with pytest.raises(InputError, match=r"initial_state must have shape \(36,\), got \(4,\)"):
@@ -100,4 +100,4 @@ def test_a_film_that_nobody_could_integrate_is_refused(members, message):
     model = dict.fromkeys(("clearance", "force", "jacobian", "outputs", "output", "linearization"), len)
     film = type("Odd", (), {**model, **members, "inputs": (*WORN.inputs, heat), "states": WORN.states})()
     with pytest.raises(InputError, match=message):
-        Coupled(resting(1.0), film)
+        Coupled(resting(1.0), {"": film})

@@ -22,7 +22,7 @@ from ....errors import (
 from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array, Tangent
-from ...at_frequency import MemoryCoefficients, ReducedCoefficients
+from ...at_frequency import ReducedCoefficients, coefficients_of
 from ...films.conserved.air_at_ends import warn_of_air
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
@@ -202,23 +202,10 @@ class JFOFilm(JFOHeat, SteppedFilm):
         frequency : float, optional [rad/s]
         """
         own = abs(require_number("speed", speed))
-        nu = own if frequency is None else require_number("frequency", frequency)
-        if nu == 0.0:
+        if (own if frequency is None else require_number("frequency", frequency)) == 0.0:
             return self.slow_coefficients(position, speed)
-        motion = self._in_motion(position, speed)
-        K, q = motion.stiffness(1j * nu), np.asarray(position, dtype=float)
-        if frequency is not None:
-            return ReducedCoefficients(
-                stiffness=K.real, damping=K.imag / nu, position=q, speed=float(speed), frequency=nu
-            )
-        return MemoryCoefficients(
-            stiffness=K.real,
-            damping=K.imag / nu,
-            position=q,
-            speed=float(speed),
-            frequency=nu,
-            motion=motion,
-        )
+        q = np.asarray(position, dtype=float)
+        return coefficients_of(self._in_motion(position, speed), q, float(speed), frequency)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on a journal at rest, shape (2,) [N].

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....errors import InputError, require_number
 from ....model import Array
 from ....readable.result import Readable
-from ...at_frequency import ReducedCoefficients
+from ...at_frequency import Complex, ReducedCoefficients
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +61,7 @@ class PadMatrices(Readable):
         if nu == 0.0 and sigma != 0.0:
             raise InputError(f"growth_rate must be 0 at frequency 0, got {growth_rate!r}")
         s = complex(sigma, nu)
-        Z, slope = self._dynamic_stiffness(s)
+        Z, slope = self.dynamic_stiffness(s)
         C = slope.real if nu == 0.0 else Z.imag / nu
         return ReducedCoefficients(
             stiffness=Z.real - sigma * C,
@@ -102,8 +102,8 @@ class PadMatrices(Readable):
         pads = len(self.unloaded)
         return [k for k in range(2, len(self.stiffness)) if not self.unloaded[(k - 2) % pads]]
 
-    def _dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-        """Return Z(s), shape (2, 2), and dZ/ds."""
+    def dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """Return Z(s) of the journal, shape (2, 2), and dZ/ds; s is an exponent [1/s]."""
         pads = self._loaded
         whole = self.stiffness + s * self.damping + s * s * self.mass
         slope = self.damping + 2.0 * s * self.mass
@@ -114,3 +114,24 @@ class PadMatrices(Readable):
         push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, pads].T).T])
         kept = [0, 1, *pads]
         return whole[:2, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow
+
+
+@dataclass(frozen=True)
+class PadsStiffness:
+    """K(s) of a journal on pads that follow it; see `DynamicStiffness`.
+
+    Parameters
+    ----------
+    matrices : PadMatrices
+        Of journal and pads together.
+    """
+
+    matrices: PadMatrices
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m]."""
+        return self.matrices.dynamic_stiffness(s)
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) [N/m] alone."""
+        return self(s)[0]

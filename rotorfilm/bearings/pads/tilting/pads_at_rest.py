@@ -14,13 +14,14 @@ from ....native import Status
 from ....native.pads.tilting_kernel import RestPoint
 from ....readable.result import Readable
 from ....results import BearingLosses, Equilibrium
+from ...at_frequency import coefficients_of
 from ...reaction import broadcast_state
 from ..losses_of_pads import PadUnderJournal, losses_of_pads
 from ..pad_film import warn_beyond_map
 from ..pad_losses import LossyPadFilm
 from .held_pads import TURN, PadSlopes, pad_slopes, turning
 from .pad_contact import report_pads
-from .pad_matrices import PadMatrices, ReducedCoefficients
+from .pad_matrices import PadMatrices, PadsStiffness, ReducedCoefficients
 from .pivots import directions
 from .tilting_pads import TiltingPads
 
@@ -251,9 +252,14 @@ class TiltingPadsAtRest:
     def coefficients(
         self, position: ArrayLike, speed: float, frequency: float | None = None
     ) -> ReducedCoefficients:
-        """Return what the journal feels at a frequency [rad/s], by default that of the shaft."""
-        nu = abs(float(speed)) if frequency is None else frequency
-        return self.matrices(position, speed).reduced(nu)
+        """Return what the journal feels at a frequency [rad/s], by default that of the shaft.
+
+        Without a frequency they are `MemoryCoefficients`: modes and thresholds of rotors go by K(s).
+        """
+        found = self.matrices(position, speed)
+        if frequency is not None:
+            return found.reduced(frequency)
+        return coefficients_of(PadsStiffness(found), found.position, found.speed)
 
     def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
         """Return the exponents of a rigid rotor on the pads; see `PadMatrices.modes`."""

@@ -96,6 +96,10 @@ class TiltingPadBearing(Called, TiltingPads):
         """Return the force on a journal at rest, each pad in its stable tilt."""
         return TiltingPadsAtRest(self)
 
+    def rest_state(self, position: ArrayLike, speed: float) -> Array:
+        """Return the state with the journal and all pads at rest, shape (n_states,)."""
+        return self.at_rest().state(position, speed)
+
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None:
