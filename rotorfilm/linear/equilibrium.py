@@ -22,7 +22,7 @@ from ..errors import (
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
-from ..reactions.noise import force_noise
+from ..reactions.noise import MOST_LEFT, force_noise
 from ..reactions.resting import rest_place
 from ..results import Equilibrium
 from ..warming import Settling, Warming
@@ -34,6 +34,7 @@ from .search.static_search import (
     continued_place,
     is_found,
     search_place,
+    unavoidable,
 )
 
 UNLOADED = (
@@ -63,7 +64,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Returns
     -------
     Equilibrium
-        With |film force + load| <= 1e-12 |load|, or what roundoff allows; of tilting pads a `PadEquilibrium`.
+        With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
+        preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
         A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
         above half of the bulk modulus of a mineral oil.
 
@@ -101,7 +103,7 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
     x, y = -float(load[0]), -float(load[1])
     near = rest_place(film, (-x, -y), speed)
     target = StaticTarget(
-        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film), near
+        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film, speed), near
     )
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
@@ -109,8 +111,10 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
         if at_rest and not is_found(target, best):
             best = continued_place(target, best)
     if not is_found(target, best):
-        raise EquilibriumError(_why_not(load, speed, best))
+        raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
+    if not found.residual <= MOST_LEFT:
+        raise EquilibriumError(_not_found(load, speed, found.residual))
     return found if at_rest is None else at_rest.settled(found)
 
 
@@ -181,8 +185,9 @@ def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) 
     return target.clearance / (1.0 + math.exp(point.s))
 
 
-def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
+def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
+    speed = target.speed
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
@@ -198,7 +203,18 @@ def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
             f"load must be within the film's capacity at speed {speed!r} rad/s: the largest film force found "
             f"is {math.exp(best.ratio) * math.hypot(*load):.6g} N, at {list(best.position)} m, {given}"
         )
+    left = unavoidable(target, best)
+    if best.imbalance <= left:
+        return (
+            f"load must stand out from the roundoff of the film's forces at speed {speed!r} rad/s, which "
+            f"leaves {left * target.size:.3g} N, {given}"
+        )
+    return _not_found(load, speed, best.imbalance)
+
+
+def _not_found(load: Array, speed: float, imbalance: float) -> str:
     return (
-        f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: "
-        f"the best residual is {best.norm:.3g}, {given}"
+        f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: the least "
+        f"imbalance found is {imbalance:.3g} of the load, got load {load.tolist()} N with |load| = "
+        f"{math.hypot(*load):.6g} N"
     )
