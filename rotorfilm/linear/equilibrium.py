@@ -19,6 +19,7 @@ from ..errors import (
     require_finite,
     require_number,
     require_pair,
+    warn_user,
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
@@ -32,7 +33,9 @@ from .search.static_search import (
     StaticPoint,
     StaticTarget,
     continued_place,
+    has_force_against,
     is_found,
+    is_unstable,
     search_place,
     unavoidable,
 )
@@ -67,7 +70,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
         preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
         A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
-        above half of the bulk modulus of a mineral oil.
+        above half of the bulk modulus of a mineral oil. Another tells of an equilibrium that is statically
+        unstable: the stiffness in slow motion has a negative real eigenvalue.
 
     Raises
     ------
@@ -115,6 +119,11 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
     found = _result(film, load, target, best)
     if not found.residual <= MOST_LEFT:
         raise EquilibriumError(_not_found(load, speed, found.residual))
+    if is_unstable(best):
+        warn_user(
+            f"the equilibrium at {list(best.position)} m and {speed!r} rad/s is statically unstable: the "
+            "force of the film drives the journal away from it"
+        )
     return found if at_rest is None else at_rest.settled(found)
 
 
@@ -188,6 +197,11 @@ def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) 
 def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
     speed = target.speed
+    if math.isfinite(best.norm) and not has_force_against(target):
+        return (
+            f"load must be one that the film can push against: at speed {speed!r} rad/s it has no force in "
+            f"the opposite direction, got load {load.tolist()} N"
+        )
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import (
+    ConvergenceError,
     InputError,
     require_finite,
     require_kind,
@@ -248,10 +249,21 @@ class BushReaction(Called):
         temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
         return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return x, y of the shaft [m] under a load [N] with the wear at t = 0, None where none was found.
+
+        Off the liner a shaft feels no force that would lead a search there.
+        """
+        try:
+            at, _ = self._liner.settled(load, speed, self.initial_state)
+        except ConvergenceError:
+            return None
+        return float(at[0]), float(at[1])
+
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.
 
-        `equilibrium` answers the same with the wear at t = 0, but needs nodes all around.
+        `equilibrium` answers the same with the wear at t = 0.
 
         Parameters
         ----------

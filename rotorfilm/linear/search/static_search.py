@@ -18,6 +18,9 @@ _TOLERANCE = 1e-12
 _ROUNDOFF_STOP = 1e-13
 _ROUNDOFF = 1e-15  # of a place, in clearances
 _LARGEST_LOG = 300.0
+_DIRECTIONS, _FAR = 24, (0.3, 0.7, 0.95, 0.999)
+_ALIKE, _OPPOSITE = 1e-9, math.pi - 1e-6
+_NEUTRAL_SLOPE = 1e-6
 _NEWTON_STEPS = 60
 _NEUTRAL = 1e-11
 _LARGEST_MOVE = (6.0, 1.0)
@@ -57,7 +60,7 @@ class StaticPoint(NamedTuple):
     ratio: float = math.inf
     angle: float = 0.0
     matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    stiffness: float = 0.0  # largest slope of the force by the position [N/m]
+    slopes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # of the force by the position [N/m]
 
     @property
     def norm(self) -> float:
@@ -182,7 +185,7 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
             (ux * y_s - uy * x_s) / size,
             (ux * y_phi - uy * x_phi) / size,
         ),
-        max(abs(slope) for slope in (D[0], D[1], D[5], D[6])),
+        (D[0], D[1], D[5], D[6]),
     )
 
 
@@ -198,5 +201,29 @@ def unavoidable(target: StaticTarget, point: StaticPoint) -> float:
     Preloaded pads and balls press each other with forces of which a light load is the small difference.
     """
     gap = math.exp(min(point.ratio, _LARGEST_LOG)) * (1.0 + math.exp(point.s))
-    place = target.clearance * point.stiffness / target.size
+    place = target.clearance * max(abs(slope) for slope in point.slopes) / target.size
     return _ROUNDOFF * max(gap, place) + target.noise / target.size
+
+
+def has_force_against(target: StaticTarget) -> bool:
+    """Return whether forces of the film, wherever the journal is, span the direction that the load needs.
+
+    They are looked at in many places. A force in that direction needs one on either side of it, less than
+    half a turn apart: the pads of a gap push the journal out of it together, a pad alone pushes it away.
+    """
+    sides = [-math.inf, math.inf]
+    for share in _FAR:
+        chi = share * min(target.room, MAXIMUM_ECCENTRICITY)
+        for k in range(_DIRECTIONS):
+            at = _point(target, math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS, 0)
+            if at.norm < math.inf:
+                sides[0] = max(sides[0], at.angle if at.angle <= _ALIKE else -math.inf)
+                sides[1] = min(sides[1], at.angle if at.angle >= -_ALIKE else math.inf)
+    return sides[1] - sides[0] < _OPPOSITE
+
+
+def is_unstable(point: StaticPoint) -> bool:
+    """Return whether the journal moves away from its place: d(force)/d(position) has a positive value."""
+    a, b, c, d = point.slopes
+    half, turn = 0.5 * (a + d), 0.25 * (a - d) ** 2 + b * c
+    return turn >= 0.0 and half + math.sqrt(turn) > _NEUTRAL_SLOPE * max(map(abs, point.slopes))

@@ -99,7 +99,7 @@ def test_a_load_that_no_pad_can_carry_is_refused(tilting, angle):
     """Pads push along their pivots only: two opposite ones have no force across."""
     bearing = tilting(2, 0.5, 60.0, 0.3, film=PadMapFilm(), first=0.0)
     load = -1000.0 * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-    with pytest.raises(EquilibriumError, match=r"the least imbalance found is 1.* of the load"):
+    with pytest.raises(EquilibriumError, match=r"it has no force in the opposite direction"):
         equilibrium(bearing, load, SPEED)
 
 
