@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import (
-    ConvergenceError,
     InputError,
     require_finite,
     require_kind,
@@ -147,17 +146,13 @@ class BushReaction(Called):
         return reaction_spec(self.bush, self.melting_heat, self.retardation, held, numbers)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal, with the wear at t = 0.
+        """Return the force on the journal, shape (2, ...) [N], with the wear at t = 0.
 
         Parameters
         ----------
         position, velocity : array_like, shape (2, ...) [m], [m/s]
         speed : array_like, shape (...) [rad/s]
             Of either sign; without rotation there is no friction.
-
-        Returns
-        -------
-        ndarray, shape (2, ...) [N]
 
         Raises
         ------
@@ -250,15 +245,8 @@ class BushReaction(Called):
         return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
     def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
-        """Return x, y of the shaft [m] under a load [N] with the wear at t = 0, None where none was found.
-
-        Off the liner a shaft feels no force that would lead a search there.
-        """
-        try:
-            at, _ = self._liner.settled(load, speed, self.initial_state)
-        except ConvergenceError:
-            return None
-        return float(at[0]), float(at[1])
+        """Return where the shaft rests [m] with the wear at t = 0; see `reactions.resting`."""
+        return self._liner.resting(load, speed, self.initial_state)
 
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.

@@ -1,12 +1,15 @@
 """Tilting pads whose place or tilt is hard to find: loads that one pad carries nearly alone, splines."""
 
 import re
+import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from rotorfilm import (
     EquilibriumError,
+    PadGridFilm,
     PadMapFilm,
     TiltingPadBearing,
     ValidityWarning,
@@ -156,3 +159,26 @@ def test_a_load_below_the_roundoff_of_preloaded_pads_is_refused(tilting):
     bearing = tilting(4, 0.5, 60.0, 0.7, film=PadMapFilm())
     with pytest.raises(EquilibriumError, match="load must stand out from the roundoff of the film's forces"):
         equilibrium(bearing, [0.0, -1e-7], SPEED)
+
+
+def test_the_default_map_reaches_the_thin_films_of_pads_with_much_preload():
+    """Least film 0.025 of the assembled clearance, 0.005 of that of a pad: beside the grid, no warning."""
+    bearing = TiltingPadBearing(
+        radius=0.05,
+        length=0.05,
+        assembled_clearance=7e-5,
+        preload=0.8,
+        extent=np.pi / 3.0,
+        viscosity=0.02,
+        pivots=even_pivots(5),
+    )
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        at = equilibrium(bearing, (0.0, -1.1e5), SPEED)
+    assert not [one for one in caught if "beyond the map" in str(one.message)]
+    assert at.minimum_film < 0.03 * 7e-5
+    found = coefficients(bearing, at.position, SPEED)
+    fine = coefficients(replace(bearing, film=PadGridFilm()), at.position, SPEED)
+    for name in ("stiffness", "damping"):
+        exact = getattr(fine, name)
+        np.testing.assert_allclose(getattr(found, name), exact, atol=0.01 * np.abs(exact).max())
