@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
 
 from .answers import ErrorEstimate, Found, Work, WorkUnit
 
@@ -127,6 +130,12 @@ class CandidateRung(BaseRung, Generic[C]):
         return self.film.prior
 
 
+def relative_change(value: Any, better: Any) -> float:
+    """Return how far a value is from a better one, over the largest entry of that."""
+    gap, size = float(np.max(np.abs(np.asarray(better) - value))), float(np.max(np.abs(better)))
+    return gap / size if size > 0.0 else math.inf if gap > 0.0 else 0.0
+
+
 @dataclass(frozen=True, kw_only=True)
 class Ladder:
     """The rungs of one question, the cheapest first.
@@ -144,6 +153,8 @@ class Ladder:
         The physics that all rungs share, in which the tolerance is meant; may be empty.
     assumptions : callable
         Returns which figures are assumed, and how much they move the answer; asked once it is there.
+    distance : callable
+        Takes a value and a better one, and returns how far they are apart in the unit of the tolerance.
     """
 
     rungs: tuple[Rung, ...]
@@ -152,3 +163,4 @@ class Ladder:
     remarks: tuple[str, ...] = ()
     within: str = ""
     assumptions: Callable[[], tuple[str, ...]] = tuple
+    distance: Callable[[Any, Any], float] = relative_change

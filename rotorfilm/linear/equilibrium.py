@@ -19,10 +19,11 @@ from ..errors import (
     require_finite,
     require_number,
     require_pair,
+    warn_user,
 )
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
-from ..reactions.noise import force_noise
+from ..reactions.noise import MOST_LEFT, force_noise
 from ..reactions.resting import rest_place
 from ..results import Equilibrium
 from ..warming import Settling, Warming
@@ -32,8 +33,11 @@ from .search.static_search import (
     StaticPoint,
     StaticTarget,
     continued_place,
+    has_force_against,
     is_found,
+    is_unstable,
     search_place,
+    unavoidable,
 )
 
 UNLOADED = (
@@ -63,9 +67,11 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Returns
     -------
     Equilibrium
-        With |film force + load| <= 1e-12 |load|, or what roundoff allows; of tilting pads a `PadEquilibrium`.
+        With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
+        preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
         A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
-        above half of the bulk modulus of a mineral oil.
+        above half of the bulk modulus of a mineral oil. Another tells of an equilibrium that is statically
+        unstable: the stiffness in slow motion has a negative real eigenvalue.
 
     Raises
     ------
@@ -101,7 +107,7 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
     x, y = -float(load[0]), -float(load[1])
     near = rest_place(film, (-x, -y), speed)
     target = StaticTarget(
-        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film), near
+        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film, speed), near
     )
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
@@ -109,8 +115,15 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
         if at_rest and not is_found(target, best):
             best = continued_place(target, best)
     if not is_found(target, best):
-        raise EquilibriumError(_why_not(load, speed, best))
+        raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
+    if not found.residual <= MOST_LEFT:
+        raise EquilibriumError(_not_found(load, speed, found.residual))
+    if is_unstable(best):
+        warn_user(
+            f"the equilibrium at {list(best.position)} m and {speed!r} rad/s is statically unstable: the "
+            "force of the film drives the journal away from it"
+        )
     return found if at_rest is None else at_rest.settled(found)
 
 
@@ -183,8 +196,14 @@ def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) 
     return target.clearance / (1.0 + math.exp(point.s))
 
 
-def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
+def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
+    speed = target.speed
+    if math.isfinite(best.norm) and not has_force_against(target):
+        return (
+            f"load must be one that the film can push against: at speed {speed!r} rad/s it has no force in "
+            f"the opposite direction, got load {load.tolist()} N"
+        )
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
@@ -200,7 +219,18 @@ def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
             f"load must be within the film's capacity at speed {speed!r} rad/s: the largest film force found "
             f"is {math.exp(best.ratio) * math.hypot(*load):.6g} N, at {list(best.position)} m, {given}"
         )
+    left = unavoidable(target, best)
+    if best.imbalance <= left:
+        return (
+            f"load must stand out from the roundoff of the film's forces at speed {speed!r} rad/s, which "
+            f"leaves {left * target.size:.3g} N, {given}"
+        )
+    return _not_found(load, speed, best.imbalance)
+
+
+def _not_found(load: Array, speed: float, imbalance: float) -> str:
     return (
-        f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: "
-        f"the best residual is {best.norm:.3g}, {given}"
+        f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: the least "
+        f"imbalance found is {imbalance:.3g} of the load, got load {load.tolist()} N with |load| = "
+        f"{math.hypot(*load):.6g} N"
     )

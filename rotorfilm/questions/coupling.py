@@ -168,6 +168,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         units=_units(case),
         remarks=(*_kept(case), *scene.film_remarks) if scene.has_film else (),
         within=ISOTHERMAL,
+        distance=lambda error, other: abs(error - other),  # of two schemes, each with its own
     )
 
 

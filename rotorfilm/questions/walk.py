@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -215,6 +216,7 @@ def _answer(
     tolerance: float,
     last: Found | RotorfilmError | None,
 ) -> QuestionAnswer:
+    reports = _beside_richer(reports, ladder.distance)
     tried = [report for report in reports if report.error_estimate is not None]
     if not isinstance(last, Found):
         assert last is not None  # a ladder has at least one rung, and that was asked
@@ -244,6 +246,30 @@ def _answer(
         within=physics_within(ladder.within, ladder.remarks, tolerance),
         assumptions=ladder.assumptions(),
     )
+
+
+def _beside_richer(reports: Sequence[RungReport], distance: Callable[[Any, Any], float]) -> list[RungReport]:
+    """Return the reports, in which no rung keeps an estimate that a richer one contradicts.
+
+    Two values that are farther apart than both estimates are contradicting each other. The cheaper one is
+    then taken to be off by as much, and in doubt if the richer one is.
+    """
+    told = []
+    for k, report in enumerate(reports):
+        for richer in reports[k + 1 :]:
+            if report.error_estimate is None or richer.error_estimate is None:
+                continue
+            apart = distance(report.value, richer.value)
+            if apart > report.error_estimate + richer.error_estimate:
+                report = replace(
+                    report,
+                    error_estimate=apart,
+                    bound=False,
+                    doubtful=report.doubtful or richer.doubtful,
+                    reason=f"{report.reason}; {richer.name} is {apart:.2g} away",
+                )
+        told.append(report)
+    return told
 
 
 def _trusted_error(report: RungReport) -> float:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
+MOST_LEFT = 1e-6
+"""Imbalance, over the load, beyond which no place counts as an equilibrium, whatever roundoff leaves."""
+
 
 @runtime_checkable
 class NoisyReaction(Protocol):
-    """What a Reaction may add, as preloaded balls, which press each other."""
+    """What a Reaction may add, as preloaded balls or pads, which press each other."""
 
-    @property
-    def force_noise(self) -> float:
-        """What roundoff may leave of its force [N]."""
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff may leave of its force [N] at a speed [rad/s]."""
 
 
-def force_noise(reaction: object) -> float:
+def force_noise(reaction: object, speed: float) -> float:
     """Return what roundoff may leave of the force of any reaction [N]; 0 where it does not say."""
-    return reaction.force_noise if isinstance(reaction, NoisyReaction) else 0.0
+    return reaction.force_noise(speed) if isinstance(reaction, NoisyReaction) else 0.0

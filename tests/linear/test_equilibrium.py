@@ -1,11 +1,13 @@
 import math
 import re
+import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import Pad, ReynoldsFilm, as_reaction
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.journal.map.potential import potential
 from rotorfilm.bearings.oil import Cooling, Oil
@@ -106,7 +108,8 @@ def test_newton_stays_quadratic_where_the_film_depends_on_direction(skewed_film)
 def test_film_so_skewed_that_the_first_start_fails(skewed_film):
     film = replace(skewed_film, skew=np.array([[-2.86, -2.55], [0.77, 0.70]]))
     position = 0.045 * film.clearance * along(6.1)
-    at = equilibrium(film, -film.force(position, [0, 0], SPEED), SPEED)
+    with pytest.warns(ValidityWarning, match="is statically unstable"):
+        at = equilibrium(film, -film.force(position, [0, 0], SPEED), SPEED)
     np.testing.assert_allclose(at.position, position, rtol=1e-8)
 
 
@@ -167,7 +170,7 @@ def test_no_wedge_without_rotation(bearing):
 def test_force_that_cannot_point_against_the_load(linear_film):
     # K has rank one: the force has one direction only
     film = linear_film([[1e6, 0.0], [0.0, 0.0]], np.eye(2))
-    with pytest.raises(EquilibriumError, match="search found none"):
+    with pytest.raises(EquilibriumError, match="no force in the opposite direction"):
         equilibrium(film, [1.0, -1.0], SPEED)
 
 
@@ -222,3 +225,36 @@ def test_search_beyond_the_map_warns_of_the_answer_alone(bearing):
     assert equilibrium(mapped, load, SPEED).eccentricity_ratio == pytest.approx(0.99, rel=1e-9)
     with pytest.warns(ValidityWarning, match=r"eccentricity ratio 0\.999.* is beyond the map"):
         equilibrium(mapped, 100.0 * load, SPEED)
+
+
+@pytest.mark.parametrize("angle", [90.0, 30.0, 180.0])
+def test_a_load_that_a_pad_cannot_push_against_is_told_so(angle):
+    """The pressure of one pad of 120 deg below the journal has an upward part, wherever the journal is."""
+    pad = Pad(start=math.radians(210.0), extent=math.radians(120.0))
+    bearing = JournalBearing(
+        radius=0.05,
+        length=0.05,
+        clearance=1e-4,
+        viscosity=0.02,
+        pads=(pad,),
+        film=ReynoldsFilm(cells=(48, 4)),
+    )
+    equilibrium(bearing, [0.0, -1000.0], SPEED)
+    with pytest.raises(EquilibriumError, match="it has no force in the opposite direction"):
+        equilibrium(bearing, 1000.0 * along(math.radians(angle)), SPEED)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize(("across", "falls"), [(1e6, False), (-1e6, True), (0.0, False)])
+def test_a_journal_that_moves_away_from_its_place_is_warned_of(across, falls):
+    """Springs, one of which pushes away: det K < 0."""
+    springs = as_reaction(
+        lambda x, y, vx, vy, speed: (-across * (x - 1e-6), -2e7 * y),
+        jacobian=lambda x, y, vx, vy, speed: np.diag([-across, -2e7]) @ np.eye(2, 5),
+        clearance=1e-4,
+    )
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        at = equilibrium(springs, [0.0, -400.0], SPEED)
+    assert at.position[1] == pytest.approx(-2e-5, rel=1e-9)
+    assert any("statically unstable" in str(one.message) for one in caught) == falls

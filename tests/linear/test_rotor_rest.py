@@ -154,6 +154,12 @@ def test_two_bearings_on_one_node_share_its_load():
         assert_allclose(at.coefficients[name].position, one.coefficients["left"].position, rtol=1e-8)
 
 
+@pytest.mark.parametrize("spring", [1e-6, 1e-12])
+def test_springs_so_soft_that_roundoff_is_more_than_the_weight_are_refused(spring):
+    with pytest.raises(EquilibriumError, match=r"the imbalance is .* of the weight"):
+        rotor_equilibrium(shaft(), dict.fromkeys(("left", ""), LinearBearing(stiffness=spring)), SPEED)
+
+
 def test_what_cannot_rest_is_refused():
     with pytest.raises(EquilibriumError, match="bearings must hold the rotor, got \\['left'\\]"):
         rotor_equilibrium(shaft(), {"left": FILM}, SPEED)

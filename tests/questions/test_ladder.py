@@ -161,3 +161,39 @@ def test_two_errors_of_a_bound_add_up():
 def test_tolerance_must_be_positive():
     with pytest.raises(InputError, match=r"tolerance must be finite and positive, got 0.0"):
         walk("wear", ladder(Made("a", 1.0)), 0.0)
+
+
+class Apart(Made):
+    """A rung with a value of its own beside an error that it claims."""
+
+    def __init__(self, name, value, error, doubt=""):
+        super().__init__(name, error, doubt=doubt)
+        self.value = value
+
+    def answer(self, before):
+        return Found(self.value, {CALLS: self.work})
+
+
+def test_a_refused_rung_keeps_no_estimate_that_a_richer_one_contradicts():
+    """Their values are farther apart than both estimates: the cheaper one is off by that distance."""
+    rungs = ladder(Apart("cheap", 1.567, 0.029), Apart("between", 1.5, 1.3), Apart("rich", 0.671, 0.05))
+    answer = walk("wear", rungs, 1e-3)
+    assert (answer.model, answer.value, answer.error_estimate) == ("rich", 0.671, 0.05)
+    cheap, between, _ = answer.rungs
+    assert cheap.error_estimate == pytest.approx(1.567 / 0.671 - 1.0)
+    assert cheap.reason.endswith("; rich is 1.3 away")
+    assert between.error_estimate == 1.3  # which says as much itself
+
+
+def test_a_contradiction_by_a_rung_in_doubt_leaves_no_trust():
+    rungs = ladder(Apart("cheap", 1.5, 0.03), Apart("rich", 1.0, 0.1, doubt="not linear"))
+    answer = walk("wear", rungs, 1e-3)
+    assert answer.model == "rich"
+    assert answer.message == "no rung can be trusted; the closest may be rich: not linear"
+
+
+def test_angles_and_errors_of_schemes_are_compared_as_the_ladder_says():
+    rungs = (Apart("cheap", 1e-9, 0.01), Apart("rich", 2e-9, 0.02))
+    alike = Ladder(rungs=rungs, unit="rad", distance=lambda angle, other: abs(angle - other))
+    assert walk("attitude_angle", alike, 1e-3).error_estimate == 0.01
+    assert walk("wear", ladder(*rungs), 1e-3).error_estimate == 0.02

@@ -146,17 +146,13 @@ class BushReaction(Called):
         return reaction_spec(self.bush, self.melting_heat, self.retardation, held, numbers)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal, with the wear at t = 0.
+        """Return the force on the journal, shape (2, ...) [N], with the wear at t = 0.
 
         Parameters
         ----------
         position, velocity : array_like, shape (2, ...) [m], [m/s]
         speed : array_like, shape (...) [rad/s]
             Of either sign; without rotation there is no friction.
-
-        Returns
-        -------
-        ndarray, shape (2, ...) [N]
 
         Raises
         ------
@@ -248,10 +244,14 @@ class BushReaction(Called):
         temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
         return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return where the shaft rests [m] with the wear at t = 0; see `reactions.resting`."""
+        return self._liner.resting(load, speed, self.initial_state)
+
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.
 
-        `equilibrium` answers the same with the wear at t = 0, but needs nodes all around.
+        `equilibrium` answers the same with the wear at t = 0.
 
         Parameters
         ----------

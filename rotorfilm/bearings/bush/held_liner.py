@@ -9,7 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import FilmContactError, InputError, require_inside, require_vector, warn_user
+from ...errors import (
+    ConvergenceError,
+    FilmContactError,
+    InputError,
+    require_inside,
+    require_vector,
+    warn_user,
+)
 from ...model import Array
 from .bearing import MeltingBush
 from .settle import settle, stiffness
@@ -125,6 +132,17 @@ class HeldLiner:
         start = (self.gap / math.cos(angle) + wear.max() / self.radius) * normal / math.hypot(*normal)
         at = self.radius * settle(self.nodes, self.gap + wear / self.radius, normal / self.unit, start)
         return at, press(self.nodes, self.depth(at, np.zeros(2), wear))
+
+    def resting(self, load: ArrayLike, speed: float, wear: Array) -> tuple[float, float] | None:
+        """Return x, y of the shaft [m] under a load [N], None where no such place was found.
+
+        Off the liner a shaft feels no force that would lead a search there.
+        """
+        try:
+            x, y = self.settled(load, speed, wear)[0].tolist()
+        except ConvergenceError:
+            return None
+        return x, y
 
     def force(self, load: Array, speed: Array | float) -> Array:
         """Return the force of pressure and friction on the journal [N], shape (2, ...)."""

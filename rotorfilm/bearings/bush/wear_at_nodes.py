@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 from ...errors import ConvergenceError
 from ...model import Array
 from .moments import WIDEST, Stage, Wearing, wear_by_one_moment
+from .settle import ACCEPTED
 from .worn_profile import (
     HeatState,
     LocalMelting,
@@ -195,7 +196,14 @@ def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tupl
                 f"half the contact must stay below {nodes.step * (cosine.size // 2):.3g} rad, got a wider one"
             )
         at = min(at + step, last)
-    return at, press(nodes, at * cosine - offset)
+    pressed = press(nodes, at * cosine - offset)
+    left = abs(pull - float(cosine @ pressed.load))
+    if not left <= ACCEPTED * pull:
+        raise ConvergenceError(
+            f"load must be carried by the worn liner, and after {MAX_ITERATIONS} steps {left / pull:.3g} of "
+            "it is not"
+        )
+    return at, pressed
 
 
 def _unworn(bush: Wearing, load_ratio: float) -> float:

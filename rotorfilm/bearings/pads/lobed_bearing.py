@@ -27,7 +27,7 @@ from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
 from .pad_bearing import PadBearing
-from .pad_film import PadFilm, PadMapFilm, require_pad_film, warn_beyond_map
+from .pad_film import PadFilm, PadMapFilm, film_for_preload, require_pad_film, warn_beyond_map
 from .pad_losses import LossyPadFilm
 
 _WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -111,6 +111,7 @@ class LobedBearing(FilmReaction, PadBearing):
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
         super().__post_init__()
+        object.__setattr__(self, "film", film_for_preload(self.film, self.preloads))
         require_pad_film(self.film, self.extents, self.slenderness)
 
     @property

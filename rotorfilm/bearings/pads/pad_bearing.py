@@ -10,6 +10,9 @@ from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
 
+_ROUNDOFF = 5e-14
+"""Force that a map or a grid leaves of a few pads, over viscosity length radius^3 speed/clearance^2."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PadBearing(WarmBearing):
@@ -97,3 +100,7 @@ class PadBearing(WarmBearing):
     def bore_clearance(self) -> float:
         """Clearance c_b of the assembled bearing [m], that of the pads with most preload."""
         return self.clearance * (1.0 - max(self.preloads))
+
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff leaves of the force [N], as pads press each other; see `NoisyReaction`."""
+        return _ROUNDOFF * self.force_scale * abs(speed)

@@ -14,7 +14,7 @@ from ...native.film_kernels import FilmKernel
 from ...progress import Report, silent
 from ..films.kernel_film import continued
 from ..films.ring.ring_grids import require_cells
-from .pad_build import FINE, PadResolution
+from .pad_build import FINE, NEAR, PadResolution
 from .pad_grid import CELLS, pad_grid
 from .pad_losses import PadGridLosses, PadLossMap
 from .pad_map import making_time, pad_table, require_mappable
@@ -22,6 +22,9 @@ from .pad_table import PadMapTable
 
 SAME = 2e-9
 """Relative difference of extent and length/diameter below which a map is that of a pad."""
+
+MUCH_PRELOAD = 0.5
+"""Preload above which the default map goes on to thinner films."""
 
 
 @runtime_checkable
@@ -51,7 +54,9 @@ class PadMapFilm:
     The force is the gradient of a tabulated potential (`native/films/pad_kernel.h`), so that the damping
     matrix is symmetric and the derivatives are exact. All pads of one extent and length/diameter share a map,
     whatever their preload, offset and place. It is made in some seconds on first use, and kept in the folder
-    that the environment variable ROTORFILM_CACHE names, or the platform's cache.
+    that the environment variable ROTORFILM_CACHE names, or the platform's cache. That of pads of a preload
+    above 0.5 goes on to a least film of 0.005 pad clearances in place of 0.03; a bearing takes it where the
+    resolution is the default.
 
     Parameters
     ----------
@@ -148,6 +153,15 @@ class PadGridFilm:
     def losses(self, extent: float, slenderness: float) -> PadGridLosses:
         """Return shear and flow of a pad at rest; see `LossyPadFilm`."""
         return PadGridLosses(pad_grid(extent, slenderness, self.cells))
+
+
+def film_for_preload(film: PadFilm, preloads: Iterable[float]) -> PadFilm:
+    """Return a film; in place of the default map that of `NEAR` where a pad has much preload.
+
+    The range of a map is in clearances of a pad, of which the assembled clearance is a small part then.
+    """
+    much = max(preloads) > MUCH_PRELOAD
+    return PadMapFilm(resolution=NEAR) if much and film == PadMapFilm() else film
 
 
 def require_pad_film(film: PadFilm, extents: Iterable[float], slenderness: float) -> None:

@@ -20,6 +20,7 @@ from ...inputs.kinds import arguments
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
+from ...reactions.noise import MOST_LEFT
 from .ball_results import BallLoads, BallRest
 from .elliptic_contact import EllipticContact
 
@@ -135,21 +136,26 @@ class BallDegrees(ABC):
             raise EquilibriumError(
                 f"load must be one that the balls can carry, got {load.tolist()} (N, N m) at {speed!r} rad/s"
             )
-        at = self._at(found.motion, speed)
+        at, size = self._at(found.motion, speed), float(np.linalg.norm(load))
+        residual = float(np.linalg.norm(at.wrench + load)) / size if size else 0.0
+        if not residual <= MOST_LEFT:
+            raise EquilibriumError(
+                f"load must stand out from roundoff of the forces of balls, got {load.tolist()} (N, N m) at "
+                f"{speed!r} rad/s with an imbalance of {residual:.3g} of it"
+            )
         balls = self._loads(at)
         if self.separates and bool(np.any(balls.outer_angle[balls.inner_load > 0.0] < 0.0)):
             raise EquilibriumError(
                 f"load must press the balls on the shoulders of their rings, got {load.tolist()} (N, N m), "
                 f"under which the contact angles reach {balls.outer_angle.min():.3g} rad"
             )
-        size = float(np.linalg.norm(load))
         return BallRest(
             displacement=found.motion,
             external_load=load,
             speed=speed,
             stiffness=-at.slopes[:, :DEGREES],
             balls=balls,
-            residual=float(np.linalg.norm(at.wrench + load)) / size if size else 0.0,
+            residual=residual,
             evaluations=found.evaluations,
         )
 

@@ -109,9 +109,8 @@ class BallElement(BallDegrees, KernelReaction):
         """Typical force [N]: a tenth of what presses the most loaded ball to 4200 MPa."""
         return 0.1 * self.largest_load * float(self.rows[0, ROW.index("count")]) / 4.37
 
-    @property
-    def force_noise(self) -> float:
-        """What roundoff of places leaves of the force [N]: that of the groove centers, by all balls."""
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff of places leaves of the force [N]: of the groove centers, by all balls."""
         stiffness = 1.5 * self.largest_load / sum(one.approach(self.largest_load) for one in self.contacts)
         row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
         return _ROUNDOFF * (row["inner"] + row["outer"]) * stiffness * row["count"] * len(self.rows)

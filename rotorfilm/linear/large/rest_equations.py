@@ -15,6 +15,7 @@ from scipy.linalg import block_diag
 from ...bearings.contact_place import minimum_film, relative_film
 from ...errors import ConvergenceError, EquilibriumError, InputError, ValidityWarning
 from ...model import Array, Reaction
+from ...reactions.noise import MOST_LEFT
 from ...rotors.structure import Structure, across_planes
 from ...warming import Warming
 from ..equilibrium import equilibrium
@@ -167,7 +168,11 @@ class RestEquations:
         forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
         misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
         roundoff = max(len(q), 10) * np.finfo(float).eps
-        return TOLERANCE * self.size + roundoff * forces, TOLERANCE * lengths + roundoff * misfit
+        allowed = TOLERANCE * self.size + roundoff * forces
+        if self.weight.any():
+            # Where bearings hardly hold the rotor, it moves so far that roundoff is more than its weight.
+            allowed = np.minimum(allowed, MOST_LEFT * self.size)
+        return allowed, TOLERANCE * lengths + roundoff * misfit
 
     def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""

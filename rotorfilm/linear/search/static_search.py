@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Tangent
+from ...reactions.noise import MOST_LEFT
 
 MAXIMUM_ECCENTRICITY = 0.9999
 """Eccentricity ratio beyond which a load counts as more than the film can carry."""
@@ -15,6 +16,11 @@ LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
 
 _TOLERANCE = 1e-12
 _ROUNDOFF_STOP = 1e-13
+_ROUNDOFF = 1e-15  # of a place, in clearances
+_LARGEST_LOG = 300.0
+_DIRECTIONS, _FAR = 24, (0.3, 0.7, 0.95, 0.999)
+_ALIKE, _OPPOSITE = 1e-9, math.pi - 1e-6
+_NEUTRAL_SLOPE = 1e-6
 _NEWTON_STEPS = 60
 _NEUTRAL = 1e-11
 _LARGEST_MOVE = (6.0, 1.0)
@@ -54,11 +60,20 @@ class StaticPoint(NamedTuple):
     ratio: float = math.inf
     angle: float = 0.0
     matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    slopes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # of the force by the position [N/m]
 
     @property
     def norm(self) -> float:
         """Size of the residual [1]."""
         return math.hypot(self.ratio, self.angle)
+
+    @property
+    def imbalance(self) -> float:
+        """|film force + load| / |load| [1]; of the logarithm, so that small ones keep their digits."""
+        if not self.norm < math.inf:
+            return math.inf
+        ratio = min(self.ratio, _LARGEST_LOG)
+        return math.hypot(math.expm1(ratio), 2.0 * math.exp(0.5 * ratio) * math.sin(0.5 * self.angle))
 
 
 def search_place(target: StaticTarget) -> StaticPoint:
@@ -170,10 +185,45 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
             (ux * y_s - uy * x_s) / size,
             (ux * y_phi - uy * x_phi) / size,
         ),
+        (D[0], D[1], D[5], D[6]),
     )
 
 
 def is_found(target: StaticTarget, point: StaticPoint) -> bool:
-    """Return whether the residual is below 1e-12, or what roundoff leaves of gap, place and force."""
-    steep = max(1.0 + math.exp(point.s), *(abs(slope) for slope in point.matrix))
-    return point.norm <= max(_TOLERANCE, 1e-15 * steep, target.noise / target.size)
+    """Return whether the film balances the load to 1e-12, or to what `unavoidable` leaves, within reason."""
+    allowed = max(_TOLERANCE, unavoidable(target, point))
+    return point.imbalance <= min(allowed, MOST_LEFT)
+
+
+def unavoidable(target: StaticTarget, point: StaticPoint) -> float:
+    """Return the imbalance that roundoff leaves of gap, place and force, over the load.
+
+    Preloaded pads and balls press each other with forces of which a light load is the small difference.
+    """
+    gap = math.exp(min(point.ratio, _LARGEST_LOG)) * (1.0 + math.exp(point.s))
+    place = target.clearance * max(abs(slope) for slope in point.slopes) / target.size
+    return _ROUNDOFF * max(gap, place) + target.noise / target.size
+
+
+def has_force_against(target: StaticTarget) -> bool:
+    """Return whether forces of the film, wherever the journal is, span the direction that the load needs.
+
+    They are looked at in many places. A force in that direction needs one on either side of it, less than
+    half a turn apart: the pads of a gap push the journal out of it together, a pad alone pushes it away.
+    """
+    sides = [-math.inf, math.inf]
+    for share in _FAR:
+        chi = share * min(target.room, MAXIMUM_ECCENTRICITY)
+        for k in range(_DIRECTIONS):
+            at = _point(target, math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS, 0)
+            if at.norm < math.inf:
+                sides[0] = max(sides[0], at.angle if at.angle <= _ALIKE else -math.inf)
+                sides[1] = min(sides[1], at.angle if at.angle >= -_ALIKE else math.inf)
+    return sides[1] - sides[0] < _OPPOSITE
+
+
+def is_unstable(point: StaticPoint) -> bool:
+    """Return whether the journal moves away from its place: d(force)/d(position) has a positive value."""
+    a, b, c, d = point.slopes
+    half, turn = 0.5 * (a + d), 0.25 * (a - d) ** 2 + b * c
+    return turn >= 0.0 and half + math.sqrt(turn) > _NEUTRAL_SLOPE * max(map(abs, point.slopes))

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...errors import InputError, require_finite, require_number
+from ...errors import EquilibriumError, InputError, require_finite, require_number
 from ...inputs.kinds import arguments
 from ...model import Array
+from ...reactions.noise import MOST_LEFT
 from ...readable.result import Readable
 from ...rotors import Coupling, LayeredElement, ShaftRotor
 from ...rotors.shaft.elements import ShaftPiece
@@ -53,6 +54,8 @@ def axial_statics(
     ------
     InputError
         If a node does not exist, or no bearing holds the shaft.
+    EquilibriumError
+        If the bearings are so soft beside the shaft that roundoff decides what they carry.
     """
     chain = axial_of(rotor)
     stiffness, _ = grounded(chain, rotor, bearings)
@@ -65,6 +68,12 @@ def axial_statics(
     moved: Array = np.asarray(np.linalg.solve(stiffness, load), dtype=float)
     held = {b.node: 0.0 for b in bearings}
     thrust = np.array([b.stiffness * moved[b.node] for b in bearings])
+    left, size = abs(float(thrust.sum() - load.sum())), float(np.abs(load).sum())
+    if not left <= MOST_LEFT * size:
+        raise EquilibriumError(
+            "bearings must be stiff enough beside the shaft to hold it along its axis, got stiffnesses of "
+            f"{[b.stiffness for b in bearings]} N/m, which leave {left:.3g} N of {size:.3g} N to roundoff"
+        )
     for bearing, force in zip(bearings, thrust, strict=True):
         held[bearing.node] += force
     # Of what acts on the nodes up to an element, its tension is the opposite.

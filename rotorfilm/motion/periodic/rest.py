@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import EquilibriumError
 from ...linear import equilibrium, rotor_equilibrium
 from ...model import Array
+from ...reactions.noise import MOST_LEFT
 from ...rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..compiled.modal import Complex, ModalRotor, journal_rows
 from .balance import Balance
@@ -86,8 +87,14 @@ def _newton(modal: ModalRotor, start: Array) -> Array:
         size = float(np.abs(step).max())
         series += (min(1.0, 0.2 / size) if size else 1.0) * balance.in_length(step)
         if size < TOLERANCE:
-            return np.asarray(series[:, 0])
-    raise EquilibriumError(f"no rest found: the last Newton step was {size:.3g} of the clearance")
+            break
+    left = float(np.abs(balance.values(series, 1.0)).max())
+    if not (size < TOLERANCE and left <= MOST_LEFT):
+        raise EquilibriumError(
+            f"rotor must have a rest near its first guess, and the search found none: the last Newton step "
+            f"was {size:.3g} of the clearance, and the rotor under the forces there is {left:.3g} of it away"
+        )
+    return np.asarray(series[:, 0])
 
 
 def first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:

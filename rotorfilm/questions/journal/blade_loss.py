@@ -13,7 +13,7 @@ import numpy as np
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...bearings.contact_place import reach
 from ...errors import InputError
-from ...ladders import Ladder
+from ...ladders import Ladder, relative_change
 from ...linear import coefficients, equilibrium
 from ...motion.transient.equal_steps import MarchMotion, peak
 from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, states_along
@@ -23,7 +23,7 @@ from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
-from .conserved_whirl import relative, with_moved_rupture
+from .conserved_whirl import with_moved_rupture
 from .field_rungs import HeatedQuestion
 from .heat_rungs import thermal_ladder
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
@@ -136,7 +136,7 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
     def linear(film: FilmCandidate) -> float:
         return float(make(film=film, steps=0).answer(None).value)
 
-    return with_moved_rupture(scene, ladder, linear, relative, scaled=True)
+    return with_moved_rupture(scene, ladder, linear, relative_change, scaled=True)
 
 
 def calls_of(excitation: BladeLossTable) -> int:
@@ -207,7 +207,7 @@ def warm_blade_ladder(
             speed=scene.speed,
             make=partial(stepped, steps),
             value=value,
-            distance=lambda one, better: abs(better - one) / better,
+            distance=relative_change,
             moves=True,
         )
         for steps in (0, *STEPS)

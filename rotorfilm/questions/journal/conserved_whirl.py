@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...answers import Found
 from ...bearings.journal import JFOFilm
-from ...ladders import Ladder
+from ...ladders import Ladder, relative_change
 from ...linear import whirl_threshold
 from ...scenes.journal.solve_journal import conserved_threshold
 from .conserved_rungs import ConservedRung, conserved_films
@@ -43,7 +43,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
             return conserved_threshold(film, load, mass, start(before))
 
         return tuple(
-            ConservedRung(film=film, value=value, distance=relative) for film in conserved_films(scene)
+            ConservedRung(film=film, value=value, distance=relative_change) for film in conserved_films(scene)
         )
 
     def change(found: Found) -> Change:
@@ -57,7 +57,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
         return Ladder(rungs=rungs, unit="rad/s", remarks=scene.film_remarks, within=within_of(scene))
     ladder = ruptured()
     # On an oil the error by heat of a threshold by conserved oil is not known yet.
-    return with_rupture(scene, ladder, change, relative, None if bearing.is_warming else above)
+    return with_rupture(scene, ladder, change, relative_change, None if bearing.is_warming else above)
 
 
 def with_moved_rupture(
@@ -87,8 +87,3 @@ def with_moved_rupture(
         return rupture.change(lambda rest: linear(rest.frozen), relative=scaled)
 
     return with_rupture(scene, ladder, change, distance)
-
-
-def relative(value: float, better: float) -> float:
-    """Return by which share of the better one a value is off."""
-    return abs(better - value) / abs(better)

@@ -230,4 +230,5 @@ def thermal_ladder(
         remarks=scene.film_remarks,
         within=HEATED,
         assumptions=assumptions,
+        distance=question.distance,
     )

@@ -102,6 +102,7 @@ def conserved_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         remarks=scene.film_remarks,
         within=within_of(scene),
+        distance=distance_of(scene, quantity),
     )
 
 

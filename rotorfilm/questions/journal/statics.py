@@ -11,7 +11,7 @@ import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact_place import minimum_film
-from ...ladders import CandidateRung, Ladder
+from ...ladders import CandidateRung, Ladder, relative_change
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction, prepared_tangent
 from ...results import Equilibrium
@@ -158,10 +158,9 @@ def relative_distance(quantity: str, value: Array | float, better: Array | float
     Relative to the largest entry of the better one, of an angle in radians, of a temperature to its rise
     above that of the supply [K].
     """
-    gap = float(np.max(np.abs(np.asarray(better) - value)))
     if quantity in TEMPERATURES:
-        return gap / (float(better) - supply)
-    return gap / (1.0 if quantity == ANGLE else float(np.max(np.abs(better))))
+        return abs(float(better) - float(value)) / (float(better) - supply)
+    return abs(float(better) - float(value)) if quantity == ANGLE else relative_change(value, better)
 
 
 def film_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, Callable[[], object]]:
@@ -189,6 +188,7 @@ def cold_static_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidat
         units=film_units(films, scene.speed),
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
+        distance=lambda value, better: relative_distance(quantity, value, better, 0.0),
     )
 
 

@@ -180,6 +180,7 @@ def cold_orbit_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate
         units=film_batch_units(films, scene.speed),
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
+        distance=rungs[0].place.change,
     )
 
 

@@ -110,4 +110,10 @@ def tilting_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         for film in films
         for n in (0, *SAMPLES)
     ]
-    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], remarks=scene.film_remarks, within=ISOTHERMAL)
+    return Ladder(
+        rungs=tuple(rungs),
+        unit=UNITS[quantity],
+        remarks=scene.film_remarks,
+        within=ISOTHERMAL,
+        distance=lambda value, better: wave_change(quantity, value, better),
+    )

@@ -148,7 +148,13 @@ def tilting_rest_ladder(scene: Scene, quantity: str) -> Ladder:
     else:
         refuse_temperature(scene, quantity)
         rungs = tuple(make(film) for film in films)
-        ladder = Ladder(rungs=rungs, unit=UNITS[quantity], remarks=scene.film_remarks, within=ISOTHERMAL)
+        ladder = Ladder(
+            rungs=rungs,
+            unit=UNITS[quantity],
+            remarks=scene.film_remarks,
+            within=ISOTHERMAL,
+            distance=lambda value, better: relative_distance(quantity, value, better, 0.0),
+        )
     if quantity not in MATRIX:
         return ladder
     return replace(ladder, within=f"{ladder.within}, whirl of {abs(scene.speed):.6g} rad/s, once a turn")

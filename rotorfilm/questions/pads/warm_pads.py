@@ -104,6 +104,7 @@ def warm_static_ladder(
         remarks=scene.film_remarks,
         within=ONE_TEMPERATURE,
         assumptions=assumptions,
+        distance=question.distance,
     )
 
 

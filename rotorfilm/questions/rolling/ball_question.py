@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
+from ...ladders import relative_change
 from ...model import Array
 from ...scenes.rolling.ball_rest import Balls, RaceOil, RestingBalls, rest_under, single_of
 
@@ -59,8 +58,9 @@ class BallQuestion:
 
     def distance(self, value: Array | float, better: Array | float) -> float:
         """Return how far a value is from a better one, in the unit of the tolerance."""
-        scale = 1.0 if self.quantity == ANGLE else float(np.max(np.abs(better)))
-        return float(np.max(np.abs(np.asarray(better) - value))) / scale
+        if self.quantity == ANGLE:
+            return abs(float(better) - float(value))
+        return relative_change(value, better)
 
     def own_bound(self, rest: RestingBalls) -> float:
         """Return the error [1] of the richest law: contacts at the free angle, and films that keep thick."""

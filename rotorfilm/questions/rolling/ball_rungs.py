@@ -201,6 +201,7 @@ def ball_ladder(scene: Scene, quantity: str) -> Ladder:
         remarks=scene.film_remarks,
         within=DRY if question.oil is None else WITHIN,
         assumptions=lambda: control_moves(table.build(), question),
+        distance=question.distance,
     )
 
 

@@ -239,6 +239,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         ),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(rungs[0]),
+        distance=place.change,
     )
 
 

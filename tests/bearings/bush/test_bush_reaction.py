@@ -544,3 +544,10 @@ def test_bad_points_are_named():
         WORN.position([0.0, 0.0], 1.0)
     with pytest.raises(ConvergenceError, match="load must be one that the liner can carry"):
         WORN.position([0.0, 1000.0], 1.0)
+
+
+@pytest.mark.parametrize("speed", [0.0, 9.0, -9.0])
+def test_equilibrium_of_the_default_arc_is_its_position(speed):
+    at = equilibrium(WORN, DOWN, speed)
+    np.testing.assert_allclose(at.position, WORN.position(DOWN, speed), rtol=1e-10, atol=1e-14)
+    np.testing.assert_allclose(WORN.force(at.position, [0.0, 0.0], speed), -DOWN, rtol=1e-9, atol=1e-9 * LOAD)

@@ -113,6 +113,12 @@ def test_the_shaft_rests_where_the_reaction_of_the_bush_has_it():
     assert radius * at == pytest.approx(expected, rel=1e-11)
 
 
+def test_a_place_that_does_not_carry_the_load_is_refused():
+    nodes = arc_nodes(41, 0.0, 1.0)
+    with pytest.raises(ConvergenceError, match="load must be carried by the worn liner"):
+        settle_along(nodes, np.full(41, np.nan), 1e-3, 0.03)
+
+
 def test_contact_beyond_the_nodes_is_refused():
     with pytest.raises(ConvergenceError, match=r"half the contact must stay below 0\.15 rad"):
         wear_at_nodes(wearing(8.0), SharedMelting(), (Stage(0.1, RATIO),), 16, 0.15)

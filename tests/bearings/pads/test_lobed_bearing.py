@@ -261,3 +261,16 @@ def test_a_shape_without_a_map_is_refused_unless_the_film_needs_none(extent, len
     bearing = LobedBearing(**one, lobes=lobes, film=grid)
     assert np.isfinite(bearing.force([0.0, 0.0], [0.0, 0.0], SPEED)).all()
     assert TiltingPadBearing(**one, pivots=(0.0,), extent=extent, film=grid).film == grid
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("name", ["elliptical", "three_lobe", "four_lobe"])
+def test_light_loads_on_preloaded_lobes_move_the_journal_in_proportion(name):
+    """The load is the small difference of what the lobes press: roundoff of that is no imbalance."""
+    lobed = bearing(lobe_set(name, preload=0.6), cells=(16, 4))
+    heavy = equilibrium(lobed, (0.0, -1.0), SPEED)
+    for load in (1e-3, 0.1):
+        at = equilibrium(lobed, (0.0, -load), SPEED)
+        far = np.hypot(*heavy.position)
+        np.testing.assert_allclose(at.position / load, heavy.position, rtol=0.0, atol=1e-3 * far)
+        assert at.residual < 1e-8 / load

@@ -210,6 +210,13 @@ def test_a_free_shaft_feels_nothing():
         )
 
 
+def test_a_load_that_is_roundoff_of_the_balls_is_refused():
+    turning = BallBearing(balls=9, ball_diameter=8e-3, pitch_diameter=33e-3, contact_angle=0.35)
+    assert turning.rest([0.0, -0.1, 1.0, 0.0, 0.0], 500.0).residual < 1e-12
+    with pytest.raises(EquilibriumError, match="load must stand out from roundoff of the forces of balls"):
+        turning.rest([0.0, -1e-10, 1e-9, 0.0, 0.0], 500.0)
+
+
 @pytest.mark.closed_form
 def test_a_rigid_rotor_swings_at_the_frequency_of_the_stiffness():
     preloaded = replace(DEEP, internal_clearance=-8e-6)

@@ -99,6 +99,11 @@ def test_static_thrust():
     np.testing.assert_allclose(found.displacement, wanted, rtol=1e-8)
 
 
+def test_a_thrust_bearing_whose_load_is_roundoff_is_refused():
+    with pytest.raises(rf.EquilibriumError, match="bearings must be stiff enough beside the shaft"):
+        rf.axial_statics(shaft(8), [rf.ThrustBearing(node=2, stiffness=1e-6)], {8: 1e5})
+
+
 @pytest.mark.closed_form
 def test_tension_stiffens_the_bending():
     """w^2 = (pi / l)^4 EI / (rho A) + (pi / l)^2 T / (rho A) of a slender shaft on hinges."""

@@ -7,10 +7,12 @@ from scipy.linalg import expm
 
 from rotorfilm import (
     ConvergenceError,
+    EquilibriumError,
     InputError,
     JournalBearing,
     LinearBearing,
     RigidRotor,
+    as_reaction,
     mount,
     periodic_orbit,
     simulate_rotor,
@@ -18,6 +20,7 @@ from rotorfilm import (
 )
 from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
 from rotorfilm.motion.periodic.floquet import monodromy
+from rotorfilm.motion.periodic.rest import rest_of
 
 from .test_simulate import shaft
 
@@ -141,3 +144,15 @@ def test_no_orbit_within_the_bearing():
     weak = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=1e-7)
     with pytest.raises(ConvergenceError, match="no periodic orbit found"):
         periodic_orbit(mount(huge, {"": weak}), start=periodic_orbit(mount(ROTOR, {"": BEARING})))
+
+
+def test_a_short_step_is_no_rest_while_forces_are_left():
+    """Slopes that are far too steep make Newton's steps vanish where nothing balances the weight."""
+    spring = as_reaction(
+        lambda x, y, vx, vy, speed: (-1e6 * x, -1e6 * y),
+        jacobian=lambda x, y, vx, vy, speed: -1e25 * np.eye(2, 5),
+        clearance=1e-4,
+    )
+    mounted = mount(RigidRotor(mass=5.0, speed=100.0), {"": spring})
+    with pytest.raises(EquilibriumError):
+        rest_of(mounted, modal_rotor(take_apart(mounted), 100.0), np.zeros(2))

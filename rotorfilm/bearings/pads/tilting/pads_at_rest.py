@@ -88,6 +88,10 @@ class TiltingPadsAtRest:
         """Distance [m] that the journal stays within; see `TiltingPads.room`."""
         return self.bearing.room
 
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff leaves of the force [N]; see `PadBearing.force_noise`."""
+        return self.bearing.force_noise(speed)
+
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least gap at a pivot [m]; see `TiltingPads.minimum_film`."""
         return self.bearing.minimum_film(position)

@@ -22,7 +22,7 @@ from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native.pads.tilting_kernel import TiltingKernel
 from ..pad_bearing import PadBearing
-from ..pad_film import PadFilm, PadMapFilm, require_pad_film
+from ..pad_film import PadFilm, PadMapFilm, film_for_preload, require_pad_film
 from .pivots import directions, gaps, reach
 
 
@@ -95,6 +95,7 @@ class TiltingPads(PadBearing):
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
             raise InputError(f"pad_mass must be given {rule}, got {self.pad_mass!r}")
+        object.__setattr__(self, "film", film_for_preload(self.film, self.preloads))
         require_pad_film(self.film, self.extents, self.slenderness)
         self._check_pivots()
 

@@ -67,10 +67,9 @@ class TurningBalls(Called):
         """Radial way [m] to a contact pressure of 4200 MPa, that of the bearing."""
         return self.bearing.clearance
 
-    @property
-    def force_noise(self) -> float:
-        """What roundoff of places leaves of the force [N], that of the bearing."""
-        return self.bearing.force_noise
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff of places leaves of the force [N], that of the bearing."""
+        return self.bearing.force_noise(speed)
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
