@@ -24,6 +24,10 @@ class InputError(RotorfilmError, ValueError):
     """An argument breaks a rule; the message names the argument, the rule and the value."""
 
 
+class UnknownArgumentError(InputError, TypeError):
+    """A name is no argument of what is called; the message says which one may be meant."""
+
+
 class SceneError(RotorfilmError, ValueError):
     """A scene file breaks its schema; the message names the file and the dotted key."""
 

@@ -287,7 +287,7 @@ def to_plain(value: Any) -> Any:
     return value
 
 
-def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
+def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path:
     """Write columns of equal length as CSV, floats with nine digits, None as nothing; return the path.
 
     The keys of the columns are their headings, with the unit where there is one.

@@ -64,9 +64,9 @@ class TabulatedBearing(Feedthrough):
         object.__setattr__(self, "speeds", speeds)
 
     @classmethod
-    def from_csv(cls, path: Path) -> TabulatedBearing:
+    def from_csv(cls, path: Path | str) -> TabulatedBearing:
         """Read a table that `to_csv` wrote; raise InputError where it is not one."""
-        with path.open(encoding="utf-8", newline="") as file:
+        with Path(path).open(encoding="utf-8", newline="") as file:
             heading, *rows = list(csv.reader(file)) or [[]]
         if tuple(heading) != HEADINGS:
             raise InputError(f"{path} must have the columns {list(HEADINGS)}, got {heading}")
@@ -79,7 +79,7 @@ class TabulatedBearing(Feedthrough):
         tables = numbers[:, 1:].reshape(len(numbers), 2, 2, 2)
         return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1])
 
-    def to_csv(self, path: Path) -> Path:
+    def to_csv(self, path: Path | str) -> Path:
         """Write the table with nine digits; return the path."""
         columns = np.column_stack([self.speeds, *(np.reshape(t, (-1, 4)) for t in self._tables)])
         return write_csv(path, dict(zip(HEADINGS, columns.T.tolist(), strict=True)))
