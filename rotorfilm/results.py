@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import RotorfilmError
+from .errors import RotorfilmError, require_each, require_finite
 from .files import write_whole
 from .readable.result import Drawable, Item, Readable, Row, rows_of
 
@@ -50,6 +50,9 @@ class BearingLosses(Readable):
     side_flow: float | Array
     inflow: Array
     arriving: Array
+
+    def __post_init__(self) -> None:
+        require_each(self, require_finite, *(one.name for one in dataclasses.fields(self)))
 
 
 @runtime_checkable

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from ..errors import InputError, require_finite, require_vector
+from ..errors import InputError, require_finite
 from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..results import write_csv
 from ..signals import Signal, force_outputs, journal_inputs
-from .reaction import Feedthrough
+from .reaction import Feedthrough, broadcast_state, without_overflow
 
 NOMINAL_LENGTH = 1e-4
 """Typical displacement [m]."""
@@ -107,21 +107,24 @@ class TabulatedBearing(Feedthrough):
         InputError
             If a speed is outside the table.
         """
-        q, v = require_vector("position", position), require_vector("velocity", velocity)
-        stiffness, damping = self._at(speed, 0)
-        moved: Array = -np.einsum("...ij,j...->i...", stiffness, q) - np.einsum(
-            "...ij,j...->i...", damping, v
-        )
-        return moved
+
+        def law(q: Array, v: Array, omega: Array) -> Array:
+            stiffness, damping = self._at(omega, 0)
+            return -np.einsum("...ij,j...->i...", stiffness, q) - np.einsum("...ij,j...->i...", damping, v)
+
+        return without_overflow(law, *broadcast_state(position, velocity, speed))
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...); InputError as in `force`."""
-        q, v = require_vector("position", position), require_vector("velocity", velocity)
-        stiffness, damping = self._at(speed, 0)
-        k_slope, c_slope = self._at(speed, 1)
-        by_speed = -np.einsum("...ij,j...->i...", k_slope, q) - np.einsum("...ij,j...->i...", c_slope, v)
-        blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
-        return np.concatenate([*np.broadcast_arrays(*blocks), by_speed[:, None]], axis=1)
+
+        def law(q: Array, v: Array, omega: Array) -> Array:
+            stiffness, damping = self._at(omega, 0)
+            k_slope, c_slope = self._at(omega, 1)
+            by_speed = -np.einsum("...ij,j...->i...", k_slope, q) - np.einsum("...ij,j...->i...", c_slope, v)
+            blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
+            return np.concatenate([*blocks, by_speed[:, None]], axis=1)
+
+        return without_overflow(law, *broadcast_state(position, velocity, speed))
 
     @property
     def _tables(self) -> tuple[Array, Array]:

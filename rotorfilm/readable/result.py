@@ -68,7 +68,10 @@ def _is_measured(value: Any) -> bool:
 
 
 def rows_of(items: Iterable[Item]) -> list[Row]:
-    """Return names and values with their units, a row for each; what a result of another kind repeats is left out."""
+    """Return names and values with their units, a row for each.
+
+    What a result in it repeats of a result of another kind is left out.
+    """
     found: list[Row] = []
     told: dict[Row, type] = {}
     for item in items:

@@ -57,6 +57,8 @@ def test_batches(table):
     for k, speed in enumerate(speeds):
         assert_allclose(force[:, k], table.force(q[:, k], v[:, k], speed))
         assert_allclose(jacobian[:, :, k], table.jacobian(q[:, k], v[:, k], speed))
+    assert table.force(q, v, 60.0).shape == (2, 3)
+    assert table.jacobian(q, v, 60.0).shape == (2, 5, 3)
 
 
 @pytest.mark.parametrize("kind", [str, Path])

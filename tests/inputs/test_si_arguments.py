@@ -134,7 +134,7 @@ def test_a_wrong_quantity_names_argument_rule_and_value(wrong, message):
 
 
 def test_a_diameter_of_what_has_no_radius_is_no_argument():
-    with pytest.raises(TypeError, match="^diameter must be an argument of Pad"):
+    with pytest.raises(TypeError, match=r"^diameter must be an argument of Pad"):
         rf.Pad(start=0.0, extent=1.0, diameter=1.0)
 
 

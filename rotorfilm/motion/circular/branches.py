@@ -153,7 +153,8 @@ def synchronous_orbits(
     Raises
     ------
     InputError
-        If there is no unbalance or one is not positive, the speed not constant, the rotor loaded or the film anisotropic.
+        If there is no unbalance or one is not positive, the speed not constant, the rotor loaded or the film
+        anisotropic.
 
     Notes
     -----
@@ -164,9 +165,8 @@ def synchronous_orbits(
         require_finite("unbalances", rotor.unbalance if unbalances is None else unbalances)
     )
     if wanted.ndim != 1 or not wanted.size or np.any(wanted <= 0.0):
-        raise InputError(
-            f"unbalances must be positive and not empty, got {unbalances if unbalances is not None else wanted!r}"
-        )
+        given = wanted if unbalances is None else unbalances
+        raise InputError(f"unbalances must be positive and not empty, got {given!r}")
     system = orbit_rotor(rotor, reaction)
     nodes = _radii(system.reach)
     folds = _folds(system, nodes)
