@@ -16,6 +16,9 @@ products of ten such numbers are still finite in double precision (1e308)."""
 SCENE_BYTES = 2**20
 """Of a scene file. A shaft of 500 elements, written one by one, takes a tenth; a device never ends."""
 
+RECORD_BYTES = 2**26
+"""Of a record, a table or a rotor in a file: a million rows of three numbers with all of their digits."""
+
 LINE_DOTS = 200
 """In a line of a scene file. The time to read a dotted key grows as the square of its parts; keys of scenes
 have five, and lists of numbers a dot for each."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ..errors import InputError, require_finite
+from ..files import read_text
 from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..results import write_csv
@@ -66,8 +68,7 @@ class TabulatedBearing(Feedthrough):
     @classmethod
     def from_csv(cls, path: Path | str) -> TabulatedBearing:
         """Read a table that `to_csv` wrote; raise InputError where it is not one."""
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file)) or [[]]
+        heading, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         if tuple(heading) != HEADINGS:
             raise InputError(f"{path} must have the columns {list(HEADINGS)}, got {heading}")
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, brief, require_finite, require_positive
+from ..files import read_text
 from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..units import parse_quantity
@@ -110,8 +112,7 @@ class Measurements:
         InputError
             If a heading, its unit or an entry cannot be read. Empty entries are not measured.
         """
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            headings, *rows = csv.reader(file)
+        headings, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         columns = dict(_column(heading, [row[k] for row in rows]) for k, heading in enumerate(headings))
         if "speed" not in columns or (load is None and not {"load_x", "load_y"} <= set(columns)):
             raise InputError(
