@@ -42,13 +42,7 @@ def broadcast_state(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) 
 def without_overflow(
     law: Callable[[Array, Array, Array], Array], position: Array, velocity: Array, speed: Array
 ) -> Array:
-    """Return a force, its derivatives or a mass, law(position, velocity, speed).
-
-    Raises
-    ------
-    InputError
-        If a number of it is not finite.
-    """
+    """Return law(position, velocity, speed), a force, slopes or a mass; InputError where it overflows."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = law(position, velocity, speed)
     if not np.isfinite(found).all():

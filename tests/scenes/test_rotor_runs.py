@@ -163,7 +163,7 @@ def test_headings_say_what_the_columns_are(tmp_path, key, heading, said):
 @pytest.mark.skipif(os.name != "posix", reason="a device of POSIX")
 def test_ground_that_never_ends_is_refused(tmp_path):
     (tmp_path / "record.csv").symlink_to("/dev/zero")
-    with pytest.raises(SceneError, match="acceleration must be a file of rows of numbers.* regular file"):
+    with pytest.raises(SceneError, match=r"acceleration must be a file of rows of numbers.* regular file"):
         read(shaken(acceleration="record.csv"), tmp_path)
 
 
