@@ -16,8 +16,9 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from ..errors import InputError, UnknownArgumentError, brief
+from ..errors import InputError, RotorfilmError, UnknownArgumentError, brief
 from ..units import UNITS, WEIGHT, parse_quantity, si_name
+from .allowed import checks_of, plain_checks_of, require_allowed, require_named, require_usual
 from .dimensions import BUILT, built_unit, warn_of_odd_size
 from .spelling import nearest
 
@@ -91,11 +92,22 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
                 given[name], odd = _read(home, name, value), True
         if len(args) > bare:
             args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
+        if documented is None:
+            require_allowed(plain_checks_of(home), chain(given.items(), zip(names, args, strict=False)))
         try:
             found = function(*args, **given)
-        except TypeError:
-            _require_arguments(home, given, (*names[bare:], *doubled))
+        except (RotorfilmError, OSError, Warning, MemoryError) as error:
+            if isinstance(error, InputError) and documented is not None:
+                require_named(error, checks_of(home), given.items())
             raise
+        except Exception:
+            _require_arguments(home, given, (*names[bare:], *doubled))
+            every = dict([*zip(names, args, strict=False), *given.items()])
+            require_allowed(checks_of(home, strictly=True), every.items())
+            require_usual(every.items())
+            raise
+        if documented is not None:
+            require_allowed(checks_of(home), chain(given.items(), zip(names, args, strict=False)))
         if odd:  # of what broke no rule
             for name in given.keys() & BUILT.keys():
                 warn_of_odd_size(name, given[name], units_of(home).get(name, ""))
