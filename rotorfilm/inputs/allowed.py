@@ -41,7 +41,9 @@ def checks_of(documented: Any, strictly: bool = False) -> Mapping[str, Check]:
         if check := _check(kind, strictly):
             found[name] = check
     for name, one in inspect.signature(made).parameters.items():
-        if one.default is None and name in found:  # also where the annotation is of what stands for it
+        if (
+            one.default is None and name in found and found[name](None)
+        ):  # also where the annotation is of what stands for it
             found[name] = cast(Check, _one_of([found[name], _nothing]))
     return found
 

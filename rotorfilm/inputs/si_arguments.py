@@ -98,7 +98,7 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
             found = function(*args, **given)
         except (RotorfilmError, OSError, Warning, MemoryError) as error:
             if isinstance(error, InputError) and documented is not None:
-                require_named(error, checks_of(home), given.items())
+                require_named(error, plain_checks_of(home), given.items())
             raise
         except Exception:
             _require_arguments(home, given, (*names[bare:], *doubled))
