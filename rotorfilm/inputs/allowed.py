@@ -17,10 +17,12 @@ from typing import Any, Literal, Union, cast, get_args, get_origin
 import numpy as np
 
 from ..errors import InputError, brief, lacking
-from ..limits import MAGNITUDE
+from ..limits import MAGNITUDE, NUMBER
 
 Check = Callable[[Any], str]
 """Returns what a value must be; nothing where it is that."""
+
+TOO_LARGE = f"at most {NUMBER:g} in size"
 
 PACKAGE = __name__.partition(".")[0]
 
@@ -77,10 +79,12 @@ def _annotations(documented: Any) -> list[tuple[Mapping[str, Any], dict[str, Any
 
 
 def is_object(kind: Any) -> bool:
-    """Return whether an annotation is of a class of this package or a function, or has one in it."""
-    if isinstance(kind, type) and kind is not Numbers and kind.__module__.partition(".")[0] == PACKAGE:
-        return True
-    return get_origin(kind) is collections.abc.Callable or any(map(is_object, get_args(kind)))
+    """Return whether an annotation is of classes of this package or functions, or of collections of them."""
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin in (Union, UnionType):
+        return all(is_object(part) for part in parts if part is not NoneType)
+    ours = isinstance(kind, type) and kind is not Numbers and kind.__module__.partition(".")[0] == PACKAGE
+    return ours or origin is collections.abc.Callable or any(map(is_object, parts))
 
 
 def require_allowed(checks: Mapping[str, Check], given: Iterable[tuple[str, Any]]) -> None:
@@ -88,6 +92,13 @@ def require_allowed(checks: Mapping[str, Check], given: Iterable[tuple[str, Any]
     for name, value in given:
         if (check := checks.get(name)) and (said := check(value)):
             raise InputError(f"{name} must be {said}, got {brief(value)}")
+
+
+def require_sizes(given: Iterable[tuple[str, Any]]) -> None:
+    """Raise InputError where a number is absurdly large, before anything is calculated with it."""
+    for name, value in given:
+        if value.__class__ in (float, int) and NUMBER < abs(value) < math.inf:
+            raise InputError(f"{name} must be {TOO_LARGE}, got {brief(value)}")
 
 
 def require_named(error: InputError, checks: Mapping[str, Check], given: Iterable[tuple[str, Any]]) -> None:
@@ -131,7 +142,7 @@ def _check(kind: Any, strictly: bool) -> Check | None:
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return _mapping(_check(parts[1], strictly))
     if origin is collections.abc.Callable or kind is collections.abc.Callable:
-        return _callable
+        return lambda value: "" if callable(value) else "a function"
     if isinstance(origin, type) and issubclass(origin, Iterable):
         return _series(_check(parts[0], strictly))
     if any(isinstance(one, type) and issubclass(one, PathLike) for one in (kind, origin)):
@@ -167,13 +178,13 @@ def _number(value: Any) -> str:
         return "a single finite number"
     if isinstance(value, float) and value != value:
         return "a single finite number"
-    return f"at most {MAGNITUDE:g} in size" if MAGNITUDE < abs(value) < math.inf else ""
+    return TOO_LARGE if NUMBER < abs(value) < math.inf else ""
 
 
 def _integer(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         return "an integer"
-    return f"at most {MAGNITUDE:g} in size" if abs(value) > MAGNITUDE else ""
+    return TOO_LARGE if abs(value) > NUMBER else ""
 
 
 def _truth(value: Any) -> str:
@@ -186,10 +197,6 @@ def _text(value: Any) -> str:
 
 def _nothing(value: Any) -> str:
     return "" if value is None else "None"
-
-
-def _callable(value: Any) -> str:
-    return "" if callable(value) else "a function"
 
 
 def _path(value: Any) -> str:
@@ -223,7 +230,7 @@ def _tuple(parts: tuple[Any, ...], strictly: bool) -> Check:
 
     def check(value: Any) -> str:
         if not isinstance(value, tuple | list | np.ndarray):
-            return f"a tuple of {'any number' if many else len(checks)}"
+            return "a tuple" if many else f"a tuple of {len(checks)}"
         if not many and len(value) != len(checks):
             return f"a tuple of {len(checks)}"
         every = checks * len(value) if many else checks

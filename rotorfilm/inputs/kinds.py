@@ -14,10 +14,9 @@ R = TypeVar("R")
 def arguments(function: Callable[P, R]) -> Callable[P, R]:
     """Let a public function take quantities with their units, and check the kinds of its arguments.
 
-    Numbers, texts and functions are checked before it begins. An argument annotated with a class of this
-    package, a union of such, or a mapping of names to such is checked where the function fails by an error
-    of Python: what has all that a function happens to ask of it may go in, as a film without `inputs` in
-    `equilibrium`.
+    Rules of the function itself come first, but absurdly large numbers are refused before it begins. Where it
+    fails by an error of Python, every argument is checked by its annotation. What has all that a function
+    happens to ask of it may go in, as a film without `inputs` in `equilibrium`.
 
     Raises, from then on
     --------------------

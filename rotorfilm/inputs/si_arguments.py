@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import InputError, RotorfilmError, UnknownArgumentError, brief
 from ..units import UNITS, WEIGHT, parse_quantity, si_name
-from .allowed import checks_of, plain_checks_of, require_allowed, require_named, require_usual
+from .allowed import checks_of, plain_checks_of, require_allowed, require_named, require_sizes, require_usual
 from .dimensions import BUILT, built_unit, warn_of_odd_size
 from .spelling import nearest
 
@@ -93,7 +93,7 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
         if len(args) > bare:
             args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
         if documented is None:
-            require_allowed(plain_checks_of(home), chain(given.items(), zip(names, args, strict=False)))
+            require_sizes(chain(given.items(), zip(names, args, strict=False)))
         try:
             found = function(*args, **given)
         except (RotorfilmError, OSError, Warning, MemoryError) as error:
@@ -106,8 +106,8 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
             require_allowed(checks_of(home, strictly=True), every.items())
             require_usual(every.items())
             raise
-        if documented is not None:
-            require_allowed(checks_of(home), chain(given.items(), zip(names, args, strict=False)))
+        checks = plain_checks_of(home) if documented is None else checks_of(home)
+        require_allowed(checks, chain(given.items(), zip(names, args, strict=False)))
         if odd:  # of what broke no rule
             for name in given.keys() & BUILT.keys():
                 warn_of_odd_size(name, given[name], units_of(home).get(name, ""))

@@ -61,3 +61,11 @@ def test_a_seal_names_the_state_that_overflows(speed):
         InputError, match=r"^position, velocity and speed must be finite and not overflow, got"
     ):
         rf.AnnularSeal(**SEAL).force([1e-5, 0.0], [0.0, 0.0], speed)
+
+
+@pytest.mark.parametrize("name", ["pressure_drop", "viscosity", "density"])
+def test_a_seal_of_an_absurd_size_is_refused(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        with pytest.raises(InputError, match=rf"^{name} must be at most 1e\+150 in size, got 1e\+308"):
+            rf.AnnularSeal(**{**SEAL, name: 1e308})

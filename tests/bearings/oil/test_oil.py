@@ -103,7 +103,7 @@ def _quintic_basis(u):
         (lambda: Oil.two_points((40.0, 1e-5), (100.0, 7e-6)), r"^first\[0\] must .*: '40 degC'\?"),
         (lambda: Oil.two_points((313.0, None), (373.0, 7e-6)), r"^first\[1\] must be a single finite"),
         (lambda: Oil.thinning_at("3 Pa", 313.0, 0.03), "^viscosity: quantity must be measured in Pa.s"),
-        (lambda: Oil.constant(None), "^viscosity must be a single finite number, got None"),
+        (lambda: Oil.constant(None), "^viscosity must be finite and positive, got None"),
         (lambda: Oil.two_points((313.0, 1e-5), (373.0, 2e-5)), "must fall with temperature"),
         (lambda: Oil.constant(-1.0), "viscosity must be finite and positive"),
         (lambda: Oil.iso_vg(46).viscosity(-3.0), "temperature must be finite and positive"),
