@@ -37,12 +37,11 @@ def checks_of(documented: Any, strictly: bool = False) -> Mapping[str, Check]:
 
     A value passes for a protocol that it has something of; strictly it must have all.
     """
-    made = documented.__init__ if isinstance(documented, type) else documented
     found: dict[str, Check] = {}
     for name, kind in kinds_of(documented).items():
         if check := _check(kind, strictly):
             found[name] = check
-    for name, one in inspect.signature(made).parameters.items():
+    for name, one in inspect.signature(documented).parameters.items():
         if (
             one.default is None and name in found and found[name](None)
         ):  # also where the annotation is of what stands for it
@@ -178,13 +177,15 @@ def _number(value: Any) -> str:
         return "a single finite number"
     if isinstance(value, float) and value != value:
         return "a single finite number"
-    return TOO_LARGE if NUMBER < abs(value) < math.inf else ""
+    size: Any = abs(value)
+    return TOO_LARGE if NUMBER < size < math.inf else ""
 
 
 def _integer(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         return "an integer"
-    return TOO_LARGE if abs(value) > NUMBER else ""
+    size: Any = abs(value)
+    return TOO_LARGE if size > NUMBER else ""
 
 
 def _truth(value: Any) -> str:
@@ -276,9 +277,10 @@ def _protocol(kind: type, strictly: bool) -> Check:
     said = f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
 
     def check(value: Any) -> str:
+        cls: Any = type(value)
         if isinstance(value, type):
             return said
-        missing = [name for name in lacking(type(value), kind) if not hasattr(value, name)]
+        missing = [name for name in lacking(cls, kind) if not hasattr(value, name)]
         if not missing or (len(missing) < len(members) and not strictly):
             return ""
         return f"{said}, with {', '.join(missing)}"
