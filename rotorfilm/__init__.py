@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         RotorfilmError as RotorfilmError,
         SceneError as SceneError,
         UndefinedDerivativeError as UndefinedDerivativeError,
+        UnknownArgumentError as UnknownArgumentError,
         UnloadedPadWarning as UnloadedPadWarning,
         ValidityWarning as ValidityWarning,
     )

@@ -24,6 +24,10 @@ class InputError(RotorfilmError, ValueError):
     """An argument breaks a rule; the message names the argument, the rule and the value."""
 
 
+class UnknownArgumentError(InputError, TypeError):
+    """A name is no argument of what is called; the message says which one may be meant."""
+
+
 class SceneError(RotorfilmError, ValueError):
     """A scene file breaks its schema; the message names the file and the dotted key."""
 
@@ -132,18 +136,18 @@ def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
     if isinstance(value, type):
         raise InputError(f"{name} must be {said}, got {brief(value)}")
     if not getattr(kind, "_is_protocol", False):
-        lacking = [] if isinstance(value, kind) else [""]
+        missing = [] if isinstance(value, kind) else [""]
     else:
         # The protocol's own check asks every property of the value, and some of them are slow.
         cls: Any = type(value)
-        lacking = [member for member in _lacking(cls, kind) if not hasattr(value, member)]
-    if lacking:
-        without = f" without {', '.join(lacking)}" if lacking[0] else ""
+        missing = [member for member in lacking(cls, kind) if not hasattr(value, member)]
+    if missing:
+        without = f" without {', '.join(missing)}" if missing[0] else ""
         raise InputError(f"{name} must be {said}, got {brief(value)}{without}")
 
 
 @cache
-def _lacking(cls: type, protocol: type) -> tuple[str, ...]:
+def lacking(cls: type, protocol: type) -> tuple[str, ...]:
     """Return the members of a protocol that a class does not define; its instances may still have them."""
     return tuple(name for name in dir(protocol) if not name.startswith("_") and not hasattr(cls, name))
 

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from .errors import InputError
+from .limits import RECORD_BYTES
 
 MAGIC = b"\x93RFSEAL\n"
 VERSION = 1
@@ -24,6 +25,29 @@ _SEAL = struct.Struct("<8sIQ32s")
 _CHECKSUM = hashlib.sha256().digest_size
 _LINE = 16
 """Digits of the checksum in front of a line."""
+
+
+def read_text(path: str | os.PathLike[str], most: int = RECORD_BYTES) -> str:
+    """Return the text of a file, which must be a regular one: a pipe or a device may never end.
+
+    Raises
+    ------
+    InputError
+        If it is no regular file, longer than `most` bytes or no UTF-8 text; the message names it.
+    OSError
+        If it is not there or cannot be read.
+    """
+    name, source = repr(str(path)), Path(path)
+    if source.exists() and not source.is_file():
+        raise InputError(f"{name} must be a regular file, got a folder, a pipe or a device")
+    with source.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise InputError(f"{name} must be at most {most} bytes long, got more")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{name} must be UTF-8 text, got {error}") from None
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:

@@ -1,8 +1,8 @@
 """The largest inputs that scene files and the command line take, each with its reason.
 
 Beyond them lies a slip of the pen, or more memory and time than a machine has. The classes of models
-have no such limits: what Python code asks of them, it may have. Quantities given as text (MAGNITUDE) and
-`sweep` (SWEEP_POINTS, WORKERS) have them from Python too.
+have no such limits: what Python code asks of them, it may have. Quantities given as text (MAGNITUDE), numbers
+(NUMBER), simulations (TURNS, STEPS) and `sweep` (SWEEP_POINTS, WORKERS) have them from Python too.
 """
 
 from __future__ import annotations
@@ -13,8 +13,15 @@ MAGNITUDE = 1e30
 """Of a quantity in SI, and of one over it. Nothing that is built comes near, neutron stars included, and
 products of ten such numbers are still finite in double precision (1e308)."""
 
+NUMBER = 1e150
+"""Of a number given to a public class or function: its square is finite. What follows from the quantities of
+a scene, as an inertia from a diameter, is below."""
+
 SCENE_BYTES = 2**20
 """Of a scene file. A shaft of 500 elements, written one by one, takes a tenth; a device never ends."""
+
+RECORD_BYTES = 2**26
+"""Of a record, a table or a rotor in a file: a million rows of three numbers with all of their digits."""
 
 LINE_DOTS = 200
 """In a line of a scene file. The time to read a dotted key grows as the square of its parts; keys of scenes
@@ -58,6 +65,9 @@ SWING_RATE = 10_000
 
 STEPS = 10_000_000
 """Exchanges or samples of a run, which keep some twenty signals each: 1.6 GB."""
+
+TURNS = 10_000_000
+"""Of a rotor in a simulation: each takes ten steps or more, so that it lasts for days."""
 
 SWEEP_POINTS = 100_000
 """Of a sweep. Each is a scene read and solved, ten milliseconds at the least: a quarter of an hour."""

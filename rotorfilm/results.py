@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import RotorfilmError
+from .errors import RotorfilmError, require_each, require_finite
 from .files import write_whole
 from .readable.result import Drawable, Item, Readable, Row, rows_of
 
@@ -38,10 +38,9 @@ class BearingLosses(Readable):
         Torque about +z of the film on the bush. It differs from `friction_torque` by position x force.
     side_flow : float [m3/s]
         Oil that leaves the film at both ends, without that straight out of grooves.
-    inflow : ndarray, shape (openings, ...) [m3/s]
-        Oil that leaves each opening into the films beside it, in the order of `FilmGeometry.openings`.
-    arriving : ndarray, shape (openings, ...) [m3/s]
-        Oil that comes to each opening from the films and streamers beside it.
+    inflow, arriving : ndarray, shape (openings, ...) [m3/s]
+        Oil that leaves each opening into the films beside it, and that comes to it from films and streamers
+        beside it, in the order of `FilmGeometry.openings`.
     """
 
     power_loss: float | Array
@@ -50,6 +49,9 @@ class BearingLosses(Readable):
     side_flow: float | Array
     inflow: Array
     arriving: Array
+
+    def __post_init__(self) -> None:
+        require_each(self, require_finite, *(one.name for one in dataclasses.fields(self)))
 
 
 @runtime_checkable
@@ -287,11 +289,8 @@ def to_plain(value: Any) -> Any:
     return value
 
 
-def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
-    """Write columns of equal length as CSV, floats with nine digits, None as nothing; return the path.
-
-    The keys of the columns are their headings, with the unit where there is one.
-    """
+def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path:
+    """Write columns of equal length, by their headings, as CSV: floats with nine digits; return the path."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)

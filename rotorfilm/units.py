@@ -172,7 +172,8 @@ def parse_quantity(text: str | float, unit: str, *, absolute: bool = False) -> f
         raise InputError(f"quantity must be finite, got {brief(text)}")
     match = _QUANTITY.match(text)
     if match is None:
-        raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {brief(text)}")
+        kind = "number such as '0.5'" if unit == "1" else f"number with a unit such as '1 {unit}'"
+        raise InputError(f"quantity must be a {kind}, got {brief(text)}")
     name = (match[2] or unit).translate(_MICRO)
     name = next((known for known in (name, si_name(name), spaced(name)) if known in DISPLAY_UNITS), name)
     if name not in DISPLAY_UNITS:

@@ -3,17 +3,19 @@
 import errno
 import hashlib
 import os
+import re
 import stat
 import subprocess
 import sys
 
 import pytest
 
-from rotorfilm import InputError
+from rotorfilm import InputError, Measurements, TabulatedBearing, read_ross
 from rotorfilm.bearings.journal.map.map_film import packaged_table
 from rotorfilm.charts import new_axes, save
 from rotorfilm.files import (
     read_sealed,
+    read_text,
     sealed_line,
     unsealed_line,
     write_sealed,
@@ -153,3 +155,27 @@ def test_a_seal_of_another_length_says_so(tmp_path):
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"'.*absent.a'"):
         write_whole(tmp_path / "absent" / "a", b"")
+
+
+@posix
+@pytest.mark.parametrize(
+    "read",
+    [read_text, TabulatedBearing.from_csv, Measurements.read, read_ross],
+    ids=lambda read: read.__qualname__,
+)
+def test_what_never_ends_is_not_read(tmp_path, read):
+    endless, pipe, large, binary = (tmp_path / name for name in ("link.csv", "pipe", "large", "binary"))
+    endless.symlink_to("/dev/zero")
+    os.mkfifo(pipe)
+    with large.open("wb") as file:
+        file.truncate(2**26 + 1)  # without a byte on the disk
+    binary.write_bytes(b"\xff\xfe\x00")
+    for path, rule in (
+        (endless, "a regular file"),
+        (pipe, "a regular file"),
+        (tmp_path, "a regular file"),
+        (large, "at most 67108864 bytes long"),
+        (binary, "UTF-8 text"),
+    ):
+        with pytest.raises(InputError, match=f"^{re.escape(repr(str(path)))} must be {rule}"):
+            read(path)

@@ -12,7 +12,7 @@ from ..errors import InputError, require_finite, require_vector
 from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..signals import Signal, force_outputs, journal_inputs
-from .reaction import Feedthrough
+from .reaction import Feedthrough, without_overflow
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
@@ -66,8 +66,12 @@ class LinearBearing(Feedthrough):
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...); the speed is not used."""
         q, v = require_vector("position", position), require_vector("velocity", velocity)
-        moved: Array = -np.tensordot(self.stiffness, q, 1) - np.tensordot(self.damping, v, 1)
-        return moved
+        return without_overflow(
+            lambda q, v, _: -np.tensordot(self.stiffness, q, 1) - np.tensordot(self.damping, v, 1),
+            q,
+            v,
+            np.asarray(speed),
+        )
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...): the same everywhere."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_tuple, require_vector
+from ..inputs.si_arguments import quantities
 from ..model import Array, Reaction, largest_eccentricity_ratio, require_reaction
 from ..reactions.added_mass import inertial
 from ..reactions.carried_load import carries_load
@@ -17,6 +18,7 @@ from .inertial_model import InertialModel
 from .reaction import broadcast_state
 
 
+@quantities
 @dataclass(frozen=True)
 class ParallelReaction(InertialModel):
     """Reactions without states on one journal: their forces and added masses add up.

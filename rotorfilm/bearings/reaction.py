@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_inside, require_vector
+from ..errors import InputError, brief, require_finite, require_inside, require_vector
 from ..model import Array, Force, Linearization, Reaction, Tangent, force_of, static_linearization
 from ..signals import Signal, force_outputs, journal_inputs
 
@@ -36,6 +37,18 @@ def broadcast_state(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) 
             f"got shapes {q.shape}, {v.shape} and {omega.shape}"
         ) from None
     return np.stack([x, y]), np.stack([vx, vy]), omega
+
+
+def without_overflow(
+    law: Callable[[Array, Array, Array], Array], position: Array, velocity: Array, speed: Array
+) -> Array:
+    """Return law(position, velocity, speed), a force, slopes or a mass; InputError where it overflows."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        found = law(position, velocity, speed)
+    if not np.isfinite(found).all():
+        state = ", ".join(brief(part.tolist()) for part in (position, velocity, speed))
+        raise InputError(f"position, velocity and speed must be finite and not overflow, got {state}")
+    return found
 
 
 def input_vector(u: ArrayLike) -> Array:
@@ -142,7 +155,7 @@ class FilmReaction(JournalReaction):
         Raises
         ------
         InputError
-            If an argument is not finite or of the wrong shape.
+            If an argument is not finite or of the wrong shape, or the force overflows.
         FilmContactError
             If the journal touches the wall anywhere in the batch.
         """
@@ -242,13 +255,13 @@ class StaticReaction(JournalReaction):
         Raises
         ------
         InputError
-            If an argument is not finite or of the wrong shape.
+            If an argument is not finite or of the wrong shape, or the force overflows.
         FilmContactError
             If the journal touches the wall anywhere in the batch.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
-        return self.prepared_force(q, v, omega)
+        return without_overflow(self.prepared_force, q, v, omega)
 
     def jacobian(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the exact derivatives of the force.
@@ -272,7 +285,7 @@ class StaticReaction(JournalReaction):
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
-        return self.prepared_jacobian(q, v, omega)
+        return without_overflow(self.prepared_jacobian, q, v, omega)
 
     def prepare(self: _Prepared) -> Force:
         """Return the force as a function of five numbers, for loops that go state by state.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,12 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from ..errors import InputError, require_finite, require_vector
+from ..errors import InputError, require_finite
+from ..files import read_text
 from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..results import write_csv
 from ..signals import Signal, force_outputs, journal_inputs
-from .reaction import Feedthrough
+from .reaction import Feedthrough, broadcast_state, without_overflow
 
 NOMINAL_LENGTH = 1e-4
 """Typical displacement [m]."""
@@ -64,10 +66,9 @@ class TabulatedBearing(Feedthrough):
         object.__setattr__(self, "speeds", speeds)
 
     @classmethod
-    def from_csv(cls, path: Path) -> TabulatedBearing:
+    def from_csv(cls, path: Path | str) -> TabulatedBearing:
         """Read a table that `to_csv` wrote; raise InputError where it is not one."""
-        with path.open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file)) or [[]]
+        heading, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         if tuple(heading) != HEADINGS:
             raise InputError(f"{path} must have the columns {list(HEADINGS)}, got {heading}")
         try:
@@ -79,7 +80,7 @@ class TabulatedBearing(Feedthrough):
         tables = numbers[:, 1:].reshape(len(numbers), 2, 2, 2)
         return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1])
 
-    def to_csv(self, path: Path) -> Path:
+    def to_csv(self, path: Path | str) -> Path:
         """Write the table with nine digits; return the path."""
         columns = np.column_stack([self.speeds, *(np.reshape(t, (-1, 4)) for t in self._tables)])
         return write_csv(path, dict(zip(HEADINGS, columns.T.tolist(), strict=True)))
@@ -107,21 +108,24 @@ class TabulatedBearing(Feedthrough):
         InputError
             If a speed is outside the table.
         """
-        q, v = require_vector("position", position), require_vector("velocity", velocity)
-        stiffness, damping = self._at(speed, 0)
-        moved: Array = -np.einsum("...ij,j...->i...", stiffness, q) - np.einsum(
-            "...ij,j...->i...", damping, v
-        )
-        return moved
+
+        def law(q: Array, v: Array, omega: Array) -> Array:
+            stiffness, damping = self._at(omega, 0)
+            return -np.einsum("...ij,j...->i...", stiffness, q) - np.einsum("...ij,j...->i...", damping, v)
+
+        return without_overflow(law, *broadcast_state(position, velocity, speed))
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...); InputError as in `force`."""
-        q, v = require_vector("position", position), require_vector("velocity", velocity)
-        stiffness, damping = self._at(speed, 0)
-        k_slope, c_slope = self._at(speed, 1)
-        by_speed = -np.einsum("...ij,j...->i...", k_slope, q) - np.einsum("...ij,j...->i...", c_slope, v)
-        blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
-        return np.concatenate([*np.broadcast_arrays(*blocks), by_speed[:, None]], axis=1)
+
+        def law(q: Array, v: Array, omega: Array) -> Array:
+            stiffness, damping = self._at(omega, 0)
+            k_slope, c_slope = self._at(omega, 1)
+            by_speed = -np.einsum("...ij,j...->i...", k_slope, q) - np.einsum("...ij,j...->i...", c_slope, v)
+            blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
+            return np.concatenate([*blocks, by_speed[:, None]], axis=1)
+
+        return without_overflow(law, *broadcast_state(position, velocity, speed))
 
     @property
     def _tables(self) -> tuple[Array, Array]:

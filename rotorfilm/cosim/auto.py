@@ -15,6 +15,7 @@ from ..errors import (
     PartialResultError,
     require_positive,
 )
+from ..inputs.si_arguments import quantities
 from ..results import Trajectory, orbit_distance
 from .cosim_run import Choice, CoSimulation, Trial
 from .schemes.explicit import GaussSeidel
@@ -45,6 +46,7 @@ REFERENCES: tuple[tuple[Scheme, int], ...] = (
 """What trials are compared with, and how much shorter its macro step is: the first that is possible."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Auto:
     """Asks for the cheapest scheme that is stable and accurate enough.

@@ -14,9 +14,11 @@ from ..errors import (
     FilmContactError,
     FmuError,
     FmuRunError,
+    InputError,
     PartialResultError,
     require_positive,
 )
+from ..limits import STEPS
 from ..readable.result import Drawable, Readable
 from ..results import Trajectory
 from .bench import Sample
@@ -155,9 +157,13 @@ def _is_coarse(result: CoSimulation) -> bool:
 
 
 def require_times(macro_step: float, duration: float) -> None:
-    """Raise InputError unless both are finite and positive."""
+    """Raise InputError unless both are finite and positive, and the steps no more than can be kept."""
     require_positive("macro_step", macro_step)
     require_positive("duration", duration)
+    if duration > STEPS * macro_step:
+        raise InputError(
+            f"duration must be at most {STEPS:g} macro steps of {macro_step!r} s, got {duration!r} s"
+        )
 
 
 class _Run:

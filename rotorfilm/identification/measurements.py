@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,6 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, brief, require_finite, require_positive
+from ..files import read_text
+from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..units import parse_quantity
 
@@ -30,6 +33,7 @@ _AXES = {"speed": "rad/s", "load_x": "N", "load_y": "N"}
 _HEADING = re.compile(r"\s*(\w+)\s*\[(.+)\]\s*")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Measurements:
     """Measured quantities of a bearing at several speeds, or under several loads.
@@ -70,8 +74,12 @@ class Measurements:
         if load.shape not in ((2,), (2, speed.size)):
             raise InputError(f"load must have shape (2,) or (2, {speed.size}), got shape {load.shape}")
         _require_known("values", self.values)
-        found = {name: np.asarray(series, dtype=float) for name, series in self.values.items()}
-        for name, series in found.items():
+        found = {}
+        for name, given in self.values.items():
+            try:
+                found[name] = series = np.asarray(given, dtype=float)
+            except (TypeError, ValueError):
+                raise InputError(f"values must be numeric for {name!r}, got {brief(given)}") from None
             if series.shape != speed.shape or np.isinf(series).any():
                 raise InputError(
                     f"values must have {speed.size} finite numbers or nan for {name!r}, got {series}"
@@ -104,8 +112,7 @@ class Measurements:
         InputError
             If a heading, its unit or an entry cannot be read. Empty entries are not measured.
         """
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            headings, *rows = csv.reader(file)
+        headings, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         columns = dict(_column(heading, [row[k] for row in rows]) for k, heading in enumerate(headings))
         if "speed" not in columns or (load is None and not {"load_x", "load_y"} <= set(columns)):
             raise InputError(

@@ -16,9 +16,11 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from ..errors import InputError, brief
+from ..errors import InputError, RotorfilmError, UnknownArgumentError, brief
 from ..units import UNITS, WEIGHT, parse_quantity, si_name
+from .allowed import checks_of, plain_checks_of, require_allowed, require_named, require_sizes, require_usual
 from .dimensions import BUILT, built_unit, warn_of_odd_size
+from .spelling import nearest
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -90,13 +92,35 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
                 given[name], odd = _read(home, name, value), True
         if len(args) > bare:
             args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
-        found = function(*args, **given)
+        if documented is None:
+            require_sizes(chain(given.items(), zip(names, args, strict=False)))
+        try:
+            found = function(*args, **given)
+        except (RotorfilmError, OSError, Warning, MemoryError) as error:
+            if isinstance(error, InputError) and documented is not None:
+                require_named(error, plain_checks_of(home), given.items())
+            raise
+        except Exception:
+            _require_arguments(home, given, (*names[bare:], *doubled))
+            every = dict([*zip(names, args, strict=False), *given.items()])
+            require_allowed(checks_of(home, strictly=True), every.items())
+            require_usual(every.items())
+            raise
+        checks = plain_checks_of(home) if documented is None else checks_of(home)
+        require_allowed(checks, chain(given.items(), zip(names, args, strict=False)))
         if odd:  # of what broke no rule
             for name in given.keys() & BUILT.keys():
                 warn_of_odd_size(name, given[name], units_of(home).get(name, ""))
         return found
 
     return taking
+
+
+def _require_arguments(home: Any, given: Mapping[str, Any], known: tuple[str, ...]) -> None:
+    """Raise UnknownArgumentError where an argument is none of what is called."""
+    for name in given:
+        if name not in known:
+            raise UnknownArgumentError(f"{name} must be an argument of {home.__name__}{nearest(name, known)}")
 
 
 def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -138,6 +162,8 @@ def _read(home: Any, name: str, value: Any) -> Any:
 def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any:
     """Return a string or a quantity of pint as a float in SI, also inside of lists; anything else as it is.
 
+    An array without dimensions is the number in it.
+
     Parameters
     ----------
     name : str
@@ -164,6 +190,8 @@ def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any
             meant = built_unit(name, found, unit) or unit
             raise InputError(f"{name} must have its unit, as '{value.strip()} {meant}', got {brief(value)}")
         return found
+    if isinstance(value, np.ndarray) and not value.ndim:  # a number to its user
+        return quantity(name, value.item(), unit, absolute=absolute)
     if isinstance(value, list | tuple):
         if all(isinstance(entry, float) for entry in value):
             return value

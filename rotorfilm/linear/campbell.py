@@ -44,6 +44,10 @@ class Campbell(Whirls, Drawable):
         By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
     direction : ndarray, shape (n_modes, n_speeds) [1]
         As in `RotorModes`; nan likewise.
+    frequency : ndarray, shape (n_modes, n_speeds) [rad/s]
+        Damped frequency, the imaginary part of the eigenvalues.
+    log_decrement : ndarray, shape (n_modes, n_speeds) [1]
+        Negative where the whirl grows.
     error : float [1]
         Largest of those of `RotorModes`.
     roundoff : ndarray, shape (n_modes, n_speeds) [1/s]

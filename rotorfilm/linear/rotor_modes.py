@@ -75,6 +75,10 @@ class RotorModes(Whirls, Readable):
         Complex coordinates of the rotor.
     direction : ndarray, shape (n,) [1]
         From 1, whirl in circles with the rotation, to -1, in circles against it.
+    frequency : ndarray, shape (n,) [rad/s]
+        Damped frequency, the imaginary part of the eigenvalues.
+    log_decrement : ndarray, shape (n,) [1]
+        Negative where the whirl grows.
     error : float [1]
         Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
         were.

@@ -105,7 +105,7 @@ def to_frame(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -
         for key, values in _columns(name, one, along):
             columns[key], units[key] = values, one.unit
     frame = pandas.DataFrame(columns)
-    if index:
+    if index in columns:  # a complex one is two
         frame = frame.set_index(index)
     frame.attrs = {"units": units, **notes, **rest}
     return frame
@@ -118,10 +118,14 @@ def rows_of(arrays: Arrays) -> str:
 
 
 def _columns(name: str, one: LabeledArray, along: str) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield a column for each entry of an array beside its rows."""
+    """Yield a column for each entry of an array beside its rows, two for a complex one."""
     values = np.moveaxis(one.values, one.dims.index(along), 0) if along else one.values[None]
     dims = [dim for dim in one.dims if dim != along]
     for place in np.ndindex(values.shape[1:]):
         ends = ["xy"[k] if dim.endswith(AXIS) else str(k) for k, dim in zip(place, dims, strict=True)]
         matrix = "".join(ends) if all(dim.endswith(AXIS) for dim in dims) else "_".join(ends)
-        yield "_".join([name, matrix]) if matrix else name, values[(slice(None), *place)]
+        key, column = "_".join([name, matrix]) if matrix else name, values[(slice(None), *place)]
+        if np.iscomplexobj(column):  # which CSV, Excel and Parquet do not hold
+            yield from ((f"{key}_real", column.real), (f"{key}_imag", column.imag))
+        else:
+            yield key, column

@@ -68,11 +68,17 @@ def _is_measured(value: Any) -> bool:
 
 
 def rows_of(items: Iterable[Item]) -> list[Row]:
-    """Return names and values with their units, a row for each; what a result in it repeats is left out."""
+    """Return names and values with their units, a row for each.
+
+    What a result in it repeats of a result of another kind is left out.
+    """
     found: list[Row] = []
+    told: dict[Row, type] = {}
     for item in items:
-        seen = {row for row in found if row[1] and row[0][:1].isspace()}
-        found += [row for row in _rows(item) if row not in seen]
+        kind = type(item.value)
+        new = [row for row in _rows(item) if told.get(row, kind) is kind]
+        told |= {row: kind for row in new if row[1] and row[0][:1].isspace()}
+        found += new
     return found
 
 
@@ -145,7 +151,8 @@ class Readable:
         """Return the numbers as a pandas.DataFrame, with all units in its `attrs`, by column.
 
         Its rows run along the first series, as the time; what does not is in `attrs`. Without a series there
-        is one row. Vectors and matrices have a column for each entry, as `position_x` and `stiffness_xy`.
+        is one row. Vectors and matrices have a column for each entry, as `position_x` and `stiffness_xy`;
+        complex numbers have two, which end in `_real` and `_imag`.
 
         Raises
         ------
@@ -189,7 +196,7 @@ def _rows(item: Item) -> list[Row]:
         inside = rows_of(items_of(value, getattr(value, "_shown", ())))
         return [(label, ""), *((f"  {inner}", text) for inner, text in inside)]
     if isinstance(value, tuple | list) and any(is_dataclass(one) for one in value):
-        return [(f"{label} {k}", _line(one)) for k, one in _ends(value)]
+        return [(f"{label} {k}", _line(one) or "empty") for k, one in _ends(value)]
     unit = "degC" if item.absolute else item.unit
     lines = [_line(value)] if is_dataclass(value) else texts(item.name, value, unit)
     return [(label if k == 0 else "", line) for k, line in enumerate(lines)]
@@ -213,7 +220,7 @@ def in_one_line(rows: Iterable[Row]) -> str:
     line = ""
     for label, text in rows:
         comma = ", " if line and not line.endswith(": ") else ""
-        line += f"{comma}{label.strip()}: " if label else "; "
+        line += f"{comma}{label.strip()}: " if label.strip() else "; "
         line += " ".join(text.split())
     return line
 

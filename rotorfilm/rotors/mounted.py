@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_kind
 from ..inputs.kinds import arguments
+from ..inputs.si_arguments import quantities
 from ..model import Array, Dynamic, Linearization, Reaction, require_reaction, require_reactions
 from ..native.spec import NativeSpec
 from ..reactions.added_mass import require_turning
@@ -23,6 +24,7 @@ from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class MountedRotor(AroundRotor):
     """A rotor whose stations of the given names rest in bearings; `mount` makes it.

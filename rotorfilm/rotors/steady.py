@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization
 from ..native.spec import NativeSpec
 from ..signals import Signal
@@ -24,6 +25,7 @@ TURNING = (
 """States that carry what does not depend on the rotor: they begin at (1, 0, 1)."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class SteadyRotor:
     """A rotor at constant speed: a Dynamic model with a kernel in the C library.

@@ -1,5 +1,7 @@
 """Coefficient tables over speed."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -55,6 +57,15 @@ def test_batches(table):
     for k, speed in enumerate(speeds):
         assert_allclose(force[:, k], table.force(q[:, k], v[:, k], speed))
         assert_allclose(jacobian[:, :, k], table.jacobian(q[:, k], v[:, k], speed))
+    assert table.force(q, v, 60.0).shape == (2, 3)
+    assert table.jacobian(q, v, 60.0).shape == (2, 5, 3)
+
+
+@pytest.mark.parametrize("kind", [str, Path])
+def test_a_file_is_named_by_text_or_path(table, tmp_path, kind):
+    path = kind(tmp_path / "table.csv")
+    table.to_csv(path)
+    assert_allclose(TabulatedBearing.from_csv(path).speeds, SPEEDS)
 
 
 def test_csv_and_back(table, tmp_path):

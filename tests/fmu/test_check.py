@@ -74,6 +74,33 @@ def test_a_reference_of_something_else_is_refused(path):
         check_fmu(spoiled)
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\n",
+        b"only text",
+        b"only\ntext\n",
+        b"\xff\xfe\x00",
+        b"\x00" * 64,
+        b"time,film.x\n0,1\n0,1,2\n",
+    ],
+)
+def test_a_reference_that_is_no_table_is_refused(path, run, content):
+    spoiled = changed(path, "documentation/reference.csv", lambda _: content)
+    with pytest.raises(FmuError, match=r"reference\.csv must"):
+        check_fmu(spoiled)
+    code, _, told = run("fmu", "check", spoiled)
+    assert code != 0
+    assert "reference.csv must" in " ".join(told.split())
+
+
+def test_a_reference_without_numbers_is_refused(path):
+    spoiled = changed(path, "documentation/reference.csv", lambda content: content.splitlines()[0])
+    with pytest.raises(FmuError, match=r"reference\.csv must have rows of \d+ finite numbers"):
+        check_fmu(spoiled)
+
+
 def test_a_wrong_description_is_noticed(path):
     spoiled = changed(
         path, "modelDescription.xml", lambda content: content.replace(b'unit="N"', b'unit="kp"')

@@ -145,6 +145,8 @@ def test_csv_has_units_in_its_headings(tmp_path):
     path.write_text("speed [rad/s],load_x [kN],load_y [N],kxx [MN/m]\n100,1,-2,10\n")
     data = Measurements.read(path)
     np.testing.assert_allclose(data.load, [[1000.0], [-2.0]])
+    data = Measurements.read(path, load=("0 N", "-3 kN"))
+    np.testing.assert_allclose(data.load, [[0.0], [-3000.0]])
     np.testing.assert_allclose(data.table, [[1e7]])
     path.write_text("speed [rpm],z [um]\n1500,40.5\n")
     with pytest.raises(InputError, match="headings must be a quantity with its unit"):

@@ -6,7 +6,7 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm.errors import InputError
-from rotorfilm.inputs.kinds import kinds_of
+from rotorfilm.inputs.allowed import is_object, kinds_of
 from rotorfilm.inputs.si_arguments import units_of
 
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -14,7 +14,12 @@ ROTOR = rf.RigidShaft(
     mass=10.0, diametral_inertia=0.2, polar_inertia=0.1, stations=(("a", -0.1), ("b", 0.1)), speed=9.0
 )
 FUNCTIONS = [one for name in rf.__all__ if inspect.isfunction(one := getattr(rf, name))]
-CHECKED = [(one, name) for one in FUNCTIONS for name in kinds_of(inspect.unwrap(one)) if name != "return"]
+CHECKED = [
+    (one, name)
+    for one in FUNCTIONS
+    for name, kind in kinds_of(inspect.unwrap(one)).items()
+    if is_object(kind)
+]
 
 
 @pytest.mark.parametrize(("function", "name"), CHECKED)

@@ -32,13 +32,10 @@ RESULTS = {
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
-ARRAYS = {"Measurements"}
-"""Of arrays, in SI."""
-
 PARTS = {"PadBearing", "RecessedPads", "TiltingPads"}
 """What bearings are made of, which have it with quantities."""
 
-SCALED = ARRAYS | PARTS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
+SCALED = PARTS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
 """Made by functions, from scales that these know."""
 
 
@@ -137,8 +134,39 @@ def test_a_wrong_quantity_names_argument_rule_and_value(wrong, message):
 
 
 def test_a_diameter_of_what_has_no_radius_is_no_argument():
-    with pytest.raises(TypeError, match="unexpected keyword argument 'diameter'"):
+    with pytest.raises(TypeError, match=r"^diameter must be an argument of Pad"):
         rf.Pad(start=0.0, extent=1.0, diameter=1.0)
+
+
+@pytest.mark.parametrize(
+    ("called", "name", "hint"),
+    [
+        (rf.Disk, "Id", "'diametral_inertia'"),
+        (rf.Disk, "Ip", "'polar_inertia'"),
+        (rf.Disk, "mas", "'mass'"),
+        (rf.JournalBearing, "diametral_clearance", "'clearance', half of it"),
+        (rf.TiltingPadBearing, "diametral_clearance", "'pad_clearance', half of it"),
+        (rf.ShaftElement, "odl", "'outer_diameter'"),
+        (rf.FeedHole, "diametre", "'diameter'"),
+        (rf.equilibrium, "spede", "'speed'"),
+    ],
+)
+def test_an_unknown_argument_hints_at_the_one_that_is_meant(called, name, hint):
+    with pytest.raises(
+        InputError, match=f"^{name} must be an argument of {called.__name__}; did you mean {hint}\\?$"
+    ):
+        called(**{name: 1.0})
+
+
+def test_a_missing_argument_is_still_named():
+    with pytest.raises(TypeError, match="missing 1 required keyword-only argument: 'length'"):
+        rf.JournalBearing(radius=0.05, clearance=1e-4, viscosity=0.1)
+
+
+def test_an_array_of_one_number_is_a_number():
+    made = rf.JournalBearing(**{**given_to(BEARING), "radius": np.array(0.05), "clearance": np.array(1e-4)})
+    assert made == BEARING
+    assert type(made.radius) is float
 
 
 @pytest.mark.closed_form

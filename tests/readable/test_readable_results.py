@@ -209,8 +209,15 @@ def test_data_frames_hold_the_same_numbers_as_data_sets(name):
     for key, array in data.variables.items():
         if str(key) in ("axis", "force_axis"):
             continue
-        parts = [values for column, values in columns.items() if re.fullmatch(rf"{key}(_[xy\d_]+)?", column)]
-        kept = np.concatenate(parts) if parts else np.ravel(frame.attrs[key])
+        parts = {
+            column: values
+            for column, values in columns.items()
+            if re.fullmatch(rf"{key}(_[xy\d_]+)?(_real|_imag)?", column)
+        }
+        for column in [column for column in parts if column.endswith("_real")]:
+            imaginary = parts.pop(column.removesuffix("real") + "imag")
+            parts[column] = parts[column] + 1j * imaginary
+        kept = np.concatenate(list(parts.values())) if parts else np.ravel(frame.attrs[key])
         assert sorted(map(str, kept.tolist())) == sorted(map(str, np.ravel(array.values).tolist())), key
         said = {unit for name, unit in frame.attrs["units"].items() if name.startswith(str(key))}
         assert array.attrs.get("units", "") in said
@@ -306,6 +313,35 @@ def test_what_a_result_in_a_result_repeats_is_left_out():
     film = dataclasses.replace(whole.coefficients, position=at.position, speed=at.speed)
     rows = dataclasses.replace(whole, equilibrium=at, coefficients=film).to_rows()
     assert rows.count(("  position", "(25, -9.25) um")) == 1
+
+
+def test_equal_bearings_are_both_shown():
+    one = Coefficients(stiffness=np.eye(2), damping=2.0 * np.eye(2), position=np.zeros(2), speed=1.0)
+    loads = {"left": np.zeros(2), "right": np.zeros(2)}
+    rest = rotorfilm.RotorEquilibrium(
+        speed=1.0,
+        coefficients={"left": one, "right": one},
+        loads=loads,
+        displacement=np.zeros(8),
+        residual=0.0,
+    )
+    rows = rest.to_rows()
+    first, second = (rows.index((f"coefficients {name}", "")) for name in loads)
+    count = second - first
+    assert rows[first + 1 : second] == rows[second + 1 : second + count]
+    assert count == 1 + len(one.to_rows())
+    assert ", : " not in repr(rest)
+
+
+def test_a_campbell_diagram_is_a_table_of_real_numbers():
+    campbell = SAMPLES["Campbell"]
+    frame = campbell.to_dataframe()
+    assert {frame[name].dtype.kind for name in frame} == {"f"}
+    for k, values in enumerate(campbell.eigenvalues):
+        np.testing.assert_array_equal(frame[f"eigenvalues_{k}_real"], values.real)
+        np.testing.assert_array_equal(frame[f"eigenvalues_{k}_imag"], values.imag)
+        np.testing.assert_array_equal(frame[f"frequency_{k}"], values.imag)
+    assert frame.attrs["units"]["log_decrement_0"] == "1"
 
 
 def test_what_does_not_exist_is_not_a_number_and_says_why():

@@ -232,7 +232,7 @@ def test_an_fmu_could_carry_it(rich_rotor):
         ({"elements": ()}, "elements must hold at least one ShaftElement"),
         ({"stations": (Station(node=7),)}, "stations must be on a node 0 to 6, got node 7"),
         ({"disks": (Disk(node=-1, mass=1.0),)}, "disks must be on a node 0 to 6, got node -1"),
-        ({"probes": (Probe(node=1.5, name="a"),)}, "probes must be on a node 0 to 6, got node 1.5"),
+        ({"probes": (Probe(node=9, name="a"),)}, "probes must be on a node 0 to 6, got node 9"),
         ({"stations": (Station(node=0), Station(node=1))}, "stations must have different names"),
         ({"internal_damping": -1.0}, "internal_damping must be finite and not negative, got -1.0"),
         ({"gravity": 9.81}, "gravity must be a pair of numbers, got 9.81"),

@@ -1,6 +1,7 @@
 """Runs of scenes over time: run-ups, motors, and ground that shakes."""
 
 import math
+import os
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -157,6 +158,13 @@ def test_headings_say_what_the_columns_are(tmp_path, key, heading, said):
     (tmp_path / "record.csv").write_text(f"{heading}\n0.0,0.0\n1.0,2.0\n")
     with pytest.raises(SceneError, match=rf"scene.toml: excitation\.{key}:? {said}"):
         read(shaken(**{key: "record.csv"}), tmp_path)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a device of POSIX")
+def test_ground_that_never_ends_is_refused(tmp_path):
+    (tmp_path / "record.csv").symlink_to("/dev/zero")
+    with pytest.raises(SceneError, match=r"acceleration must be a file of rows of numbers.* regular file"):
+        read(shaken(acceleration="record.csv"), tmp_path)
 
 
 @pytest.mark.parametrize("heading", ["", "time [s],x [m/s2]\n", '\ufeff"time  [s]", "x [m/s2]"\n'])

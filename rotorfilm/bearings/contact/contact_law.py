@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_each, require_finite, require_positive
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
@@ -17,6 +18,7 @@ from .operating_points import FREQUENCIES, LOADS
 from .static_law import StaticLaw
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ContactLaw:
     """Force of a lubricated point contact over the approach z of the ball, a Model with `order` states.

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ConvergenceError, InputError, require_each, require_kind, require_positive
 from ...inputs.kinds import arguments
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...signals import Signal
 from .film.stationary import stationary_at
@@ -28,6 +29,7 @@ HALVINGS = 4
 """Times that a step is halved before it is given up."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class MovingContact:
     """A lubricated point contact whose ball moves as it is told: a Stepped model with the whole film.

@@ -20,6 +20,7 @@ from ...errors import (
     warn_user,
 )
 from ...inputs.kinds import arguments
+from ...inputs.si_arguments import quantities
 from ..ellipse import Ellipse, require_ellipticity
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
@@ -37,6 +38,7 @@ ALTERNATING = 0.025
 """Alternating share of the pressure above which it is not to be trusted."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class PointContact:
     """Elastohydrodynamic contact of a ball rolling on a plane, in units of the Hertzian contact.

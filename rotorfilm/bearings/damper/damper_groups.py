@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 from ...errors import require_non_negative, require_number, require_positive
 from ...inputs.kinds import arguments
+from ...inputs.si_arguments import quantities
 from .bearing import PorousDamper
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class DamperGroups:
     """The dimensionless groups of a rotor on a damper, w_r being any reference speed.

@@ -15,6 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...errors import InputError
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native import MapKernel
 from ..films.kernel_film import BoundKernel
@@ -35,6 +36,7 @@ SHORT = 1e-6
 """Length / diameter of a short film, at the wall too."""
 
 
+@quantities
 @dataclass(frozen=True)
 class MapSqueeze(SqueezeOptions):
     """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
@@ -78,6 +80,7 @@ class MapSqueeze(SqueezeOptions):
         return self.table.required(None, case.layer, case.cavitated)
 
 
+@quantities
 @dataclass(frozen=True)
 class FiniteMapSqueeze(SqueezeOptions):
     """Film of finite length from a table of its potential, flow around the circumference included.

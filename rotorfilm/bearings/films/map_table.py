@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...files import write_whole
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native import slice_table
 from .table_bytes import Layout, Sizes, StoredTable, seal, unseal
@@ -43,6 +44,7 @@ class BearingMap(NamedTuple):
     log_center: float
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MapTable(StoredTable):
     """The potential J of a film over eccentricity, direction and slenderness.

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import InputError, require_kind
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ..films.film_losses import FilmLosses
 from ..films.geometry import FilmGeometry
@@ -17,6 +18,7 @@ from ..films.ring.ring_kernel import RingKernel
 from .reynolds_film import ReynoldsFilm, ring_kernel
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ExtrapolatedFilm(KernelFilm):
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.

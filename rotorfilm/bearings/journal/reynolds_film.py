@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...errors import InputError, require_kind
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
@@ -24,6 +25,7 @@ from ..films.ring.ring_grids import FREE, LONG, Grid, Spans, require_cells, ring
 from ..films.ring.ring_kernel import ORDER, RingKernel, richardson
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ReynoldsFilm(KernelFilm):
     """Two-dimensional film: Reynolds' equation by finite volumes of second order.

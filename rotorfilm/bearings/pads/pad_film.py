@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ...errors import require_kind, warn_user
+from ...inputs.si_arguments import quantities
 from ...native.film_kernels import FilmKernel
 from ...progress import Report, silent
 from ..films.kernel_film import continued
@@ -43,6 +44,7 @@ class PadFilm(Protocol):
         """
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class PadMapFilm:
     """The film of a pad by its map: that of a fine grid, five hundred times as fast as `PadGridFilm()`.
@@ -123,6 +125,7 @@ def _loss_map(film: PadMapFilm, extent: float, slenderness: float) -> PadLossMap
     return film.table(extent, slenderness).loss_map()
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class PadGridFilm:
     """The two-dimensional film of a pad: Reynolds' equation by finite volumes, extrapolated from two grids.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...inputs.si_arguments import quantities
+
 
 @dataclass(frozen=True, kw_only=True)
 class StaticBalls:
@@ -18,6 +20,7 @@ class StaticBalls:
         return 0
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RunningBalls:
     """Balls with centrifugal force and gyroscopic moment (Jones 1960, Harris 1971).

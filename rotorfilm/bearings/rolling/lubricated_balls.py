@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_kind
 from ...inputs.kinds import arguments
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.layouts.ball_structs import ROW
 from ...signals import Signal, signals_of
@@ -24,6 +25,7 @@ TINY = 1e-300
 """What stands for no load in a denominator."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class LubricatedBalls:
     """A ball bearing at one speed with the dynamics of its oil films: a Dynamic model in five degrees.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ConvergenceError, InputError, require_finite, require_number
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import BallKernel
@@ -17,6 +18,7 @@ from .ball_element import BallElement, require_balls
 _RADIAL = [0, 1, 3, 4]
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class TiltingBalls:
     """A ball bearing, or a pair, that holds a shaft in place and against tilt: four degrees of freedom.

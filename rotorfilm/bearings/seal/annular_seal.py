@@ -13,7 +13,7 @@ from ...inputs.si_arguments import in_si, quantities
 from ...model import Array
 from ..film_units import require_size
 from ..inertial_model import InertialModel
-from ..reaction import broadcast_state
+from ..reaction import broadcast_state, without_overflow
 from .seal_flow import HirsFriction, SealFlow, SealGap, steady_flow
 from .short_seal import SealMatrices, short_seal
 
@@ -150,10 +150,13 @@ class AnnularSeal(InertialModel):
 
     def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass [kg], shape (2, 2, ...), at a speed; see `InertialReaction`."""
-        q, _, omega = broadcast_state(position, velocity, speed)
+        q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
-        M = self._values(omega)[0][4] if self.added_mass else np.zeros(omega.shape)
-        return np.multiply.outer(np.eye(2), M)
+        if not self.added_mass:
+            return np.zeros((2, 2, *omega.shape))
+        return without_overflow(
+            lambda *_: np.multiply.outer(np.eye(2), self._values(omega)[0][4]), q, v, omega
+        )
 
     def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import ConvergenceError, require_positive
+from ...inputs.si_arguments import quantities
 from ..bench import Bench, Needs, Sample
 from .implicit import SIExp3, defect
 from .scheme import Scheme
@@ -20,6 +21,7 @@ GIVE_UP = 1e-6
 """Shortest step, in the macro step, before a run counts as failed."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Adaptive:
     """Another scheme with macro steps of its own choice; that of the run is the longest, and the first.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...inputs.si_arguments import quantities
 from ..bench import Bench, Needs, Sample, StationMotion
 from .scheme import extrapolated_law, extrapolation, require_degree, started
 
@@ -38,6 +39,7 @@ class _Extrapolating:
         return Needs(laws=self.degree > 0)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class GaussSeidel(_Extrapolating):
     """Rotor first, under extrapolated forces, then the films at the rotor's new state.
@@ -62,6 +64,7 @@ class GaussSeidel(_Extrapolating):
         return bench.evaluate(t, dt, motion, False)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Jacobi(_Extrapolating):
     """Rotor and films in parallel: forces extrapolated for the rotor, its motion for the films.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ConvergenceError, require_count, require_positive
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...rotors.force_law import held_law
 from ..bench import Bench, Needs, Sample
@@ -16,6 +17,7 @@ LEAST = 1e-30
 """Of several runs at once, the smallest force that counts, in the largest."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Newton:
     """The force of a step is held at the mean of both ends, found by Newton's method with rollback.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
@@ -11,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from fmpy.validation import validate_fmu
 
-from ...errors import FmuError
+from ...errors import FmuError, brief
+from ...files import read_text
 from ...model import Array
 from ..binaries import libraries, require_whole
 from .calls import Instance
@@ -196,10 +198,16 @@ def _reference(description: Any, folder: str) -> Array | None:
     path = Path(folder, "documentation", "reference.csv")
     if not path.is_file():
         return None
-    with path.open(newline="", encoding="utf-8") as file:
-        header = next(csv.reader(file))
-        table = np.loadtxt(file, delimiter=",", ndmin=2)
+    try:
+        header, *rows = csv.reader(io.StringIO(read_text(path), newline=""))
+        table = np.array([[float(cell) for cell in row] for row in rows])
+    except (ValueError, csv.Error) as error:
+        raise FmuError(f"reference.csv must be names and rows of numbers below them, got {error}") from None
     signals = [*variables_of(description, "input"), *variables_of(description, "output")]
     if header != ["time", *(variable.name for variable in signals)]:
-        raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {header}")
+        raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {brief(header)}")
+    if table.shape != (len(rows), len(header)) or not rows or not np.isfinite(table).all():
+        raise FmuError(
+            f"reference.csv must have rows of {len(header)} finite numbers, got shape {table.shape}"
+        )
     return table

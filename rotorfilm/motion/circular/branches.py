@@ -37,7 +37,7 @@ class OrbitBranch(Readable):
     Attributes
     ----------
     unbalance : ndarray [kg m]
-        Those of the unbalances asked for at which the branch exists.
+        Those of the unbalances asked for at which the branch exists; empty where it does at none of them.
     eccentricity_ratio, phase, transmissibility, growth_rate : ndarray [1], [rad], [1], [1/s]
         As in `CircularOrbit`.
     """
@@ -81,7 +81,7 @@ class SynchronousOrbits(Drawable):
     Attributes
     ----------
     branches : tuple of OrbitBranch
-        From the smallest orbits to the largest.
+        From the smallest orbits to the largest; one may be empty, as all are where the rotor hits the wall.
     folds : tuple of Fold
         Between the branches.
     contact_unbalance : float or None [kg m]
@@ -153,7 +153,8 @@ def synchronous_orbits(
     Raises
     ------
     InputError
-        If an unbalance is not positive, the speed not constant, the rotor loaded or the film anisotropic.
+        If there is no unbalance or one is not positive, the speed not constant, the rotor loaded or the film
+        anisotropic.
 
     Notes
     -----
@@ -163,10 +164,9 @@ def synchronous_orbits(
     wanted = np.atleast_1d(
         require_finite("unbalances", rotor.unbalance if unbalances is None else unbalances)
     )
-    if wanted.ndim != 1 or np.any(wanted <= 0.0):
-        raise InputError(
-            f"unbalances must be positive, got {unbalances if unbalances is not None else wanted!r}"
-        )
+    if wanted.ndim != 1 or not wanted.size or np.any(wanted <= 0.0):
+        given = wanted if unbalances is None else unbalances
+        raise InputError(f"unbalances must be positive and not empty, got {given!r}")
     system = orbit_rotor(rotor, reaction)
     nodes = _radii(system.reach)
     folds = _folds(system, nodes)

@@ -28,7 +28,7 @@ from .condensed_rotor import ShapedStart, largest_difference, starts
 from .march import rate_of
 from .modal import Parts, modal_rotor, take_apart
 from .run_up import RunUp, Settings
-from .times import require_longest_step, sample_times
+from .times import require_duration, require_longest_step, sample_times
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
@@ -97,7 +97,7 @@ def simulate_rotor(
     ValidityWarning
         If a journal goes beyond the map of its film.
     """
-    require_positive("duration", duration)
+    require_duration(mounted.bare, duration)
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     require_non_negative("condensation", condensation)

@@ -2,11 +2,43 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite
-from ...model import Array
+from ...errors import InputError, require_finite, require_positive
+from ...limits import STEPS, TURNS, require_at_most
+from ...model import Array, Dynamic, breakpoints
+from ...signals import indices, names
+
+FASTEST = 1e6
+"""Speed that no shaft exceeds [rad/s]; a run that is short at it needs no look at the rotor."""
+
+SLOWEST = 1.0
+"""Speed [rad/s] as which a shaft counts that stands or turns more slowly: it may swing all the same."""
+
+
+def require_duration(rotor: Dynamic, duration: float) -> None:
+    """Raise InputError unless a run has a length, and no more turns than can be run."""
+    require_positive("duration", duration)
+    longest = 2.0 * math.pi * TURNS
+    if duration * FASTEST <= longest:
+        return
+    speed = max(highest_speed(rotor, duration), SLOWEST)
+    if duration * speed > longest:
+        raise InputError(
+            f"duration must be at most {TURNS:g} turns, {longest / speed:.3g} s at {speed:g} rad/s, "
+            f"got {duration!r} s"
+        )
+
+
+def highest_speed(rotor: Dynamic, duration: float) -> float:
+    """Return the highest speed of a rotor at its start and where its speed bends within a run [rad/s]."""
+    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
+    moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
+    none = np.zeros(len(rotor.inputs))
+    return float(max(np.abs(rotor.output(t, rotor.initial_state, none)[speed]).max() for t in moments))
 
 
 def sample_times(duration: float, samples: int, times: ArrayLike | None) -> Array:
@@ -14,6 +46,7 @@ def sample_times(duration: float, samples: int, times: ArrayLike | None) -> Arra
     if times is None:
         if not isinstance(samples, int) or samples < 2:
             raise InputError(f"samples must be an integer of at least 2, got {samples!r}")
+        require_at_most("samples", samples, STEPS)
         return np.linspace(0.0, duration, samples)
     grid = np.atleast_1d(require_finite("times", times))
     if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):

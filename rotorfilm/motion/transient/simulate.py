@@ -23,7 +23,7 @@ from ...warming import in_time
 from ..compiled.compiled_form import compiled_form, takes_forces
 from ..compiled.journal_films import CONTACT_GAP
 from ..compiled.simulate_rotor import simulate_rotor
-from ..compiled.times import require_longest_step, sample_times
+from ..compiled.times import require_duration, require_longest_step, sample_times
 from .coupled import Coupled
 from .integration import Integration, integrate
 from .stepped_run import simulate_steps
@@ -93,7 +93,7 @@ def simulate(
     ConvergenceError
         If the integrator gives up or the film force is not finite; carries the trajectory until then.
     """
-    require_positive("duration", duration)
+    require_duration(rotor, duration)
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)

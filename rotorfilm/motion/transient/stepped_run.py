@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike
 from ...bearings.cubic import cubic
 from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, FilmContactError, InputError, require_finite
-from ...model import Array, Dynamic, Reaction, breakpoints
+from ...model import Array, Dynamic, Reaction
 from ...results import Trajectory
-from ...signals import Signal, indices, names, units
+from ...signals import Signal, names, units
 from ..compiled.journal_films import CONTACT_GAP
+from ..compiled.times import highest_speed
 from .step_error import StepError
 from .stepped_loop import Moment, SteppedLoop, stations_of
 
@@ -104,10 +105,7 @@ def part_of_turn(rotor: Dynamic, duration: float) -> float:
     InputError
         If the shaft stands, or only a torque will turn it: then no turn tells how long a step may be.
     """
-    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
-    moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
-    none = np.zeros(len(rotor.inputs))
-    highest = float(max(np.abs(rotor.output(t, rotor.initial_state, none)[speed]).max() for t in moments))
+    highest = highest_speed(rotor, duration)
     if highest == 0.0:
         raise InputError(
             "max_step must be given, as the length of all steps, for a shaft that stands at first"

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_kind, require_positive
 from ...inputs.si_arguments import in_si, quantities
+from ...limits import STEPS
 from ...model import Array, Linearization, breakpoints
 from ..rigid import RigidRotor
 from ..shaft.reduced_rotor import ReducedRotor
@@ -122,6 +123,11 @@ class BaseMotion:
             raise InputError(f"frequencies must be positive and increase strictly, got {frequencies!r}")
         if power.shape != omega.shape or np.any(power < 0.0):
             raise InputError(f"density must be {omega.size} numbers that are not negative, got {density!r}")
+        longest = 2.0 * np.pi * STEPS / (PER_PERIOD * omega[-1])
+        if duration > longest:
+            raise InputError(
+                f"duration must be at most {longest:.3g} s at these frequencies, got {duration!r} s"
+            )
         count = max(omega.size - 1, int(np.ceil((omega[-1] - omega[0]) * duration / (2.0 * np.pi))))
         step = (omega[-1] - omega[0]) / count
         middle = omega[0] + step * (np.arange(count) + 0.5)

@@ -149,6 +149,7 @@ class ShaftElement:
         return beam_matrices(beam, self.section(), self.length)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class LayeredElement:
     """Pieces of shaft inside each other, as a shaft and its sleeve: one deflection and tilt for all.

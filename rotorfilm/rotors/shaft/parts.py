@@ -128,6 +128,7 @@ class TiltSpring:
             object.__setattr__(self, name, square_pair(name, getattr(self, name)))
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Station:
     """Where a bearing acts: a journal at a node, in a housing that is rigid unless it has a support.
@@ -154,6 +155,7 @@ class Station:
             raise InputError(f"name must be an identifier or empty, got {self.name!r}")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Probe:
     """A node whose displacement is an output: `name_x`, `name_y` [m].

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from ...errors import SceneError, brief
+from ...inputs.spelling import nearest
 from ...linear.equilibrium import UNLOADED
-from .spelling import nearest
 from .tables import Quantity, Reader, choose, text
 
 R = TypeVar("R", bound=Reader)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import SceneError, brief
+from ...files import read_text
 from .readers import takes
 from .tables import Quantity, Reader, text
 
@@ -51,8 +52,8 @@ def _rows_of(where: str, value: Any, headings: Sequence[str]) -> list[Any]:
     """Return the rows of a CSV file, without its headings."""
     path = Path(where.partition(": ")[0]).parent / text(where, value)
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError, ValueError) as error:
+        lines = read_text(path).splitlines()
+    except (OSError, ValueError) as error:
         raise SceneError(f"{where} must be a file of rows of numbers, got {value!r}: {error}") from None
     cells = [line.split(",") for line in lines if line.strip()]
     rows = [[_number(cell) for cell in row] for row in cells]

@@ -10,9 +10,9 @@ from functools import cache
 from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
 from ...errors import InputError, SceneError, brief, shortened
+from ...inputs.spelling import nearest, require_no_near_miss
 from ...limits import TEXT
 from ...units import parse_quantity
-from .spelling import nearest, require_no_near_miss
 
 Reader = Callable[[str, Any], Any]
 """Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""

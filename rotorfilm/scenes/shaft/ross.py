@@ -21,6 +21,7 @@ import numpy as np
 from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
+from ...files import read_text
 from ...inputs.kinds import arguments
 from ...rotors import (
     ClassicalBeam,
@@ -90,7 +91,7 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
     file = Path(path)
     form, read = ("JSON", json.loads) if file.suffix.lower() == ".json" else ("TOML", tomllib.loads)
     try:
-        data = read(file.read_text(encoding="utf-8"))
+        data = read(read_text(file))
     except (tomllib.TOMLDecodeError, json.JSONDecodeError) as wrong:
         raise InputError(f"{file} must be {form}, got {wrong}") from None
     try:

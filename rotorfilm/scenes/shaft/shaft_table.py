@@ -9,6 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from ...errors import InputError, brief, require_positive
+from ...inputs.spelling import nearest
 from ...limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ...model import Array, Reaction
 from ...rotors import (
@@ -26,7 +27,6 @@ from ..excitation_table import UnbalanceTable
 from ..lubricant_table import LubricantTable
 from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
-from ..reading.spelling import nearest
 from ..reading.tables import Quantity, Table, TableList
 from .compressor_table import CompressorTable
 from .shaft_parts import (

@@ -44,6 +44,11 @@ STEEL = ElasticMaterial(density=7850.0, young_modulus=2.1e11, shear_modulus=8.1e
 SUPPORT = BallSupport(law=law(), angles=ANGLES, gap=-1e-6)
 
 
+def test_the_preload_of_a_law_is_a_gap():
+    preloaded = BallSupport(law=law(), angles=ANGLES, gap=law().approach(20.0))
+    assert preloaded.gap == float(law().approach(20.0))
+
+
 def test_is_a_reaction_with_states():
     assert isinstance(SUPPORT, Reaction)
     assert isinstance(SUPPORT, Dynamic)

@@ -416,7 +416,7 @@ def test_impossible_slenderness_of_the_film_alone_is_refused(two_grooves, slende
         ({"cells": ("a", 4)}, "cells must be two multiples of 4"),
         ({"cells": None}, "cells must be two multiples of 4"),
         ({"nodes": (6.0, 12, None)}, "nodes must be at least"),
-        ({"largest_eccentricity_ratio": "x"}, "largest_eccentricity_ratio must be a single finite number"),
+        ({"largest_eccentricity_ratio": "x"}, "largest_eccentricity_ratio: quantity must be a number"),
         ({"largest_eccentricity_ratio": np.nan}, "largest_eccentricity_ratio must be a single finite number"),
     ],
 )

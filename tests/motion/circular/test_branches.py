@@ -251,3 +251,14 @@ def test_map_needs_a_film_that_scales(support):
         bistable_map(damper, [0.1], [0.2])
     with pytest.raises(InputError, match="squeeze number at which folds appear"):
         bistability_limit(support(0.08, 0.0, extent=FullFilm()), 0.4)
+
+
+def test_a_branch_without_an_orbit_says_so(support, rotor):
+    film = support(0.08, 0.4, 0.001)
+    wall = synchronous_orbits(rotor(0.1), film).contact_unbalance
+    found = synchronous_orbits(rotor(0.1), film, [2.0 * wall])
+    assert [branch.unbalance.size for branch in found.branches] == [0] * len(found.branches)
+    assert dict(found.to_rows())["branches 1"] == "empty"
+    assert found.at(2.0 * wall) == ()
+    with pytest.raises(InputError, match=r"unbalances must be positive and not empty, got \[\]"):
+        synchronous_orbits(rotor(0.1), film, [])

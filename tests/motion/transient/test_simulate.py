@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import DOP853, LSODA, solve_ivp
 
+import rotorfilm
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import InputError, UndefinedDerivativeError
@@ -193,3 +194,25 @@ def test_signals_that_do_not_fit_are_named():
         simulate(BEARING, BEARING, duration=1.0)
     with pytest.raises(InputError, match=r"rotor must have no inputs but .*, got .*'torque'"):
         simulate(TorqueRotor(mass=50.0, speed=1.0), BEARING, duration=1.0)
+
+
+@pytest.mark.parametrize("duration", [1e308, 1e30, 1e7])
+def test_a_run_without_end_is_refused_before_it_starts(duration):
+    rotor = rotorfilm.RigidRotor(mass=10.0, speed=100.0)
+    bearing = rotorfilm.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    for run in (
+        lambda: rotorfilm.simulate(rotor, bearing, duration=duration),
+        lambda: rotorfilm.simulate_rotor(rotorfilm.mount(rotor, {"": bearing}), duration=duration),
+        lambda: rotorfilm.cosimulate(rotor, bearing, macro_step=1e-4, duration=duration),
+    ):
+        with pytest.raises(InputError, match=r"^duration must be at most"):
+            run()
+
+
+def test_more_samples_than_can_be_kept_are_refused():
+    rotor = rotorfilm.RigidRotor(mass=10.0, speed=100.0)
+    bearing = rotorfilm.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    with pytest.raises(InputError, match=r"^samples must be at most 1e\+07, got 1e\+12"):
+        rotorfilm.simulate(rotor, bearing, duration=0.1, samples=10**12)
+    with pytest.raises(InputError, match=r"^duration must be at most"):
+        rotorfilm.BaseMotion.from_spectrum([1.0, 100.0], [1.0, 1.0], duration=1e12)

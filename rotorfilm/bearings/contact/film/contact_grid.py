@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....errors import InputError, require_number, require_positive
+from ....inputs.si_arguments import quantities
 from ....model import Array
 
 SMALLEST = 8
 """Fewest cells along a side of the rectangle."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ContactGrid:
     """Equal cells on the rectangle inlet < x < outlet, |y| < half_width, lengths in Hertzian half-axes.

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.special import gamma, gammaincc
 
 from ....errors import InputError, require_positive
+from ....inputs.si_arguments import quantities
 from ....model import Array
 
 HIGGINSON_LIMIT = 1.34
@@ -53,6 +54,7 @@ class BarusViscosity:
         return -np.exp(-coefficient * pressure) / coefficient
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RoelandsViscosity:
     """Roelands' law mu = exp(Q0/(s z) ((1 + s p)^z - 1)).
@@ -123,6 +125,7 @@ def roelands_viscosity(
     return RoelandsViscosity(exponent=exponent, pressure_ratio=pressure / ROELANDS_PRESSURE)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class DowsonHigginsonDensity:
     """Density (P + 1.34 p)/(P + p) relative to that at ambient pressure.

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....errors import ConvergenceError, InputError, require_positive
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ..film.contact_newton import NewtonKrylov
 from ..film.film_equations import ContactEquations, TimeDerivative
@@ -38,6 +39,7 @@ SHORTEST = 1e-9
 """Step below which an integration is given up."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class AdaptiveSteps:
     """Second-order backward differences (BDF2), each step as long as its error allows.
@@ -66,6 +68,7 @@ class AdaptiveSteps:
         require_positive("first", self.first)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class FixedSteps:
     """Backward differences of a given order with a fixed step; (0.2, order 1) is the published scheme.

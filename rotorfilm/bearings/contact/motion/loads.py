@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 
 from ....errors import InputError, require_number
+from ....inputs.si_arguments import quantities
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class StepLoad:
     """f = 1 + amplitude between two times, 1 outside (Panovko 2011, section 4.2).
@@ -39,6 +41,7 @@ class StepLoad:
         return (self.start, self.end) if math.isfinite(self.end) else (self.start,)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class SineLoad:
     """f = 1 + amplitude sin(frequency t) (Panovko 2011, section 4.3).

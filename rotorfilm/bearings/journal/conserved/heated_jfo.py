@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ....errors import require_kind
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.conserved.conserved_cells import conserved_cells
 from ...films.conserved.conserved_film import circular_gap
@@ -43,6 +44,7 @@ class HeatedJFOState(HeatedState):
     drawn_in: float
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class HeatedJFOFilm(HeatRounds):
     """The film of a `JFOFilm` with oil and cooling, its temperature a field.

@@ -18,6 +18,7 @@ from typing import Self
 import numpy as np
 
 from ....errors import InputError
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native.loss_kernels import GrooveLossKernel
 from ...films.geometry import Groove
@@ -39,6 +40,7 @@ DIRECTIONS = 192
 """Nodes of L0 over the direction of the source."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GrooveMapTable(StoredTable):
     """The potential J of the film of one bearing with openings at ambient pressure.

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....errors import InputError, require_kind, require_number, require_positive
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native import GrooveMapKernel
 from ....native.loss_kernels import GrooveLossKernel
@@ -43,6 +44,7 @@ class _Key(NamedTuple):
     resolution: Resolution
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class GroovedMapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, warn_user
+from ....inputs.si_arguments import quantities
 from ....model import Array, Tangent
 from ....native import JournalKernel, Status
 from ....native.heated_kernel import BalancedBatch, BalancedKernel
@@ -20,6 +21,7 @@ from ...oil.viscosity_table import viscosity_table
 from ...reaction import StaticReaction, broadcast_state
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BalancedBearing(StaticReaction):
     """A journal bearing in the balance of its heat at every state: a static Reaction.

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ....errors import RotorfilmError, require_kind
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native import MapKernel
 from ....native.loss_kernels import LossKernel
@@ -24,6 +25,7 @@ TABLE = "journal_map.bin"
 """The universal table of the package, in `films/data`."""
 
 
+@quantities
 @dataclass(frozen=True)
 class MapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture, from a table of its dissipation potential.

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ....errors import InputError, require_kind
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from ...films.legendre import gauss_weights, trial_functions
@@ -32,6 +33,7 @@ EXTRA_NODES = 32
 """Quadrature nodes beyond the degree, enough for the rational coefficients."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class SpectralArcFilm:
     """Converged film on a prescribed arc, all axial modes: what `SplittingFilm` approximates.

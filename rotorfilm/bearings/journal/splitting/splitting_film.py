@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ....errors import InputError, require_kind, warn_user
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from ..rupture.rupture import Basis, FixedArc, Rupture
@@ -29,6 +30,7 @@ from ..rupture.trial_integrals import (
 from .axial_sums import AxialSum, axial_sum
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class SplittingFilm:
     """Splitting-method film of order (n, m).

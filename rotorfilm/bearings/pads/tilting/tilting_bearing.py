@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,7 +19,7 @@ from ....results import BearingLosses
 from ....signals import Signal, force_outputs, journal_inputs
 from ...oil.heat_balance import FilmHeat, fed_temperature
 from ...oil.heated_bearing import HeatedBearing
-from ...reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector
+from ...reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
 from ..pad_film import PadMapFilm
 from .held_pads import held_force, held_jacobian
 from .pad_contact import report_pads
@@ -143,13 +144,11 @@ class TiltingPadBearing(Called, TiltingPads):
         FilmContactError
             If the journal touches a pad; the message names it.
         """
-        u = _states(position, velocity, speed)
-        return held_force(self, u.reshape(5, -1), self._tilts).reshape(2, *u.shape[1:])
+        return self._held(held_force, position, velocity, speed)
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d force / d (x, y, vx, vy, speed) with the pads held at their start, shape (2, 5, ...)."""
-        u = _states(position, velocity, speed)
-        return held_jacobian(self, u.reshape(5, -1), self._tilts).reshape(2, 5, *u.shape[1:])
+        return self._held(held_jacobian, position, velocity, speed)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return forces and pivot loads, shape (2 + N,) [N], at the state x and u = (x, y, vx, vy, speed)."""
@@ -197,6 +196,21 @@ class TiltingPadBearing(Called, TiltingPads):
     def _tilts(self) -> Array:
         return self.initial_state[: len(self.pivots)]
 
+    def _held(
+        self,
+        answer: Callable[..., Array],
+        position: ArrayLike,
+        velocity: ArrayLike,
+        speed: ArrayLike,
+    ) -> Array:
+        """Return what `held_force` or `held_jacobian` answers at states of any batch shape."""
+
+        def law(q: Array, v: Array, omega: Array) -> Array:
+            found = answer(self, np.stack([*q, *v, omega]).reshape(5, -1), self._tilts)
+            return found.reshape(*found.shape[:-1], *omega.shape)
+
+        return without_overflow(law, *broadcast_state(position, velocity, speed))
+
     def evaluated(self, x: ArrayLike, u: ArrayLike, *, slopes: bool = False) -> TiltingPoint:
         """Return rates and outputs, and if asked for their derivatives, at the state x and the input u."""
         state, values = require_finite("x", x), input_vector(u)
@@ -205,9 +219,3 @@ class TiltingPadBearing(Called, TiltingPads):
         point = self.kernel.at(values, state, slopes=slopes)
         report_pads(self, point.status, point.pad, values[:2])
         return point
-
-
-def _states(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-    """Return x, y, vx, vy, speed as one array, shape (5, ...)."""
-    q, v, omega = broadcast_state(position, velocity, speed)
-    return np.stack([*q, *v, omega])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, require_finite, require_number
+from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization, static_linearization
 from ....native import NativeSpec
 from ....native.ball_kernel import DEGREES, BallsAt
@@ -19,6 +20,7 @@ INPUTS = ("x", "y", "z", "tilt_x", "tilt_y", "vx", "vy", "speed", "cage_angle", 
 OUTPUTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class FiveDegreeBalls:
     """A ball bearing, or a pair, as a static Model of five degrees of freedom.

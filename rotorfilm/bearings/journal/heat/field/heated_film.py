@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .....errors import require_kind
+from .....inputs.si_arguments import quantities
 from .....model import Array
 from ....films.ring.ring_grids import require_cells
 from ...bearing import JournalBearing
@@ -20,6 +21,7 @@ from .heated_state import FoundFilm, HeatedState, HeatRound, heated_state, oil_a
 from .walls import AdiabaticWalls, Walls
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class HeatedFilm(HeatRounds):
     """The film of a journal bearing with oil and cooling, its temperature a field.

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....errors import require_count
+from .....inputs.si_arguments import quantities
 from .....model import Array
 from ....films.conserved.fluidity import Fluidity
 from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained, from_center
 from .layer_shares import LayerShares, layer_shares
 
 
+@quantities
 @dataclass(frozen=True)
 class LayeredTemperature:
     """The temperature in layers of equal share of the gap, each with its own velocity (Dowson, 1962).

@@ -1,0 +1,71 @@
+"""Reactions answer with finite numbers or say which state is beyond them: never with infinity in silence."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import rotorfilm as rf
+from rotorfilm.errors import InputError, RotorfilmError, ValidityWarning
+
+FILM = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 4e-4}
+SEAL = {**FILM, "pressure_drop": 1e6, "density": 1000.0}
+PADS = {"radius": 0.05, "length": 0.03, "pad_clearance": 1e-4, "viscosity": 0.1}
+REACTIONS = [
+    rf.AnnularSeal(**SEAL),
+    rf.JournalBearing(**FILM),
+    rf.LobedBearing(**PADS, lobes=rf.lobe_set("elliptical")),
+    rf.SqueezeFilmDamper(**FILM, density=850.0),
+    rf.PorousDamper(**FILM, cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13)),
+    rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6), stiffness=2e6),
+    rf.LinearBearing(stiffness=1e6, damping=100.0),
+    rf.TabulatedBearing(speeds=[0.0, 1e308], stiffness=1e6 * np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
+    rf.RubRing(gap=2e-4, stiffness=1e7, radius=0.05, friction_coefficient=0.1),
+    rf.PalmgrenBalls(balls=8, ball_diameter=8e-3, damping=10.0),
+]
+PLACE = np.array([1e-5, 2e-5])
+EXTREME = {
+    "speed": (PLACE, np.zeros(2), 1e308),
+    "backward": (PLACE, np.zeros(2), -1e160),
+    "velocity": (PLACE, np.array([1e308, -1e308]), 100.0),
+    "fast": (PLACE, np.array([1e200, 0.0]), 100.0),
+    "place": (np.array([1e308, 1e308]), np.zeros(2), 100.0),
+    "all": (PLACE, np.array([1e308, 1e308]), 1e308),
+    "batch": (np.stack([PLACE, PLACE], axis=1), np.array([[0.0, 1e308], [0.0, 1e308]]), 100.0),
+}
+
+
+METHODS = [
+    pytest.param(one, method, id=f"{type(one).__name__}-{method}")
+    for one in REACTIONS
+    for method in ("force", "jacobian", "losses", "mass")
+    if hasattr(one, method)
+]
+
+
+@pytest.mark.parametrize("state", EXTREME)
+@pytest.mark.parametrize(("reaction", "method"), METHODS)
+def test_an_answer_is_finite_or_an_error(reaction, method, state):
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore", ValidityWarning)
+        try:
+            found = getattr(reaction, method)(*EXTREME[state])
+        except RotorfilmError:
+            return
+    assert np.isfinite(found.power_loss if method == "losses" else found).all()
+
+
+@pytest.mark.parametrize("speed", [1e308, -1e200])
+def test_a_seal_names_the_state_that_overflows(speed):
+    with pytest.raises(
+        InputError, match=r"^position, velocity and speed must be finite and not overflow, got"
+    ):
+        rf.AnnularSeal(**SEAL).force([1e-5, 0.0], [0.0, 0.0], speed)
+
+
+@pytest.mark.parametrize("name", ["pressure_drop", "viscosity", "density"])
+def test_a_seal_of_an_absurd_size_is_refused(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        with pytest.raises(InputError, match=rf"^{name} must be at most 1e\+150 in size, got 1e\+308"):
+            rf.AnnularSeal(**{**SEAL, name: 1e308})
