@@ -1,11 +1,11 @@
-"""Write down what the product answers, or compare it with what was written: a scaffold while the form changes.
+"""Write down what the product answers, or compare it with that: a scaffold while the form changes.
 
     python tools/freeze_answers.py write --out tests/frozen
     python tools/freeze_answers.py compare --out tests/frozen --only "tilting" "damper"
 
-It answers eight random scenes of each family of the battery, all scene files of the examples, all example scripts
-(what they print) and all charts (their CSV files without columns of time). `compare` lists every difference: values
-must agree to 1e-9; where another model answers, within both error estimates.
+It answers eight random scenes of each family of the battery, all scene files of the examples, all example
+scripts (what they print) and all charts (their CSV files without columns of time). `compare` lists every
+difference: values must agree to 1e-9; where another model answers, within both error estimates.
 """
 
 from __future__ import annotations
@@ -170,17 +170,16 @@ def jobs() -> dict[str, tuple[Callable[[str], Any], str]]:
 
 def differences(before: Any, after: Any, where: str) -> Iterator[str]:
     """Yield how two answers differ."""
-    if isinstance(before, dict) and "model" in before and isinstance(after, dict) and "model" in after:
-        if before["model"] != after["model"] or before["met"] != after["met"]:
-            old, new = np.asarray(before["value"], float), np.asarray(after["value"], float)
-            gap = float(np.max(np.abs(old - new))) / max(float(np.max(np.abs(old))), 1e-300)
-            both = before["estimate"] + after["estimate"]
-            yield (
-                f"{where}: {before['model']} ({before['met']}) became {after['model']} ({after['met']}), "
-                f"{gap:.1e} apart, estimates {both:.1e}{'' if gap <= both else '  TOO FAR'}"
-            )
-            return
-    if isinstance(before, dict) and isinstance(after, dict):
+    models = [isinstance(one, dict) and "model" in one for one in (before, after)]
+    if all(models) and (before["model"], before["met"]) != (after["model"], after["met"]):
+        old, new = np.asarray(before["value"], float), np.asarray(after["value"], float)
+        gap = float(np.max(np.abs(old - new))) / max(float(np.max(np.abs(old))), 1e-300)
+        both = before["estimate"] + after["estimate"]
+        yield (
+            f"{where}: {before['model']} ({before['met']}) became {after['model']} ({after['met']}), "
+            f"{gap:.1e} apart, estimates {both:.1e}{'' if gap <= both else '  TOO FAR'}"
+        )
+    elif isinstance(before, dict) and isinstance(after, dict):
         for key in sorted(before.keys() | after.keys(), key=str):
             if key in before and key in after:
                 yield from differences(before[key], after[key], f"{where}/{key}")
@@ -202,8 +201,10 @@ def same(before: Any, after: Any) -> bool:
         pairs = zip(re.findall(pattern, before), re.findall(pattern, after), strict=True)
         return all(math.isclose(float(a), float(b), rel_tol=1e-6, abs_tol=1e-12) for a, b in pairs)
     if isinstance(before, int | float) and isinstance(after, int | float):
-        return before == after or math.isclose(before, after, rel_tol=TOLERANCE, abs_tol=1e-15) or (
-            math.isnan(before) and math.isnan(after)
+        return (
+            before == after
+            or math.isclose(before, after, rel_tol=TOLERANCE, abs_tol=1e-15)
+            or (math.isnan(before) and math.isnan(after))
         )
     return bool(before == after)
 
@@ -215,7 +216,9 @@ def _job(name: str) -> tuple[str, Any]:
 
 def main() -> None:
     """Write or compare, with two processes."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("action", choices=("write", "compare"))
     parser.add_argument("--out", type=Path, default=ROOT / "tests" / "frozen")
     parser.add_argument("--only", nargs="+", default=[], help="names that contain one of these words")
