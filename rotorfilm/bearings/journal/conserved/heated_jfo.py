@@ -121,7 +121,7 @@ class HeatedJFOFilm(HeatRounds):
         warm = self.profile.warm(
             heating._replace(
                 walls=self._walls(start, cells.extent),
-                carry_over=1.0 if self.film.supply_flow is not None else heating.carry_over,
+                carry_over=None if self.film.supply_flow is not None else heating.carry_over,
             )
         )
         found = FoundFilm(
