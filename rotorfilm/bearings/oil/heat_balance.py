@@ -126,11 +126,11 @@ def carried_share(inflow: Array, arriving: Array, carry_over: float) -> CarriedS
 
 def heat_surplus(heat: FilmHeat, oil: Oil, cooling: Cooling, temperature: float) -> tuple[float, float]:
     """Return heat made less heat taken away at a temperature [W], and its derivative [W/K]; (1)."""
-    power = heat.power / heat.viscosity * float(oil.viscosity(temperature))
+    power = heat.power / heat.viscosity * float(oil.law.viscosity(temperature))
     with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
     housing = cooling.housing_conductance
     taken = with_oil * (temperature - cooling.supply_temperature) + housing * (temperature - cooling.ambient)
-    return power - taken, -power * float(oil.thinning(temperature)) - with_oil - housing
+    return power - taken, -power * float(oil.law.thinning(temperature)) - with_oil - housing
 
 
 def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:

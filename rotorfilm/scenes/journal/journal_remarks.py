@@ -9,17 +9,12 @@ from typing import Any
 
 from ...bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ...bearings.oil.compression import compression
+from ...bearings.oil.laminar import TAYLOR, film_reynolds
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 from .packaged_map import has_map
-
-TAYLOR = 41.2
-"""Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
-
-The square root of half the critical Taylor number 3390 of a narrow gap (tests/scenes/test_validity.py).
-"""
 
 ATMOSPHERE = 1e5
 """Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
@@ -156,7 +151,7 @@ def film_numbers(
     kinematic = mu / oil.density
     compressed = compression(load, R, L, oil.bulk_modulus)
     return {
-        "taylor": omega * R * c / kinematic * math.sqrt(c / R),
+        "taylor": film_reynolds(R, c, mu, oil.density, omega).taylor,
         "inertia": omega * c**2 / kinematic,
         "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
         "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,

@@ -216,7 +216,8 @@ def test_carried_share_is_a_smooth_minimum(carry_over):
     found, x = carried_share(inflow, arriving, carry_over), carry_over * arriving / inflow
     assert (found.share <= np.minimum(x, 1.0)).all()
     np.testing.assert_allclose(found.share, np.minimum(x, 1.0), atol=0.05 * np.log(2.0))
-    assert (found.by_arriving >= 0.0).all() and (found.by_inflow <= 0.0).all()
+    assert (found.by_arriving >= 0.0).all()
+    assert (found.by_inflow <= 0.0).all()
     flows = np.stack([inflow, arriving])
     for k, slope in enumerate(flow_slopes(inflow, arriving, carry_over)):
         step = 1e-5 * flows * (np.arange(2) == k)[:, None]

@@ -39,7 +39,7 @@ class Heating(NamedTuple):
     diffusion : float [1/s]
         Conductivity of the oil/(volumetric heat clearance^2).
     carry_over : float or None [1]
-        Share of the oil that reaches an opening and clings to the shaft; None where none of it can leave there.
+        Share of the oil that reaches an opening and clings to the shaft; None where none can leave there.
     walls : WallResponse or None
         None for walls that take no heat; in the units of the equations, ambients above the supply.
     """

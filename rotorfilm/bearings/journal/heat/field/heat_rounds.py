@@ -164,7 +164,7 @@ class HeatRounds:
 
     def _viscosity(self, temperature: Array) -> Array:
         """Return the viscosity over that of the bearing."""
-        return oil_and_cooling(self.bearing)[0].viscosity(temperature) / self.bearing.film_viscosity
+        return oil_and_cooling(self.bearing)[0].law.viscosity(temperature) / self.bearing.film_viscosity
 
     def _heating(
         self, opening: np.ndarray, flow: FilmFlow, speed: float, temperature: Array, closing: bool
@@ -177,7 +177,7 @@ class HeatRounds:
             flow=flow,
             speed=speed,
             viscosity=self._viscosity(temperature),
-            thinning=np.zeros(temperature.shape) if closing else oil.thinning(temperature),
+            thinning=np.zeros(temperature.shape) if closing else oil.law.thinning(temperature),
             temperature=temperature - self.supply_temperature,
             heat_scale=bearing.film_viscosity * bearing.radius**2 / per_gap,
             diffusion=oil.conductivity / per_gap,
