@@ -52,8 +52,8 @@ class Walther:
     """Walther's law as in ASTM D341: lg lg(nu + 0.7) = intercept - steepness lg T, nu in mm2/s, T in K.
 
     The dynamic viscosity is nu times the density of a mineral oil at the same temperature. The law is meant
-    for kinematic viscosities from 2 to 2e7 mm2/s, which is its `temperature_range`; below, ASTM D341 has further
-    terms.
+    for kinematic viscosities from 2 to 2e7 mm2/s, which is its `temperature_range`; below, ASTM D341 has
+    further terms.
 
     Parameters
     ----------
@@ -126,8 +126,8 @@ class Walther:
 class Exponential:
     """viscosity exp(-decay (T - temperature)): one measured point and how fast the oil thins.
 
-    Real oils thin ever more slowly: the law holds within 50 K of its temperature, and everywhere where the oil
-    does not thin.
+    Real oils thin ever more slowly: the law holds within 50 K of its temperature, and everywhere where the
+    oil does not thin.
 
     Parameters
     ----------

@@ -98,7 +98,7 @@ def test_an_oil_that_is_none_is_refused():
         for ask in ("viscosity", "thinning", "density", "volumetric_heat"):
             with pytest.raises(InputError, match=r"temperature must be from 150 to 1000 K, .*, got"):
                 getattr(Oil.iso_vg(46), ask)(T)
-    with pytest.raises(InputError, match="temperature_range must rise from above the origin 200.0 K"):
+    with pytest.raises(InputError, match=r"temperature_range must rise from above the origin 200\.0 K"):
         Vogel(factor=1e-5, activation=900.0, origin=200.0, temperature_range=(190.0, 400.0))
 
 

@@ -107,7 +107,7 @@ def test_oil_that_conducts_at_once_is_isothermal(profile):
 @pytest.mark.closed_form
 @pytest.mark.parametrize("carry_over", [0.0, 0.6, 1.0])
 def test_openings_mix_what_arrives_with_what_their_balance_asks_for(carry_over):
-    """T_g = T_s + a (T_in - T_s), a a smooth minimum of lambda Q_in/Q_out and 1; of a given flow all goes on."""
+    """T_g = T_s + a (T_in - T_s), a near the lesser of lambda Q_in/Q_out, 1; of a given flow all goes on."""
     state = heated(carry_over=carry_over).solve(POSITION, OMEGA)
     per_flow = float(Oil.iso_vg(46).volumetric_heat(T_S))
     given, warm = float(state.inflow[0]), float(state.opening_temperature[0]) - T_S

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -143,6 +143,14 @@ class HeatRounds:
         """
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
         return self._round(*self._checked(position, speed), T, None, closing)
+
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
+        """Return the film of the viscosity at a temperature [K], as it is fed at a position [m]."""
+        raise NotImplementedError
+
+    def following(self, state: HeatedState) -> Any:
+        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
+        return self.frozen(state.position, state.speed, state.oil_temperature)
 
     def is_settled(self, before: HeatedState, state: HeatedState) -> bool:
         """Return whether the last round has changed hardly anything."""
