@@ -74,7 +74,8 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
     for near in near_states(film, load, speed, first):
         found = _settled(film, load, speed, near) or _unsettled(film, load, speed, near)
         if found is not None:
-            warn_of_flow(film, speed, found.state.maximum_temperature)
+            mean = float(np.mean(found.state.oil_temperature))
+            warn_of_flow(film, speed, mean, found.state.maximum_temperature)
             return found
     raise EquilibriumError(
         f"film and temperature must come to rest together, and did not from any of {TRIED + 1} places: "

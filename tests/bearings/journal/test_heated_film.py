@@ -257,6 +257,12 @@ def test_a_large_plain_bearing_comes_to_rest_with_layers():
     assert at.state.power_loss == pytest.approx(1.281e5, rel=0.01)
 
 
+def test_a_film_hotter_than_its_viscosity_law_is_said():
+    oil = Oil.thinning_at("30 mPa s", "20 degC", "0.01 1/K")
+    with pytest.warns(ValidityWarning, match="oil holds from -30 to 70 degC, and is taken at"):
+        rests(bearing_of(oil), 5000.0, OMEGA, cells=CELLS)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_random_loads_and_grooves_have_their_rest(seed):
     rng = np.random.default_rng(100 + seed)
