@@ -9,7 +9,8 @@ import numpy as np
 
 from ...errors import warn_user
 from ..film_units import FilmUnits
-from .oil import DENSITY, warn_beyond_law
+from .cooling import COLDEST_OIL
+from .oil import DENSITY, HOTTEST_OIL, warn_beyond_law
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
@@ -71,17 +72,18 @@ def warn_of_flow(
         Of the oil; by default as warm as the mean.
     """
     bearing: Any = getattr(reaction, "bearing", reaction)
-    if not isinstance(bearing, FilmUnits):
+    if not issubclass(type(bearing), FilmUnits):
         return
     oil = getattr(bearing, "oil", None)
-    viscosity, density = bearing.film_viscosity, DENSITY  # type: ignore[misc]
+    viscosity, density = bearing.film_viscosity, DENSITY
     if oil is not None:
-        at = bearing.temperature if temperature is None else temperature  # type: ignore[attr-defined]
+        at = bearing.temperature if temperature is None else temperature
         if at is not None:
             warn_beyond_law(oil, at if hottest is None else hottest)
             within = float(np.clip(at, *oil.law.temperature_range))
-            viscosity, density = float(oil.law.viscosity(within)), float(oil.density(within))
-    R, c = bearing.radius, bearing.clearance  # type: ignore[attr-defined]
+            liquid = min(max(within, COLDEST_OIL), HOTTEST_OIL)
+            viscosity, density = float(oil.law.viscosity(within)), float(oil.density(liquid))
+    R, c = bearing.radius, bearing.clearance
     found = film_reynolds(R, c, viscosity, density, speed)
     most = min(TAYLOR * math.sqrt(R / c), TURBULENT)
     if found.turbulence:

@@ -131,4 +131,4 @@ def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[Static
 
 def _target(film: Reaction, load: Array, speed: float) -> StaticTarget:
     x, y = -float(load[0]), -float(load[1])
-    return StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, 1.0, 0.0)  # type: ignore[attr-defined]
+    return StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, 1.0, 0.0)

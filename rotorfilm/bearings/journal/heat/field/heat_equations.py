@@ -189,7 +189,8 @@ class HeatEquations:
         """Let oil bring its heat along, and mix in openings with fresh oil."""
         opening, lam = self.size - self.openings, self._heating.carry_over
         taken, given = (
-            np.bincount(ends, oil.amount, self.size)[opening:] for ends in (oil.receiver, oil.donor)
+            np.asarray(np.bincount(ends, oil.amount, self.size)[opening:], dtype=float)
+            for ends in (oil.receiver, oil.donor)
         )
         if lam is None:
             share = np.divide(taken, given, out=np.ones(taken.shape), where=given > 0.0)
