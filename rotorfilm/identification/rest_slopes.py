@@ -69,7 +69,7 @@ def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | 
     if name == "supply_temperature" and cooling.ambient_temperature is None:
         heated[name] += cooling.housing_conductance
     _, cools = heat_surplus(heat, oil, cooling, T)
-    by_temperature = -float(oil.thinning(T)) * rest.force
+    by_temperature = -float(oil.law.thinning(T)) * rest.force
     slopes = np.block([[rest.by_position, by_temperature[:, None]], [power - carried * flow, cools]])
     known = np.append(np.zeros(2) if by_name is None else by_name, heated[name])
     return np.asarray(np.linalg.solve(slopes, -known))
@@ -83,7 +83,7 @@ def _force_slope(rest: _Rest, name: str) -> Array | None:
     if name == "viscosity":
         return np.asarray(force / film.film_viscosity)
     if name == "temperature" and film.oil is not None and film.temperature is not None:
-        return np.asarray(-float(film.oil.thinning(film.temperature)) * force)
+        return np.asarray(-float(film.oil.law.thinning(film.temperature)) * force)
     return None
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..bearings.contact_place import WalledReaction, relative_film
 from ..bearings.oil.compression import warn_of_pressure
+from ..bearings.oil.laminar import warn_of_flow
 from ..errors import (
     EquilibriumError,
     InputError,
@@ -69,9 +70,11 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Equilibrium
         With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
         preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
-        A `ValidityWarning` tells of a film beyond its map, and of a mean pressure |load|/(2 radius length)
-        above half of the bulk modulus of a mineral oil. Another tells of an equilibrium that is statically
-        unstable: the stiffness in slow motion has a negative real eigenvalue.
+        A `ValidityWarning` tells of a film beyond its map, of a mean pressure |load|/(2 radius length) above
+        half of the bulk modulus of a mineral oil, of a film that is not laminar (Reynolds number speed radius
+        clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)), and of a temperature beyond
+        the viscosity law of the oil. Another tells of an equilibrium that is statically unstable: the stiffness
+        in slow motion has a negative real eigenvalue.
 
     Raises
     ------
@@ -93,6 +96,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     speed = require_number("speed", speed)
     found = _found(reaction, load, speed)
     warn_of_pressure(reaction, load)
+    warn_of_flow(reaction, speed, found.temperature)
     return found
 
 

@@ -174,6 +174,34 @@ def test_force_that_cannot_point_against_the_load(linear_film):
         equilibrium(film, [1.0, -1.0], SPEED)
 
 
+@pytest.mark.parametrize(
+    ("sizes", "viscosity", "speed", "limit"),
+    [
+        # 41.2 sqrt(R/c) at c/R of 2e-3, and 2000 at 1e-4.
+        ((0.25, 0.4, 0.5e-3), 0.0159, 314.159, 921.3),
+        ((0.5, 0.5, 5e-5), 0.003, 300.0, 2000.0),
+    ],
+)
+def test_a_film_that_is_not_laminar_is_warned_of(sizes, viscosity, speed, limit):
+    radius, length, clearance = sizes
+    bearing = JournalBearing(radius=radius, length=length, clearance=clearance, viscosity=viscosity)
+    reynolds = speed * radius * clearance * 870.0 / viscosity
+    told = f"Reynolds number {reynolds:.4g} and Taylor number {reynolds * math.sqrt(clearance / radius):.3g} "
+    with pytest.warns(ValidityWarning, match=f"{told}.*must be below Reynolds number {limit:.4g}"):
+        equilibrium(bearing, (0.0, -3e5), speed)
+    equilibrium(bearing, (0.0, -3e5), 0.99 * speed * limit / reynolds)
+
+
+def test_a_balance_beyond_the_law_of_the_oil_is_warned_of():
+    cooling = Cooling(supply_temperature="60 degC")
+    oil = Oil.thinning_at("5 mPa s", "60 degC", "0.005 1/K")
+    warm = JournalBearing(
+        radius=0.05, length=0.03, clearance=5e-5, film=ShortFilm(), oil=oil, cooling=cooling
+    )
+    with pytest.warns(ValidityWarning, match="oil holds from 10 to 110 degC, and is taken at"):
+        equilibrium(warm, (0.0, -60.0), 600.0)
+
+
 def test_print_of_a_film_that_warms_says_degrees_and_power():
     cooling = Cooling(supply_temperature="45 degC")
     sizes = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "film": ShortFilm()}
@@ -181,7 +209,7 @@ def test_print_of_a_film_that_warms_says_degrees_and_power():
     rows = dict(warm.to_rows())
     assert rows["temperature"] == f"{warm.temperature:.6g} K = {warm.temperature - 273.15:.6g} degC"
     assert rows["power loss"] == f"{warm.losses.power_loss:.6g} W"
-    with pytest.warns(ValidityWarning, match="where the oil is tabulated"):
+    with pytest.warns(ValidityWarning, match="where the oil is tabulated|oil holds from .* and is taken at"):
         odd = equilibrium(JournalBearing(**sizes, oil=Oil.iso_vg(46), cooling=cooling), (0.0, -1e-6), SPEED)
     assert "power loss" in str(odd)  # which does not warn
     cold = equilibrium(JournalBearing(**sizes, viscosity=0.1), (0.0, -525.0), SPEED)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.answers import physics_within
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.errors import ConvergenceError, EquilibriumError, FilmContactError
 from rotorfilm.linear import coefficients, equilibrium
@@ -64,6 +65,23 @@ def test_numbers_by_hand():
     assert n["peclet"] == pytest.approx(100.0 * 1e-8 * 1.8e6 / 0.15)
     assert n["warming"] == pytest.approx(n["power"] / (1.8e6 * n["side_flow"]))
     assert n["pressure"] == pytest.approx(5000.0 / (0.1 * 0.05) / 1e5)
+
+
+def test_turbulence_is_said_and_counts_against_a_tolerance():
+    large = JournalBearing(radius=0.25, length=0.4, clearance=0.5e-3, viscosity=0.0159)
+    numbers = journal_numbers(large, OIL, 314.159, (0.0, -3e5))
+    reynolds = 314.159 * 0.25 * 0.5e-3 * 900.0 / 0.0159
+    assert numbers["reynolds"] == pytest.approx(reynolds)
+    assert numbers["turbulence"] == pytest.approx(0.0136 * reynolds**0.9 / 12.0)
+    remarks = film_remarks(large, OIL, 314.159, (0.0, -3e5))
+    said = [
+        one for one in remarks if one.startswith("turbulence: Taylor vortices above 41.2, the film has 99.4")
+    ]
+    assert len(said) == 1
+    assert physics_within("isothermal films", said, 0.1) == (
+        f"isothermal films; but turbulence (up to {numbers['turbulence']:.0%}) is left out"
+    )
+    assert journal_numbers(BEARING, OIL, 100.0, (0.0, -5000.0))["turbulence"] == 0.0
 
 
 def test_warming_is_that_between_cold_walls_where_heat_is_conducted_away():

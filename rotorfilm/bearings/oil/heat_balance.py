@@ -8,12 +8,18 @@ C the heat capacity of the oil per volume, T_s the supply, T_a the ambient tempe
 of the housing. The left side falls with T and the right side rises, so there is one root. Newton's method
 from below climbs to it without a step beyond, since the difference is convex.
 
-An opening where Q_1 leaves into the film and Q_2 arrives replaces the share 1 - lambda of what arrives; with
-a temperature that rises linearly from one opening to the next that is as much heat as
+At an opening Q_1 leaves into the film and Q_2 arrives, of which the share lambda clings to the shaft and goes
+on. A film takes no more than its intake, so that the share a of Q_1 is hot, a smooth minimum of
+x = lambda Q_2/Q_1 and 1:
 
-    Q_e = Q + sum 2 (1 - lambda) Q_2/(1 + lambda Q_2/Q_1)                                            (2)
+    a = x - w ln(1 + exp((x - 1)/w)),  w = 0.05,  above lambda = 0.8 w = max((1 - lambda)/4, 0.01).    (2)
 
-takes along at the film's temperature, where Q = sum(Q_1 - Q_2) leaks.
+The rest of what arrives leaves the opening. With a temperature that rises linearly from one opening to the
+next, one for all arcs, the oil takes as much heat along as the effective flow
+
+    Q_e = Q + sum 2 (Q_2 - a Q_1)/(1 + a)                                                            (3)
+
+would at the film's temperature, where Q = sum(Q_1 - Q_2) leaks.
 """
 
 from __future__ import annotations
@@ -21,6 +27,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from typing import NamedTuple
+
+import numpy as np
 
 from ...errors import ConvergenceError, InputError
 from ...model import Array
@@ -31,6 +39,9 @@ from .oil import Oil
 _STEPS = 60
 _ROUNDOFF = 1e-14
 _KELVIN = 1e-9
+_WIDEST, _NARROWEST = 0.05, 0.01
+_FULL = 1e3
+"""Share x of (2) beyond which an opening gives only oil that arrived, to the last digit."""
 
 
 class FilmHeat(NamedTuple):
@@ -62,7 +73,7 @@ def film_heat(losses: BearingLosses, viscosity: float, cooling: Cooling) -> Film
 
 
 def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over: float) -> float:
-    """Return Q_e of (2) [m3/s].
+    """Return Q_e of (3) [m3/s].
 
     Parameters
     ----------
@@ -73,19 +84,53 @@ def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over:
     carry_over : float [1]
         lambda, the share of Q_2 that goes on into the next film.
     """
-    feeding = inflow > 0.0
-    entering, coming = inflow[feeding], arriving[feeding].clip(min=0.0)
-    replaced = 2.0 * (1.0 - carry_over) * coming / (1.0 + carry_over * coming / entering)
-    return side_flow + float(replaced.sum())
+    entering, coming = inflow.clip(min=0.0), arriving.clip(min=0.0)
+    share = carried_share(entering, coming, carry_over).share
+    return side_flow + float((2.0 * (coming - share * entering) / (1.0 + share)).sum())
+
+
+def flow_slopes(inflow: Array, arriving: Array, carry_over: float) -> tuple[Array, Array]:
+    """Return the derivatives of the sum in (3) by Q_1 and by Q_2, (openings,) [1]; arguments as above."""
+    entering, coming = inflow.clip(min=0.0), arriving.clip(min=0.0)
+    share, by_inflow, by_arriving = carried_share(entering, coming, carry_over)
+    pull, whole = 2.0 * (entering + coming) / (1.0 + share) ** 2, 1.0 + share
+    by_1 = np.where(inflow > 0.0, -2.0 * share / whole - pull * by_inflow, 0.0)
+    return by_1, np.where(arriving > 0.0, 2.0 / whole - pull * by_arriving, 0.0)
+
+
+class CarriedShare(NamedTuple):
+    """Share a of (2), of the oil that leaves openings, that arrived there, and its derivatives.
+
+    Attributes
+    ----------
+    share : ndarray, shape (openings,) [1]
+    by_inflow, by_arriving : ndarray, shape (openings,) [s/m3]
+    """
+
+    share: Array
+    by_inflow: Array
+    by_arriving: Array
+
+
+def carried_share(inflow: Array, arriving: Array, carry_over: float) -> CarriedShare:
+    """Return a of (2) for flows that are not negative; 1 of an opening that gives nothing."""
+    width = max(_NARROWEST, min(_WIDEST, 0.25 * (1.0 - carry_over)))
+    least = np.maximum(inflow, carry_over * arriving / _FULL)
+    gives = least > 0.0
+    x = np.where(gives & (inflow > 0.0), carry_over * arriving / np.where(gives, least, 1.0), _FULL)
+    z = (x - 1.0) / width
+    per_inflow = np.exp(-np.logaddexp(0.0, z)) / np.where(gives, least, 1.0)
+    share = np.minimum(x, 1.0) - width * np.log1p(np.exp(-np.abs(z)))
+    return CarriedShare(share, -x * per_inflow, carry_over * per_inflow)
 
 
 def heat_surplus(heat: FilmHeat, oil: Oil, cooling: Cooling, temperature: float) -> tuple[float, float]:
     """Return heat made less heat taken away at a temperature [W], and its derivative [W/K]; (1)."""
-    power = heat.power / heat.viscosity * float(oil.viscosity(temperature))
+    power = heat.power / heat.viscosity * float(oil.law.viscosity(temperature))
     with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
     housing = cooling.housing_conductance
     taken = with_oil * (temperature - cooling.supply_temperature) + housing * (temperature - cooling.ambient)
-    return power - taken, -power * float(oil.thinning(temperature)) - with_oil - housing
+    return power - taken, -power * float(oil.law.thinning(temperature)) - with_oil - housing
 
 
 def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:

@@ -168,7 +168,7 @@ class HeatedBearing:
         _, cools = heat_surplus(heat, oil, cooling, temperature)
         warmer = temperature - cooling.supply_temperature
         by_state = slopes[0] - float(oil.volumetric_heat(cooling.supply_temperature)) * warmer * slopes[1]
-        thins = -float(oil.thinning(temperature))
+        thins = -float(oil.law.thinning(temperature))
         by_temperature = np.array([*(thins * film.force(*state)), 1.0, thins * heat.power, 0.0])
         by_input = np.vstack([film.jacobian(*state), np.zeros(5), slopes[0], slopes[2]])
         return Linearization(

@@ -41,4 +41,4 @@ def film_viscosity(
     if oil is None:
         return cast(float, viscosity)
     stated = cast(Cooling, cooling).supply_temperature if temperature is None else temperature
-    return float(oil.viscosity(stated))
+    return float(oil.law.viscosity(stated))

@@ -17,12 +17,13 @@ from ...errors import (
     require_non_negative,
     require_number,
     require_positive,
+    warn_user,
 )
 from ...inputs.kinds import arguments
 from ...inputs.si_arguments import quantities, quantity
 from ...model import Array
 from ...units import CELSIUS
-from .cooling import require_absolute
+from .cooling import COLDEST_OIL, require_absolute
 from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
 
 GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
@@ -32,6 +33,9 @@ it."""
 
 DENSITY = 870.0
 """Density of a mineral oil at 15 degrees Celsius [kg/m3]."""
+
+HOTTEST_OIL = 1000.0
+"""Temperature [K] above which there is no oil: it cracks from some 650 K on."""
 
 _GRADE = re.compile(r"\s*(?:ISO\s*)?(?:VG\s*)?(\d{1,4})\s*", re.IGNORECASE)
 
@@ -180,24 +184,39 @@ class Oil:
     def viscosity(self, temperature: ArrayLike) -> Array:
         """Return the dynamic viscosity [Pa s] at temperatures [K], of their shape.
 
+        A `ValidityWarning` tells of temperatures beyond the range of the law.
+
         Raises
         ------
         InputError
-            If a temperature is not finite and positive.
+            If a temperature is not finite, or not from 150 to 1000 K, between which there is oil.
         """
-        return self.law.viscosity(_kelvin(temperature))
+        T = self._liquid(temperature)
+        warn_beyond_law(self, T)
+        return self.law.viscosity(T)
 
     def thinning(self, temperature: ArrayLike) -> Array:
-        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], of their shape."""
-        return self.law.thinning(_kelvin(temperature))
+        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], as `viscosity`."""
+        T = self._liquid(temperature)
+        warn_beyond_law(self, T)
+        return self.law.thinning(T)
+
+    def _liquid(self, temperature: ArrayLike) -> Array:
+        T = _kelvin(temperature)
+        for value in T[(T < COLDEST_OIL) | (T > HOTTEST_OIL)][:1].tolist():
+            raise InputError(
+                f"temperature must be from {COLDEST_OIL:g} to {HOTTEST_OIL:g} K, between which there is oil, "
+                f"got {value:.6g} K"
+            )
+        return T
 
     def density(self, temperature: ArrayLike) -> Array:
         """Return the density [kg/m3] at temperatures [K], of their shape."""
-        return self.reference_density * relative_density(_kelvin(temperature))
+        return self.reference_density * relative_density(self._liquid(temperature))
 
     def heat_capacity(self, temperature: ArrayLike) -> Array:
         """Return the heat capacity [J/(kg K)] at temperatures [K], of their shape."""
-        T = _kelvin(temperature)
+        T = self._liquid(temperature)
         if self.fixed_heat_capacity is not None:
             return np.full(T.shape, self.fixed_heat_capacity)
         return (1683.0 + 3.39 * (T - CELSIUS)) / np.sqrt(self.reference_density / _WATER)
@@ -226,6 +245,18 @@ def _point(name: str, given: Any) -> tuple[float, float]:
     viscosity = quantity(f"{name}[1]", given[1], "m2/s")
     require_absolute(f"{name}[0]", temperature)
     return temperature, require_number(f"{name}[1]", viscosity)
+
+
+def warn_beyond_law(oil: Oil, temperature: ArrayLike) -> None:
+    """Warn of temperatures [K] at which the viscosity law of an oil does not hold."""
+    T, (coldest, hottest) = np.asarray(temperature, dtype=float), oil.law.temperature_range
+    beyond = T[(coldest > T) | (hottest < T)]
+    if beyond.size:
+        worst = float(beyond[np.argmax(np.abs(beyond - 0.5 * (coldest + hottest)))])
+        warn_user(
+            f"the viscosity of the oil holds from {coldest - CELSIUS:.4g} to {hottest - CELSIUS:.4g} degC, "
+            f"and is taken at {worst - CELSIUS:.4g} degC"
+        )
 
 
 def _kelvin(temperature: ArrayLike) -> Array:

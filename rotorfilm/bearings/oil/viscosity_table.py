@@ -23,4 +23,4 @@ def viscosity_table(oil: Oil) -> OilTable:
     from ..films.quintic import quintic_coefficients
 
     nodes = np.linspace(*RANGE, CELLS + 1)
-    return OilTable(quintic_coefficients(np.log(oil.viscosity(nodes))), *RANGE)
+    return OilTable(quintic_coefficients(np.log(oil.law.viscosity(nodes))), *RANGE)

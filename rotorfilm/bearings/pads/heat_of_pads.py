@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ...model import Array
 from ..oil import Cooling
+from ..oil.heat_balance import flow_slopes
 from .losses_of_pads import PadUnderJournal, behind_pads, cross, flows_of_pads
 from .pad_bearing import PadBearing
 from .pad_losses import LossyPadFilm, gap_shear_of_pad, gap_slopes_of_pad
@@ -84,12 +85,6 @@ def heat_slopes_of_pads(
     rates = behind_pads(places, *entering, forward)
     slopes_behind = behind_pads(places, into, out, forward)
     side = unit * (slopes_behind[0] - slopes_behind[1]).sum(axis=0)
-    return np.stack([power, side + unit * _replaced(*rates, *slopes_behind, cooling.carry_over), side])
-
-
-def _replaced(Q_1: Array, Q_2: Array, by_1: Array, by_2: Array, kept: float) -> Array:
-    """Return the slopes, (5,), of sum 2 (1 - kept) Q_2/(1 + kept Q_2/Q_1); see `heat_balance`."""
-    feeding = Q_1 > 0.0
-    share = np.where(feeding, Q_2, 0.0) / np.where(feeding, Q_1, 1.0)
-    weight = np.where(feeding & (Q_2 > 0.0), 2.0 * (1.0 - kept) / (1.0 + kept * share) ** 2, 0.0)
-    return np.asarray(weight @ by_2 + (weight * kept * share**2) @ by_1)
+    by_flows = flow_slopes(*rates, cooling.carry_over)
+    replaced = sum(by @ slopes for by, slopes in zip(by_flows, slopes_behind, strict=True))
+    return np.stack([power, side + unit * replaced, side])

@@ -126,9 +126,9 @@ def _start_at(target: StaticTarget, x: float, y: float) -> tuple[float, float]:
     return math.log(chi / (1.0 - chi)) if chi < MAXIMUM_ECCENTRICITY else LARGEST_S, math.atan2(y, x)
 
 
-def _newton(target: StaticTarget, s: float, phi: float) -> StaticPoint:
+def _newton(target: StaticTarget, s: float, phi: float, most: int = _NEWTON_STEPS) -> StaticPoint:
     point = _point(target, s, phi, 0)
-    while point.steps < _NEWTON_STEPS and _ROUNDOFF_STOP < point.norm < math.inf:
+    while point.steps < most and _ROUNDOFF_STOP < point.norm < math.inf:
         a, b, c, d = point.matrix
         det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
         step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle

@@ -134,19 +134,33 @@ int rf_groove_flows(const rf_opening_map *map, size_t n, const double *e, const 
     return RF_OK;
 }
 
+/* An opening's part of the effective flow of fresh oil, 2 (in - a out)/(1 + a), and its derivatives. The share a of
+   what it gives that arrived there is a smooth minimum of x = carry_over in/out and 1. */
+static double replaced(double out, double in, double carry_over, double *by_out, double *by_in)
+{
+    const double width = fmax(0.01, fmin(0.05, 0.25 * (1.0 - carry_over)));
+    const double x = out > 0.0 ? carry_over * in / out : HUGE_VAL, z = (x - 1.0) / width;
+    const double share = fmin(x, 1.0) - width * log1p(exp(-fabs(z))), whole = 1.0 + share;
+    *by_out = -2.0 * share / whole;
+    *by_in = 2.0 / whole;
+    if (z < 700.0) {
+        const double pull = 2.0 * (in + out) / (whole * whole * out * (1.0 + exp(z)));
+        *by_out += pull * x;
+        *by_in -= pull * carry_over;
+    }
+    return 2.0 * (in - share * out) / whole;
+}
+
 double rf_replaced_flow(const rf_opening_map *map, const double *e, double rate, double carry_over, double *slope)
 {
     spot at;
     plane sum = {0.0, 0.0, 0.0};
-    const double chi = spot_of(map, e, slope != NULL, &at), kept = carry_over;
+    const double chi = spot_of(map, e, slope != NULL, &at);
     for (size_t k = 0; k < (size_t)map->openings; ++k) {
         const plane out = opening_flow(map, &at, rate < 0.0, k, slope != NULL);
         const plane in = opening_flow(map, &at, rate < 0.0, k + (size_t)map->openings, slope != NULL);
-        if (!(out.value > 0.0))
-            continue;
-        const double through = out.value + kept * in.value, part = 2.0 * (1.0 - kept) / (through * through);
-        const double by_in = part * out.value * out.value, by_out = part * kept * in.value * in.value;
-        sum.value += part * in.value * out.value * through;
+        double by_out, by_in;
+        sum.value += replaced(out.value, in.value, carry_over, &by_out, &by_in);
         sum.by_chi += by_in * in.by_chi + by_out * out.by_chi;
         sum.by_angle += by_in * in.by_angle + by_out * out.by_angle;
     }

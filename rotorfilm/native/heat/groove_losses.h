@@ -39,9 +39,10 @@ RF_EXPORT_LOOP int rf_groove_losses(const void *map, const double *e, const doub
 RF_EXPORT_LOOP int rf_groove_flows(const rf_opening_map *map, size_t n, const double *e, const double *rate,
                               double *flows);
 
-/* The flow of fresh oil that replaces what arrives at openings and does not go on,
+/* What openings add to the effective flow of fresh oil, with the share a of what leaves them that arrived there,
 
-       sum 2 (1 - carry_over) in/(1 + carry_over in/out),
+       sum 2 (in - a out)/(1 + a),  a = x - w ln(1 + exp((x - 1)/w)),  x = carry_over in/out,
+       w = 0.05, where carry_over is above 0.8 max((1 - carry_over)/4, 0.01),
 
    in units of c R L and, unless NULL, its derivatives by e and by the rate, half the speed. */
 double rf_replaced_flow(const rf_opening_map *map, const double *e, double rate, double carry_over, double *slope);

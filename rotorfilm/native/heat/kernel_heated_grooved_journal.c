@@ -19,10 +19,12 @@
    capacity dT/dt = P - volumetric_heat Q_e (T - supply_temperature)
                       - housing_conductance (T - ambient_temperature)
    P = viscosity(T) radius^3 length / clearance (speed^2 Sigma(e, w) - f(e, w).w)
-   Q_e = side_flow + sum 2 (1 - carry_over) Q_2 / (1 + carry_over Q_2 / Q_1)
+   Q_e = side_flow + sum 2 (Q_2 - a Q_1) / (1 + a)
+   a = r - d ln(1 + exp((r - 1) / d)),  r = carry_over Q_2 / Q_1,  d = 0.05, above carry_over 0.8
+   d = max((1 - carry_over) / 4, 0.01)
    capacity = bush_heat_capacity + volumetric_heat 2 pi radius length clearance
 
-   Validity: One temperature for the whole film: eccentricity ratio within 6 %, power within 7 % of a film
+   Validity: One temperature for the whole film: eccentricity ratio within 6 %, power within 15 % of a film
    with temperatures along and across it. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map
    is made for these openings and this length / diameter: radius and length are fixed. The oil is known between the
    temperatures of the table `oil_range`. Laminar, aligned. In vibration the temperature hardly moves. */

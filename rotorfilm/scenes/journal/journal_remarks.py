@@ -9,17 +9,12 @@ from typing import Any
 
 from ...bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ...bearings.oil.compression import compression
+from ...bearings.oil.laminar import TAYLOR, TURBULENT, film_reynolds
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 from .packaged_map import has_map
-
-TAYLOR = 41.2
-"""Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
-
-The square root of half the critical Taylor number 3390 of a narrow gap (tests/scenes/test_validity.py).
-"""
 
 ATMOSPHERE = 1e5
 """Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
@@ -59,7 +54,13 @@ REMARKS = (
         0.0,
         "heat: not known, as the coarse film that would tell it has no answer under this load",
     ),
-    Remark("taylor", TAYLOR, f"turbulence: Taylor vortices above {TAYLOR}, the film has {{taylor:.3g}}"),
+    Remark(
+        "turbulence",
+        0.0,
+        f"turbulence: Taylor vortices above {TAYLOR}, the film has {{taylor:.3g}}; turbulent above Reynolds "
+        f"number {TURBULENT:g}, it has {{reynolds:.4g}}",
+        moves="turbulence",
+    ),
     Remark("inertia", 1.0, "inertia of the film: {inertia:.2g} of the viscous stress"),
     Remark(
         "pressure",
@@ -98,7 +99,8 @@ def journal_numbers(
     Returns
     -------
     dict of str to float
-        taylor : speed R c/nu sqrt(c/R); laminar Couette flow below `TAYLOR`.
+        reynolds : speed R c/nu; taylor : that times sqrt(c/R). Laminar below `TURBULENT` and `TAYLOR`.
+        turbulence : how much stiffer it makes the film, about; 0 of a laminar one.
         inertia : speed c^2/nu, inertia of the film over its viscous stress.
         peclet : speed c^2/diffusivity, heat carried along over heat conducted across the film.
         power [W] : loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow,
@@ -142,7 +144,7 @@ def journal_numbers(
 def film_numbers(
     dimensions: tuple[float, float, float, float], oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> dict[str, float]:
-    """Return taylor, inertia, peclet, pressure, compression and tilt of `journal_numbers`.
+    """Return the numbers of `journal_numbers` that need no film.
 
     Parameters
     ----------
@@ -155,8 +157,11 @@ def film_numbers(
     (R, L, c, mu), omega = dimensions, abs(speed)
     kinematic = mu / oil.density
     compressed = compression(load, R, L, oil.bulk_modulus)
+    flow = film_reynolds(R, c, mu, oil.density, omega)
     return {
-        "taylor": omega * R * c / kinematic * math.sqrt(c / R),
+        "reynolds": flow.reynolds,
+        "taylor": flow.taylor,
+        "turbulence": flow.turbulence,
         "inertia": omega * c**2 / kinematic,
         "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
         "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,

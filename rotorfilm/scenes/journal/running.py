@@ -61,7 +61,7 @@ def running_bearing(
     at_40 = {grade: float(np.log(oil.viscosity(CELSIUS + 40.0))) for grade, oil in oils.items()}
     grade = min(GRADES, key=lambda one: abs(at_40[one] - wanted))
     grid = np.linspace(COLDEST, HOTTEST, 200)
-    thinner = -np.log(oils[grade].viscosity(grid))
+    thinner = -np.log(oils[grade].law.viscosity(grid))
     if not thinner[0] < -wanted < thinner[-1]:
         return None
     supply = float(np.interp(-wanted, thinner, grid))

@@ -159,7 +159,9 @@ def test_openings_find_their_images():
 def test_the_balance_in_c_is_that_of_python(film, carry_over, full_gap):
     cooling = dataclasses.replace(COOLING, carry_over=carry_over, full_gap=full_gap)
     bearing = warm(film, cooling=cooling)
-    for position, velocity, speed in (AT, (-AT[0], 0.0 * AT[1], SPEED), (AT[0], 0.0 * AT[1], -SPEED)):
+    turned = -np.linalg.norm(AT[0]) * np.array([np.cos(0.6), np.sin(0.6)])
+    states = (AT, (-AT[0], 0.0 * AT[1], SPEED), (AT[0], 0.0 * AT[1], -SPEED), (turned, 0.0 * AT[1], SPEED))
+    for position, velocity, speed in states:
         heat = bearing.at_temperature(330.0).film_heat(position, velocity, speed)
         expected = balance_temperature(heat, bearing.oil, cooling)
         assert bearing.balanced_temperature(position, velocity, speed) == pytest.approx(expected, abs=1e-7)

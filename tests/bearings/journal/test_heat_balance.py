@@ -20,7 +20,7 @@ from rotorfilm import (
     equilibrium,
     heat_numbers,
 )
-from rotorfilm.bearings.oil.heat_balance import effective_flow
+from rotorfilm.bearings.oil.heat_balance import carried_share, effective_flow, flow_slopes
 
 OIL = Oil.iso_vg(100)
 COOLING = Cooling(supply_temperature=310.25)
@@ -198,8 +198,54 @@ def test_effective_flow_of_openings():
     # lambda 1: what leaks; lambda 0: Q_1 + Q_2 of each opening.
     inflow, arriving = np.array([3.0, 2.0]), np.array([1.0, 1.5])
     leaked = float((inflow - arriving).sum())
-    assert effective_flow(leaked, inflow, arriving, 1.0) == leaked
+    assert effective_flow(leaked, inflow, arriving, 1.0) == pytest.approx(leaked)
     assert effective_flow(leaked, inflow, arriving, 0.0) == pytest.approx((inflow + arriving).sum())
+    # Far below the intake all that clings to the shaft goes on, as if films had no limit.
+    former = 2.0 * 0.2 * arriving[:1] / (1.0 + 0.8 * arriving[:1] / inflow[:1])
+    assert effective_flow(0.0, inflow[:1], arriving[:1], 0.8) == pytest.approx(float(former[0]), rel=1e-5)
+    # A film takes no more than its intake: the rest leaves, and no oil gets hotter than what heats it.
+    assert effective_flow(0.0, np.ones(2), np.array([0.25, 2.48]), 0.8) == pytest.approx(1.563, abs=5e-4)
+    assert effective_flow(0.0, np.array([0.0, -1.0]), np.array([2.0, -1.0]), 0.8) == 2.0
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("carry_over", [0.0, 0.5, 0.8, 0.9, 1.0])
+def test_carried_share_is_a_smooth_minimum(carry_over):
+    rng = np.random.default_rng(4)
+    inflow, arriving = np.exp(rng.uniform(-3.0, 3.0, (2, 400)))
+    found, x = carried_share(inflow, arriving, carry_over), carry_over * arriving / inflow
+    assert (found.share <= np.minimum(x, 1.0)).all()
+    np.testing.assert_allclose(found.share, np.minimum(x, 1.0), atol=0.05 * np.log(2.0))
+    assert (found.by_arriving >= 0.0).all()
+    assert (found.by_inflow <= 0.0).all()
+    flows = np.stack([inflow, arriving])
+    for k, slope in enumerate(flow_slopes(inflow, arriving, carry_over)):
+        step = 1e-5 * flows * (np.arange(2) == k)[:, None]
+        ends = [
+            [effective_flow(0.0, *one[:, None], carry_over) for one in (flows + sign * step).T]
+            for sign in (1.0, -1.0)
+        ]
+        expected = np.subtract(*ends) / (2.0 * step[k])
+        np.testing.assert_allclose(slope, expected, rtol=2e-6, atol=2e-6)
+
+
+@pytest.mark.parametrize(("turn", "colder"), [(60.0, 505.0), (-60.0, 460.0)])
+def test_turned_grooves_do_not_heat_the_film(turn, colder):
+    """T2 with adiabatic walls has the power `colder` [W]; without the cap T1 had 330 W at 60 degrees."""
+    grooves = tuple(Groove(center=np.radians(at + turn), width=np.radians(30.0)) for at in (0.0, 180.0))
+    bearing = JournalBearing(
+        radius=0.0327,
+        length=0.085,
+        clearance=47e-6,
+        oil=Oil.iso_vg(150),
+        cooling=Cooling(supply_temperature=303.15),
+        grooves=grooves,
+        film=ReynoldsFilm(cells=(48, 8)),
+    )
+    at = equilibrium(bearing, [0.0, -6670.0], 158.9)
+    assert at.losses.power_loss == pytest.approx(colder, rel=0.13)
+    found = bearing.at_temperature(at.temperature).losses(at.position, [0.0, 0.0], 158.9)
+    assert (found.arriving / found.inflow).max() > 2.0
 
 
 @pytest.mark.parametrize(

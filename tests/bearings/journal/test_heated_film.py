@@ -17,7 +17,7 @@ from rotorfilm.bearings.journal import (
     ReynoldsFilm,
 )
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.errors import FilmContactError, InputError
+from rotorfilm.errors import FilmContactError, InputError, ValidityWarning
 from rotorfilm.linear import coefficients, heated_equilibrium
 
 R, c, T_S = 0.05, 75e-6, 318.15
@@ -219,6 +219,62 @@ def test_openings_mix_with_fresh_oil(profile):
     np.testing.assert_allclose(renewed.oil_temperature[in_openings], T_S, atol=1e-9)
     assert kept.oil_temperature[in_openings].min() > T_S + 3.0
     assert kept.maximum_temperature > renewed.maximum_temperature + 3.0
+
+
+def rests(bearing, load, speed, cells=(48, 4), **rest):
+    """Return the equilibrium of a film with its temperature, checked against itself."""
+    film = HeatedFilm(bearing=bearing, cells=cells, **rest)
+    at = heated_equilibrium(film, [0.0, -load], speed)
+    np.testing.assert_allclose(
+        at.state.film.force(at.rest.position, np.zeros(2), speed), [0.0, load], atol=1e-8 * load
+    )
+    assert abs(at.state.heat.missing) < 1e-9 * at.state.heat.made
+    return at
+
+
+def test_a_light_load_with_a_groove_that_sits_badly_has_its_rest():
+    bearing = JournalBearing(
+        radius=0.0381,
+        length=0.0238,
+        clearance=28e-6,
+        oil=Oil.iso_vg(32),
+        cooling=Cooling(supply_temperature=318.15),
+        grooves=(Groove(center=np.radians(41.4), width=np.radians(18.4)),),
+    )
+    at = rests(bearing, 508.0, 729.6)
+    assert at.rest.eccentricity_ratio == pytest.approx(0.358, abs=0.008)  # 96 x 8 cells
+    assert at.state.power_loss == pytest.approx(537.0, rel=0.02)
+
+
+def test_a_large_plain_bearing_comes_to_rest_with_layers():
+    bearing = JournalBearing(
+        radius=0.25, length=0.4, clearance=0.5e-3, oil=Oil.iso_vg(32), cooling=Cooling(supply_temperature=T_S)
+    )
+    with pytest.warns(ValidityWarning, match="Taylor number .*where Taylor vortices begin"):
+        at = rests(bearing, 3e5, OMEGA, profile=LayeredTemperature(8))
+    assert at.rounds < 40
+    assert at.rest.eccentricity_ratio == pytest.approx(0.682, abs=0.006)  # 96 x 8 cells
+    assert at.state.power_loss == pytest.approx(1.281e5, rel=0.01)
+
+
+def test_a_film_hotter_than_its_viscosity_law_is_said():
+    oil = Oil.thinning_at("30 mPa s", "20 degC", "0.01 1/K")
+    with pytest.warns(ValidityWarning, match="oil holds from -30 to 70 degC, and is taken at"):
+        rests(bearing_of(oil), 5000.0, OMEGA, cells=CELLS)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_loads_and_grooves_have_their_rest(seed):
+    rng = np.random.default_rng(100 + seed)
+    start, count = rng.uniform(0.0, 2.0 * np.pi), int(rng.integers(0, 3))
+    # Not straight under the load, where oil that leaves a groove can carry nothing.
+    start = 0.5 * np.pi + rng.uniform(-2.0, 2.0) if count == 1 else start
+    grooves = tuple(Groove(center=start + np.pi * k, width=rng.uniform(0.2, 0.5)) for k in range(count))
+    bearing = bearing_of(Oil.iso_vg(int(rng.choice([32, 46, 68]))), grooves=grooves)
+    load, speed = 10.0 ** rng.uniform(2.3, 4.0), rng.uniform(100.0, 500.0)
+    at = rests(bearing, load, speed, cells=(32, 4))
+    assert 0.0 < at.rest.eccentricity_ratio < 0.95
+    assert T_S < at.state.maximum_temperature < T_S + 100.0
 
 
 def test_film_starts_where_there_is_oil():

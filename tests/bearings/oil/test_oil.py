@@ -5,7 +5,7 @@ import pytest
 
 from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
 from rotorfilm.bearings.oil.viscosity_table import RANGE, viscosity_table
-from rotorfilm.errors import InputError
+from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.native.layouts.heat_structs import OilStruct
 
 CELSIUS = 273.15
@@ -65,6 +65,43 @@ def test_a_vogel_fit_is_within_a_thousandth():
     assert np.abs(Vogel.fitted(law).viscosity(T) / law.viscosity(T) - 1.0).max() < 1e-3
 
 
+@pytest.mark.closed_form
+def test_laws_state_the_temperatures_between_which_they_hold():
+    walther = Oil.iso_vg(46).law
+    coldest, hottest = walther.temperature_range
+    assert 1e6 * walther.kinematic([coldest, hottest]) == pytest.approx([2e7, 2.0], rel=1e-9)
+    assert Exponential(value=0.04, temperature=313.0, decay=0.03).temperature_range == (263.0, 363.0)
+    assert Oil.constant(0.02).law.temperature_range == (-np.inf, np.inf)
+    vogel = Vogel.fitted(walther)
+    T = np.linspace(*vogel.temperature_range, 50)
+    assert np.abs(vogel.viscosity(T) / walther.viscosity(T) - 1.0).max() < 0.04
+
+
+@pytest.mark.parametrize(
+    ("oil", "celsius"),
+    [
+        (Oil.iso_vg(46), 190.0),
+        (Oil.iso_vg(46), -70.0),
+        (Oil.thinning_at("30 mPa s", "40 degC", "0.03 1/K"), 95.0),
+        (Oil(law=Vogel.fitted(Oil.iso_vg(46).law)), 10.0),
+    ],
+)
+def test_a_viscosity_beyond_its_law_is_warned_of(oil, celsius):
+    with pytest.warns(ValidityWarning, match=rf"holds from .* degC, and is taken at {celsius:g} degC"):
+        oil.viscosity(CELSIUS + celsius)
+    with pytest.warns(ValidityWarning, match="holds from"):
+        oil.thinning([320.0, CELSIUS + celsius])
+
+
+def test_an_oil_that_is_none_is_refused():
+    for T in (100.0, 1001.0, [320.0, 2000.0]):
+        for ask in ("viscosity", "thinning", "density", "volumetric_heat"):
+            with pytest.raises(InputError, match=r"temperature must be from 150 to 1000 K, .*, got"):
+                getattr(Oil.iso_vg(46), ask)(T)
+    with pytest.raises(InputError, match=r"temperature_range must rise from above the origin 200\.0 K"):
+        Vogel(factor=1e-5, activation=900.0, origin=200.0, temperature_range=(190.0, 400.0))
+
+
 def test_a_vogel_fit_of_an_oil_that_thins_evenly_is_refused():
     with pytest.raises(InputError, match="ever more slowly"):
         Vogel.fitted(Exponential(value=0.04, temperature=313.0, decay=0.03))
@@ -79,7 +116,7 @@ def test_the_table_of_a_kernel_is_the_law():
     for k in (0, 3, cells // 2, cells - 1):
         T = RANGE[0] + (k + np.linspace(0.0, 1.0, 5)) * (RANGE[1] - RANGE[0]) / cells
         spline = basis @ table.coefficients[k : k + 6]
-        assert spline == pytest.approx(np.log(oil.viscosity(T)), abs=3e-9 if 0 < k < cells - 1 else 1e-6)
+        assert spline == pytest.approx(np.log(oil.law.viscosity(T)), abs=3e-9 if 0 < k < cells - 1 else 1e-6)
     assert OilStruct._fields_[0][0] == "cells"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ....errors import require_kind
 from ....inputs.si_arguments import quantities
@@ -99,9 +100,9 @@ class HeatedJFOFilm(HeatRounds):
         """Return the film of fresh oil."""
         return self._frozen(self._fresh())
 
-    def following(self, state: HeatedState) -> FrozenJFOFilm:
-        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
-        return self._frozen(state.oil_temperature)
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenJFOFilm:
+        """Return the film of the viscosity at a temperature [K], the same at all positions and speeds."""
+        return self._frozen(np.broadcast_to(temperature, self._fresh().shape))
 
     def _shape(self) -> tuple[int, int]:
         lines, along = conserved_cells(self.bearing.geometry, *self.film.cells).opening.shape
@@ -123,7 +124,7 @@ class HeatedJFOFilm(HeatRounds):
         warm = self.profile.warm(
             heating._replace(
                 walls=self._walls(start, cells.extent),
-                carry_over=1.0 if self.film.supply_flow is not None else heating.carry_over,
+                carry_over=None if self.film.supply_flow is not None else heating.carry_over,
             )
         )
         found = FoundFilm(

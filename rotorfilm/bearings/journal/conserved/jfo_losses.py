@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
@@ -95,13 +94,12 @@ class JFOHeat:
         Parameters and errors are those of `losses`.
         """
         oil, cooling = self.bearing.cooled
-        if self.supply_flow is not None:
-            # What arrives at an opening cannot leave by it: all of it goes on.
-            cooling = replace(cooling, carry_over=1.0)
 
         def heat(temperature: float) -> FilmHeat:
             film = self.at_temperature(temperature)
-            return film_heat(film.losses(position, velocity, speed), film.bearing.film_viscosity, cooling)
+            found = film_heat(film.losses(position, velocity, speed), film.bearing.film_viscosity, cooling)
+            # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
+            return found if self.supply_flow is None else found._replace(flow=found.side_flow)
 
         if self.bearing.supply_pressure == 0.0 and self.supply_flow is None and not self.cavitation_pressure:
             return balance_temperature(heat(cooling.coldest), oil, cooling)

@@ -81,19 +81,20 @@ class FilmFlow(NamedTuple):
 
 
 def fed_film(
-    film: FrozenFilm, eccentricity: Array, speed: float, *, full_gap: bool
+    film: FrozenFilm, eccentricity: Array, speed: float, *, full_gap: bool, settled: bool = False
 ) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
     """Return the film whose openings feed it, its solution for a journal at rest, and its flow.
 
     In a bearing with openings a film starts at an opening or where the streamers fill the gap again, not from
     nothing: a node at its start that would take more than they bring is left empty, as often as that helps.
+    A film whose empty nodes are `settled` is taken as it is.
     """
     cells = film.cells
     while True:
         found = film.solve(eccentricity, np.zeros(2), speed)
         flow = film_flow(film, found, eccentricity, speed, full_gap=full_gap)
         starved = _starved(cells, flow, speed)
-        if not (cells.held.any() and starved.any()):
+        if settled or not (cells.held.any() and starved.any()):
             return film, found, flow
         film = replace(film, empty=film.empty | starved)
 

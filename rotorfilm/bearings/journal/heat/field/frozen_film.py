@@ -61,6 +61,8 @@ class FrozenFilm(StaticReaction):
         Radial clearance.
     force_per_rate : float [N s]
         viscosity length radius^3 / clearance^2 of the viscosity that the fluidity is relative to.
+    frozen_at : (float, float) or None [m]
+        Position of the journal at which it was; None of fresh oil.
     """
 
     cells: FilmCells
@@ -68,6 +70,7 @@ class FrozenFilm(StaticReaction):
     empty: np.ndarray
     clearance: float
     force_per_rate: float
+    frozen_at: tuple[float, float] | None = None
 
     @property
     def nominal_force(self) -> float:
@@ -99,6 +102,10 @@ class FrozenFilm(StaticReaction):
             return force_x, force_y, found[:, 1:].ravel().tolist()
 
         return tangent
+
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return about where a journal rests [m]: where the film is frozen; see `reactions.resting`."""
+        return self.frozen_at
 
     def solve(self, eccentricity: Array, squeeze: Array, speed: float) -> FilmSolution:
         """Return the film of one state.

@@ -14,6 +14,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
 from .....model import Array
+from ....oil.heat_balance import carried_share
 from .film_flow import FilmFlow
 from .walls import WallResponse
 
@@ -37,8 +38,8 @@ class Heating(NamedTuple):
         Viscosity of the bearing radius^2/(volumetric heat clearance^2).
     diffusion : float [1/s]
         Conductivity of the oil/(volumetric heat clearance^2).
-    carry_over : float [1]
-        Share of the oil that reaches an opening and goes on into the film behind it.
+    carry_over : float or None [1]
+        Share of the oil that reaches an opening and clings to the shaft; None where none can leave there.
     walls : WallResponse or None
         None for walls that take no heat; in the units of the equations, ambients above the supply.
     """
@@ -51,7 +52,7 @@ class Heating(NamedTuple):
     temperature: Array
     heat_scale: float
     diffusion: float
-    carry_over: float
+    carry_over: float | None
     walls: WallResponse | None
 
     @property
@@ -186,16 +187,19 @@ class HeatEquations:
 
     def _carry(self, oil: Carried) -> None:
         """Let oil bring its heat along, and mix in openings with fresh oil."""
-        opening = self.size - self.openings
-        kept = np.where(oil.receiver >= opening, self._heating.carry_over, 1.0)
+        opening, lam = self.size - self.openings, self._heating.carry_over
+        taken, given = (
+            np.asarray(np.bincount(ends, oil.amount, self.size)[opening:], dtype=float)
+            for ends in (oil.receiver, oil.donor)
+        )
+        if lam is None:
+            share = np.divide(taken, given, out=np.ones(taken.shape), where=given > 0.0)
+        else:
+            share = carried_share(given, taken, lam).share
+        kept = np.append(np.ones(opening), share)[oil.receiver]
         self.add(oil.receiver, oil.donor, -kept * oil.amount)
-        if self.openings:
-            taken, given = (
-                np.bincount(ends, oil.amount, self.size)[opening:] for ends in (oil.receiver, oil.donor)
-            )
-            mixed = np.maximum(self._heating.carry_over * taken, given)
-            places = np.arange(opening, self.size)
-            self.add(places, places, np.where(mixed > 0.0, mixed, 1.0))
+        places = np.arange(opening, self.size)
+        self.add(places, places, np.where(taken > 0.0, taken, 1.0))
 
     def in_openings(self, x: Array) -> Array:
         """Return the temperatures of the openings."""

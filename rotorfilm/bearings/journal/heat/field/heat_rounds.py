@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -144,6 +144,14 @@ class HeatRounds:
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
         return self._round(*self._checked(position, speed), T, None, closing)
 
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
+        """Return the film of the viscosity at a temperature [K], as it is fed at a position [m]."""
+        raise NotImplementedError
+
+    def following(self, state: HeatedState) -> Any:
+        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
+        return self.frozen(state.position, state.speed, state.oil_temperature)
+
     def is_settled(self, before: HeatedState, state: HeatedState) -> bool:
         """Return whether the last round has changed hardly anything."""
         power = abs(state.power_loss - before.power_loss) / abs(state.power_loss)
@@ -164,7 +172,7 @@ class HeatRounds:
 
     def _viscosity(self, temperature: Array) -> Array:
         """Return the viscosity over that of the bearing."""
-        return oil_and_cooling(self.bearing)[0].viscosity(temperature) / self.bearing.film_viscosity
+        return oil_and_cooling(self.bearing)[0].law.viscosity(temperature) / self.bearing.film_viscosity
 
     def _heating(
         self, opening: np.ndarray, flow: FilmFlow, speed: float, temperature: Array, closing: bool
@@ -177,7 +185,7 @@ class HeatRounds:
             flow=flow,
             speed=speed,
             viscosity=self._viscosity(temperature),
-            thinning=np.zeros(temperature.shape) if closing else oil.thinning(temperature),
+            thinning=np.zeros(temperature.shape) if closing else oil.law.thinning(temperature),
             temperature=temperature - self.supply_temperature,
             heat_scale=bearing.film_viscosity * bearing.radius**2 / per_gap,
             diffusion=oil.conductivity / per_gap,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .....errors import require_kind
 from .....inputs.si_arguments import quantities
@@ -73,13 +74,13 @@ class HeatedFilm(HeatRounds):
 
     def cold(self) -> FrozenFilm:
         """Return the film of fresh oil, whose lines are where they are for a centered journal."""
-        return self._frozen(np.zeros(2), self._fresh())
+        return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None)
 
-    def following(self, state: HeatedState) -> FrozenFilm:
-        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
-        e = state.position / self.bearing.clearance
-        film = self._frozen(e, state.oil_temperature)
-        return fed_film(film, e, state.speed, full_gap=oil_and_cooling(self.bearing)[1].full_gap)[0]
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenFilm:
+        """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
+        e = np.asarray(position) / self.bearing.clearance
+        film = self._frozen(e, np.broadcast_to(temperature, self._fresh().shape))
+        return fed_film(film, e, speed, full_gap=oil_and_cooling(self.bearing)[1].full_gap)[0]
 
     def _shape(self) -> tuple[int, int]:
         return self._cells(np.zeros(2)).shape
@@ -88,12 +89,14 @@ class HeatedFilm(HeatRounds):
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedState:
         bearing, e, rounds = self.bearing, position / self.bearing.clearance, 1
-        film = self._frozen(e, temperature)
+        film, settled = self._frozen(e, temperature), False
         if before is not None:
-            rounds = before.rounds + 1
-            if before.rounds >= FREE_ROUNDS:
-                film = replace(film, empty=before.film.empty)
-        film, found, flow = fed_film(film, e, speed, full_gap=oil_and_cooling(bearing)[1].full_gap)
+            rounds, settled = before.rounds + 1, before.rounds >= FREE_ROUNDS
+            if settled:
+                empty = before.film.empty if film.cells.held.any() else _before_start(before)
+                film = replace(film, empty=empty)
+        full_gap = oil_and_cooling(bearing)[1].full_gap
+        film, found, flow = fed_film(film, e, speed, full_gap=full_gap, settled=settled)
         cells = film.cells
         opening = np.broadcast_to(cells.opening[:, None], cells.shape)
         heating = self._heating(opening, flow, speed, temperature, closing)
@@ -118,6 +121,7 @@ class HeatedFilm(HeatRounds):
 
     def _frozen(self, eccentricity: Array, temperature: Array) -> FrozenFilm:
         """Return the film of the viscosity that oil has at a temperature."""
+        x, y = eccentricity * self.bearing.clearance
         cells = self._cells(eccentricity)
         return FrozenFilm(
             cells=cells,
@@ -125,4 +129,12 @@ class HeatedFilm(HeatRounds):
             empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
             clearance=self.bearing.clearance,
             force_per_rate=self.bearing.force_scale,
+            frozen_at=(float(x), float(y)),
         )
+
+
+def _before_start(state: HeatedState) -> np.ndarray:
+    """Return the empty nodes of a plain bearing that no film is before, (N, M): none starts there."""
+    sense = 1 if state.speed > 0.0 else -1
+    full = state.pressure[:, :-1] > 0.0
+    return np.asarray(state.film.empty | ~(full | np.roll(full, sense, axis=0)))
