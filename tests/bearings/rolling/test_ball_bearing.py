@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from scipy.optimize import brentq
 
 from rotorfilm import (
     BallBearing,
@@ -188,6 +189,22 @@ def test_a_shaft_under_thrust_gives_way_along_its_axis(speed):
     step = 1e-9
     moved = [held.force(position + np.array([h, 0.0]), [0.0, 0.0], speed) for h in (step, -step)]
     assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(slopes[:, 0], rel=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore:a ball carries", "ignore:the gyroscopic moment")
+def test_a_shaft_under_thrust_finds_its_place_across_the_whole_way():
+    # Newton's method may end from one side, while the other bound of the search is still infinite.
+    held = BallBearing(
+        balls=9, ball_diameter=8e-3, pitch_diameter=33e-3, contact_angle=0.35, axial_load=100.0
+    )
+    radii = np.linspace(5e-7, 1.5e-4, 300)
+    force = held.force([radii, 0.0 * radii], [0.0, 0.0], 157.0)
+    assert np.all(np.diff(force[0]) < 0.0)
+    for r in radii[::20]:
+        u = [r, 0.0, held.axial_place([r, 0.0], 157.0), 0.0, 0.0]
+        thrust = lambda z, r=r: held.wrench([r, 0.0, z, 0.0, 0.0], 157.0)[2] + 100.0  # noqa: E731
+        root = brentq(thrust, -3e-4, 3e-4, xtol=1e-15)
+        assert u[2] == pytest.approx(root, abs=1e-14)
 
 
 def test_batches_and_damping():
