@@ -20,14 +20,12 @@ from ...inputs.kinds import arguments
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
+from .ball_law import BallLaw
 from .ball_results import BallLoads, BallRest
 from .elliptic_contact import EllipticContact
 
 MOST_PRESSURE = 4.2e9
 """Contact pressure that defines the static load rating of ball bearings (ISO 76) [Pa]."""
-
-MOST_TRACTION = 0.06
-"""Traction coefficient beyond which a ball is taken to slide (`native/rolling/ball.h`)."""
 
 
 class BallDegrees(ABC):
@@ -42,6 +40,11 @@ class BallDegrees(ABC):
     @abstractmethod
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
         """Inner and outer contact of a ball."""
+
+    @property
+    @abstractmethod
+    def running(self) -> tuple[BallLaw, float]:
+        """Law of the balls and growth of the inner rings [m]."""
 
     @property
     @abstractmethod
@@ -176,6 +179,7 @@ class BallDegrees(ABC):
             gyroscopic_moment=each["gyroscopic"].copy(),
             orbit_speed=each["orbit"].copy(),
             traction=each["traction"].copy(),
+            slip_speed=each["slip"].copy(),
         )
 
     def explain(self, at: BallsAt, motion: Array, speed: float) -> None:
@@ -188,10 +192,11 @@ class BallDegrees(ABC):
         load, traction = float(at.each["load"].max()), float(at.each["traction"].max())
         if load > self.largest_load:
             warn_user(f"a ball carries {load:.4g} N, beyond {self.largest_load:.4g} N or 4200 MPa, {where}")
-        if traction > MOST_TRACTION:
+        most = self.running[0].most_traction
+        if traction > most:
             warn_user(
                 f"the gyroscopic moment asks for a traction coefficient of {traction:.3g}, beyond about "
-                f"{MOST_TRACTION} balls slide, {where}"
+                f"{most:.3g} balls slide, {where}"
             )
 
 

@@ -43,11 +43,6 @@ class BallElement(BallDegrees, KernelReaction):
 
     @property
     @abstractmethod
-    def running(self) -> tuple[int, float]:
-        """Inertia of the balls, of `BallLaw`, and growth of the inner rings [m]."""
-
-    @property
-    @abstractmethod
     def waves(self) -> Array:
         """Waves of the races as the compiled kernel reads them, shape (waves, columns)."""
 
@@ -59,7 +54,8 @@ class BallElement(BallDegrees, KernelReaction):
     def kernel(self) -> BallKernel:
         """The bearing in compiled code."""
         place = (self.axial_displacement, *self.tilt)
-        return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping, self.waves)
+        law, growth = self.running
+        return BallKernel(self.rows, law.numbers, growth, place, self.axial_load, self.damping, self.waves)
 
     @property
     def pitch(self) -> float:
@@ -172,16 +168,17 @@ class BallElement(BallDegrees, KernelReaction):
         self, kernel: str, *numbers: tuple[str, str, float, str], law: tuple[float, ...] = ()
     ) -> NativeSpec:
         """Return a kernel over these balls: its numbers after the growth, its law after the inertia."""
-        inertia, growth = self.running
+        ball_law, growth = self.running
         waves = self.waves
-        rows = (("growth", "m", growth, "radial growth of the inner rings against the outer ones"), *numbers)
+        grown = ("growth", "m", growth, "radial growth of the inner rings against the outer ones")
+        rows = (grown, *numbers, *ball_law.parameters)
         return NativeSpec(
             kernel=kernel,
             parameters=tuple(parameter(*row, minimum=-math.inf) for row in rows),
             tables={
                 "rows": self.rows,
                 "waves": waves if waves.size else np.zeros((1, waves.shape[1])),
-                "law": np.array([float(inertia), *law]),
+                "law": np.array([float(ball_law.numbers[0]), *law]),
             },
         )
 

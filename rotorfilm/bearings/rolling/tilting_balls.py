@@ -90,8 +90,9 @@ class TiltingBalls:
         if bearing.axial_load is None:
             return bearing.axial_displacement
         held = (bearing.axial_displacement, tilt_x, tilt_y)
+        law, growth = bearing.running
         kernel = BallKernel(
-            bearing.kernel.rows, *bearing.running, held, bearing.axial_load, 0.0, bearing.waves
+            bearing.kernel.rows, law.numbers, growth, held, bearing.axial_load, 0.0, bearing.waves
         )
         z, status = kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:

@@ -271,7 +271,9 @@ def test_errors_name_argument_rule_and_value():
         replace(DEEP, balls=3, ball_diameter=32e-3)
     with pytest.raises(InputError, match="axial_load must be a single finite number, got nan"):
         replace(DEEP, axial_load=math.nan)
-    with pytest.raises(InputError, match=r"law must be RunningBalls\(\) or StaticBalls\(\), got"):
+    with pytest.raises(
+        InputError, match=r"law must be RunningBalls\(\), RaceControl\(\) or StaticBalls\(\), got"
+    ):
         replace(DEEP, law=7)
     with pytest.raises(InputError, match=r"position must have shape \(2,\), got shape \(2, 3\)"):
         DEEP.axial_place(np.zeros((2, 3)))
