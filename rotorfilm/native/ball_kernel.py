@@ -93,6 +93,10 @@ class BallKernel:
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
 
+    def with_law(self, law: tuple[int, float, float]) -> BallKernel:
+        """Return the same rows with another law of their balls."""
+        return BallKernel(self._arguments[0], law, *self._arguments[2:])
+
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
 

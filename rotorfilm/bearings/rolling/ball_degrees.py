@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -20,7 +21,7 @@ from ...inputs.kinds import arguments
 from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
-from .ball_law import BallLaw
+from .ball_law import BallLaw, RaceControl, RunningBalls
 from .ball_results import BallLoads, BallRest
 from .elliptic_contact import EllipticContact
 
@@ -136,7 +137,11 @@ class BallDegrees(ABC):
         found = self.kernel.rest(load, speed, np.zeros(DEGREES) if start is None else _five("start", start))
         if found.status == Status.STUCK:
             raise EquilibriumError(
-                f"load must be one that the balls can carry, got {load.tolist()} (N, N m) at {speed!r} rad/s"
+                self.why_no_rest(
+                    "load",
+                    f"{load.tolist()} (N, N m) at {speed!r} rad/s",
+                    lambda kernel: kernel.rest(load, speed, np.zeros(DEGREES)).status,
+                )
             )
         at = self._at(found.motion, speed)
         balls = self._loads(at)
@@ -155,6 +160,24 @@ class BallDegrees(ABC):
             residual=float(np.linalg.norm(at.wrench + load)) / size if size else 0.0,
             evaluations=found.evaluations,
         )
+
+    def why_no_rest(self, name: str, got: str, rest: Callable[[BallKernel], int]) -> str:
+        """Return what to change where no rest was found: the law if the load has a rest without race control.
+
+        Parameters
+        ----------
+        name, got : str
+            The argument that is the load, and its value with the place and the speed.
+        rest : callable
+            From a kernel with another law to the status of its rest.
+        """
+        law, held = self.running[0], RunningBalls().numbers
+        if isinstance(law, RaceControl) and rest(self.kernel.with_law(held)) <= Status.OUTSIDE:
+            return (
+                f"law must be RunningBalls() for {name} {got}, under which balls that friction holds rest, "
+                f"got {law!r}: its forces jump where a ball cannot hold its gyroscopic moment"
+            )
+        return f"{name} must be one that the balls can carry, got {got}"
 
     def _at(self, displacement: ArrayLike, speed: float) -> BallsAt:
         motion, speed = _five("displacement", displacement), require_number("speed", speed)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import (
     ConvergenceError,
+    EquilibriumError,
     InputError,
     require_finite,
     require_kind,
@@ -26,6 +27,7 @@ from ...native.layouts.ball_structs import ROW
 from ...native.spec import parameter
 from ..kernel_reaction import KernelReaction
 from .ball_degrees import MOST_PRESSURE, BallDegrees
+from .ball_law import RaceControl
 
 _ROUNDOFF = 4e-16
 
@@ -80,9 +82,16 @@ class BallElement(BallDegrees, KernelReaction):
 
         Balls with clearance leave the shaft free in a polygon, in a corner of which it hangs under a light
         load. Without gyroscopic moments the energy is convex, and a search that lowers it finds the rest.
+        EquilibriumError where race control has none.
         """
         found = self.kernel.planar_rest(load, speed)
-        return None if found.status > Status.OUTSIDE else (float(found.motion[0]), float(found.motion[1]))
+        if found.status <= Status.OUTSIDE:
+            return float(found.motion[0]), float(found.motion[1])
+        if isinstance(self.running[0], RaceControl):
+            got = f"{list(load)} N at {speed!r} rad/s"
+            why = self.why_no_rest("load", got, lambda kernel: kernel.planar_rest(load, speed).status)
+            raise EquilibriumError(why)
+        return None
 
     @cached_property
     def clearance(self) -> float:
@@ -189,9 +198,9 @@ class BallElement(BallDegrees, KernelReaction):
             raise InputError(f"position, velocity and speed must be finite and not overflow, got {state!r}")
         z, found = self.kernel.axial_place(*state)
         if found == Status.STUCK and self.axial_load is not None:
+            got = f"{self.axial_load!r} N at ({x!r}, {y!r}) m and {speed!r} rad/s"
             raise ConvergenceError(
-                f"axial_load must be one that the balls can carry, got {self.axial_load!r} N at "
-                f"({x!r}, {y!r}) m and {speed!r} rad/s"
+                self.why_no_rest("axial_load", got, lambda kernel: kernel.axial_place(*state)[1])
             )
         motion = np.array([x, y, z, *self.tilt])
         self.explain(self.kernel.at(motion, speed), motion, speed)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import BallBearing, InputError, RaceControl, RollingMaterial, RunningBalls
+from rotorfilm import BallBearing, EquilibriumError, InputError, RaceControl, RollingMaterial, RunningBalls
 
 RPM = np.pi / 30.0
 STEEL = RollingMaterial(young_modulus=206e9, poisson_ratio=0.3, density=7800.0)
@@ -252,3 +252,20 @@ def test_sliding_and_numbers_beyond_their_limits_are_told():
             RunningBalls(**{name: value})
     with pytest.raises(InputError, match="outer_control must be True or False"):
         RaceControl(outer_control="inner")
+
+
+def test_race_control_without_a_rest_is_blamed_itself():
+    """The load is one that balls with friction carry."""
+    bearing = BallBearing(
+        balls=20,
+        ball_diameter=4.1966146520417994e-3,
+        pitch_diameter=33.05174511027132e-3,
+        contact_angle=0.15881043560740427,
+        inner_conformity=0.5099914175090517,
+        outer_conformity=0.5369182812292768,
+    )
+    load, speed = (2.0934753381621736, -0.00248, -0.17272, 3.74e-6, 0.0027755), 91.1422496942909
+    controlled = replace(bearing, law=RaceControl(outer_control=False))
+    with pytest.raises(EquilibriumError, match=r"law must be RunningBalls\(\) for load .* got RaceControl"):
+        controlled.rest(load, speed)
+    assert bearing.rest(load, speed).residual < 1e-9
