@@ -258,14 +258,21 @@ def test_race_control_without_a_rest_is_blamed_itself():
     """The load is one that balls with friction carry."""
     bearing = BallBearing(
         balls=20,
-        ball_diameter=4.1966146520417994e-3,
-        pitch_diameter=33.05174511027132e-3,
-        contact_angle=0.15881043560740427,
-        inner_conformity=0.5099914175090517,
-        outer_conformity=0.5369182812292768,
+        ball_diameter=0.037946093089211895,
+        pitch_diameter=0.2618217060852971,
+        contact_angle=0.6679905631667205,
+        inner_conformity=0.5259998128981431,
+        outer_conformity=0.5229050088855388,
     )
-    load, speed = (2.0934753381621736, -0.00248, -0.17272, 3.74e-6, 0.0027755), 91.1422496942909
+    load = (
+        111.88310593736301,
+        0.014696611970810736,
+        72.619259024845,
+        0.0014824177935554017,
+        -8.693496722556475,
+    )
+    speed = 52.33036798359213
+    assert bearing.rest(load, speed).residual < 1e-9
     controlled = replace(bearing, law=RaceControl(outer_control=False))
     with pytest.raises(EquilibriumError, match=r"law must be RunningBalls\(\) for load .* got RaceControl"):
         controlled.rest(load, speed)
-    assert bearing.rest(load, speed).residual < 1e-9
