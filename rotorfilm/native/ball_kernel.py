@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .layouts.ball_structs import BallJournalStruct, BallsStruct, BallStruct
+from .layouts.ball_structs import BallJournalStruct, BallLawStruct, BallsStruct, BallStruct
 from .library import loops
 
 DEGREES, SLOPES = 5, 8
@@ -60,8 +60,8 @@ class BallKernel:
     ----------
     rows : ndarray, shape (rows, columns)
         The numbers of rf_ball_row.
-    inertia : int
-        That of the balls, of ball.h.
+    law : (int, float, float)
+        The numbers of rf_ball_law.
     growth : float [m]
     place : (float, float, float)
         z [m] and tilts [rad] of the planar motion.
@@ -75,23 +75,27 @@ class BallKernel:
     def __init__(
         self,
         rows: Array,
-        inertia: int,
+        law: tuple[int, float, float],
         growth: float,
         place: tuple[float, float, float],
         thrust: float | None,
         damping: float,
         waves: Array,
     ) -> None:
-        self._arguments = (rows, inertia, growth, place, thrust, damping, waves)
+        self._arguments = (rows, law, growth, place, thrust, damping, waves)
         self.rows = np.ascontiguousarray(rows, dtype=float)
         self.count = int(self.rows[:, 5].sum())
         self._waves = np.ascontiguousarray(waves, dtype=float)
-        self._fixed = self.rows.ctypes.data, len(self.rows), growth, inertia
+        self._fixed = self.rows.ctypes.data, len(self.rows), growth, BallLawStruct(*law)
         self._balls = self._turned(0.0, 0.0)
         self._held = _three(place), thrust or 0.0, damping, thrust is not None
         self._journal = BallJournalStruct(self._balls, *self._held)
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
+
+    def with_law(self, law: tuple[int, float, float]) -> BallKernel:
+        """Return the same rows with another law of their balls."""
+        return BallKernel(self._arguments[0], law, *self._arguments[2:])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments

@@ -23,4 +23,4 @@ def test_a_scene_of_a_spindle_bearing_is_solved(run):
     assert code == 0
     text = " ".join(out.split())
     assert "running balls on films chosen" in text
-    assert "outer race control: control by the other race would change it by" in text
+    assert "friction of balls: half or double its numbers would change it by" in text

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import BallBearing, InputError, back_to_back, export_fmu
+from rotorfilm import BallBearing, InputError, RaceControl, RunningBalls, back_to_back, export_fmu
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.export_rules import start_values
 
@@ -78,6 +78,35 @@ def test_parameters_are_those_of_the_bearing(version, opened):
     )
     found = instance.get([reference[one] for one in FORCES])
     np.testing.assert_allclose(found, other.force(state[:2], state[2:4], 300.0), rtol=1e-11)
+
+
+def test_the_friction_of_the_balls_is_a_parameter(opened):
+    instance, reference = opened(ONE, "3.0", False)
+    state = [2e-6, -7e-6, 1e-3, 0.0, 1500.0]
+    instance.initialize([reference[one] for one in INPUTS], state)
+    found = [instance.get([reference[one] for one in FORCES])]
+    names = "traction_coefficient", "slide_to_roll_ratio"
+    instance.set([reference[one] for one in names], [0.03, 0.02])
+    found.append(instance.get([reference[one] for one in FORCES]))
+    other = replace(ONE, law=RunningBalls(traction_coefficient=0.03, slide_to_roll_ratio=0.02))
+    expected = [model.force(state[:2], state[2:4], 1500.0) for model in (ONE, other)]
+    assert abs(expected[1][0] / expected[0][0] - 1.0) > 1e-4
+    np.testing.assert_allclose(found, expected, rtol=1e-11)
+    instance.set([reference[names[0]]], [0.0])
+    with pytest.raises(FMICallException):
+        instance.get([reference[one] for one in FORCES])
+    assert any("traction_coefficient must be finite and positive, got 0" in line for line in instance.log)
+
+
+@pytest.mark.filterwarnings("ignore:the gyroscopic moment")
+def test_race_control_is_native_and_has_no_friction(opened):
+    model = replace(ONE, law=RaceControl(outer_control=False))
+    instance, reference = opened(model, "2.0", False)
+    state = [2e-6, -7e-6, 1e-3, 0.0, 1000.0]
+    instance.initialize([reference[one] for one in INPUTS], state)
+    found = instance.get([reference[one] for one in FORCES])
+    np.testing.assert_allclose(found, model.force(state[:2], state[2:4], 1000.0), rtol=1e-11)
+    assert "traction_coefficient" not in reference
 
 
 def test_negative_damping_is_refused(opened):

@@ -1,6 +1,7 @@
 """A failing call answers with a status and the values; the process and the other instances go on."""
 
 import gc
+from dataclasses import replace
 
 import fmpy
 import numpy as np
@@ -8,9 +9,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard, fmi2Fatal, fmi2LastSuccessfulTime, fmi2Terminated
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.fmu import export_fmu
-from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm import JeffcottRotor, JournalBearing, RigidRotor, export_fmu, mount
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(mass=50.0, speed=157.0)
@@ -225,3 +224,31 @@ def test_fmpy_stops_at_the_last_good_time(write_module, tmp_path):
     )
     assert result["time"][-1] == pytest.approx(0.9)
     assert result["point.z"][-1] == pytest.approx(0.9)
+
+
+def unbalanced(load, tmp_path, bearing):
+    """Return an instance of the native FMU of a rotor with an unbalance on a journal bearing."""
+    rotor = JeffcottRotor(mass=30.0, journal_mass=5.0, stiffness=1e7, speed=157.0, unbalance=1e-3)
+    started = load(export_fmu(mount(rotor, {"": bearing}), tmp_path / "rotor.fmu", stop_time=1e-4))
+    started.initialize()
+    return started
+
+
+def test_a_used_up_budget_of_steps_is_said_and_shorter_steps_go_on(load, tmp_path):
+    rotor = unbalanced(load, tmp_path, BEARING)
+    assert status(rotor.fmu.doStep, 0.0, 74.0) == fmi2Discard
+    message = rotor.log[-1][1]
+    assert "of 74 s within 100000 steps, the most in one call: ask for shorter communication steps" in message
+    assert "clearance" not in message
+    assert 50.0 < rotor.fmu.getRealStatus(fmi2LastSuccessfulTime) < 74.0
+    rotor.fmu.reset()
+    rotor.initialize()
+    rotor.fmu.doStep(0.0, 37.0)
+    rotor.fmu.doStep(37.0, 37.0)
+
+
+def test_a_journal_that_is_pressed_to_the_wall_is_still_said(load, tmp_path):
+    rotor = unbalanced(load, tmp_path, replace(BEARING, viscosity=1e-20))
+    assert status(rotor.fmu.doStep, 0.0, 1.0) == fmi2Discard
+    assert "its step fell to" in rotor.log[-1][1]
+    assert "the journal must stay inside the clearance 0.0001 m" in rotor.log[-1][1]

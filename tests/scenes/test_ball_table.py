@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 
 from rotorfilm import (
     BallBearing,
+    RaceControl,
     RollingMaterial,
     RunningBalls,
     StaticBalls,
@@ -57,8 +58,9 @@ def test_what_a_table_builds():
     assert scene_of(PAIR + "damping = 20\n").bearing == replace(
         back_to_back(ONE, distance=0.02, preload=150.0), damping=20.0
     )
-    line = ANGULAR + 'arrangement = "tandem"\ndistance = "20 mm"\naxial_load = 300\nouter_control = false\n'
-    inner = replace(ONE, law=RunningBalls(outer_control=False))
+    pair = ANGULAR + 'arrangement = "tandem"\ndistance = "20 mm"\naxial_load = 300\n'
+    line = pair + 'inertia = "race_control"\nouter_control = false\n'
+    inner = replace(ONE, law=RaceControl(outer_control=False))
     assert scene_of(line).bearing == tandem(inner, distance=0.02, axial_load=300.0)
     own = 'ring_material = { young_modulus = "210 GPa", poisson_ratio = 0.3, density = 7800 }\n'
     assert scene_of(DEEP + own).bearing.ring_material.young_modulus == 210e9
@@ -121,12 +123,14 @@ def test_viscosity_of_the_oil_of_the_scene():
 
 
 HOT = RUN.replace("3000 rpm", "60000 rpm")
+SLIPPERY = "outer_conformity = 0.53\ntraction_coefficient = 0.03\nslide_to_roll_ratio = 0.001\n"
 
 
 @pytest.mark.parametrize(
     ("table", "run", "said"),
     [
-        (ANGULAR.replace("25", "40") + 'axial_load = "1 kN"\n', HOT, "sliding"),
+        (ANGULAR.replace("25", "40") + 'axial_load = "1 kN"\ninertia = "race_control"\n', HOT, "sliding"),
+        (ANGULAR + "axial_load = 900\n" + SLIPPERY, HOT.replace("60000", "30000"), "sliding"),
         (ANGULAR + 'axial_load = "20 N"\n', HOT.replace("200 N", "10 N"), "lift-off"),
         (PAIR + "axial_load = 900\n", RUN.replace("200 N", "10 N"), "loss of contact: 1 of 2 rows"),
         (DEEP, RUN.replace("200 N", "20 kN"), "rest: none found"),
@@ -176,3 +180,19 @@ def test_balls_that_nothing_presses_refuse_no_load():
     bearing = single_of(Scene.load(path).table("ball_bearing").build())
     with pytest.raises(InputError, match="load must not be zero for balls that neither thrust nor preload"):
         rest_under(replace(bearing, law=StaticBalls()), (0.0, 0.0), 0.0)
+
+
+def test_numbers_of_the_friction_of_balls():
+    scene = scene_of(ANGULAR + "traction_coefficient = 0.04\nslide_to_roll_ratio = 0.01\n", RUN)
+    law = RunningBalls(traction_coefficient=0.04, slide_to_roll_ratio=0.01)
+    assert single_of(scene.table("ball_bearing").build()).law == law
+    for table, message in (
+        (
+            'inertia = "race_control"\ntraction_coefficient = 0.04\n',
+            "traction_coefficient must be given with",
+        ),
+        ("outer_control = false\n", "outer_control must be given with inertia 'race_control', got False"),
+        ("slide_to_roll_ratio = 2\n", "slide_to_roll_ratio must be 0.0001 to 1, got 2"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            scene_of(ANGULAR + table, RUN)

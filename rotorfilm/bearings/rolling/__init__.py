@@ -7,13 +7,18 @@ from ...sources import show
 if TYPE_CHECKING:
     from ..ellipse import elliptic_integrals
     from .ball_bearing import BallBearing as BallBearing
-    from .ball_degrees import MOST_PRESSURE, MOST_TRACTION
+    from .ball_degrees import MOST_PRESSURE
     from .ball_films import (
         ball_films as ball_films,
         film_parameter as film_parameter,
         race_films as race_films,
     )
-    from .ball_law import RunningBalls as RunningBalls, StaticBalls as StaticBalls
+    from .ball_law import (
+        FRICTION_LIMITS,
+        RaceControl as RaceControl,
+        RunningBalls as RunningBalls,
+        StaticBalls as StaticBalls,
+    )
     from .ball_results import BallLoads as BallLoads, BallRest as BallRest
     from .bearing_pair import (
         BearingPair as BearingPair,

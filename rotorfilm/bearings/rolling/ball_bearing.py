@@ -57,7 +57,7 @@ class BallBearing(BallElement):
     films : (float, float) [m]
         Oil films of the inner and the outer contact, as of `ball_films`: the contacts carry K (d + film)^1.5.
     law : BallLaw
-        Whether balls have inertia: `RunningBalls()` or, for low speeds, `StaticBalls()`.
+        `RunningBalls()`, which friction holds, `RaceControl()` or, for low speeds, `StaticBalls()`.
     axial_displacement : float [m]
         z of the shaft, where there is no `axial_load`.
     axial_load : float or None [N]
@@ -119,7 +119,7 @@ class BallBearing(BallElement):
                 raise InputError(f"{name} must be above 0.5 and below 0.75, got {getattr(self, name)!r}")
         for name in ("ball_material", "ring_material"):
             require_kind(name, getattr(self, name), RollingMaterial, "a RollingMaterial")
-        require_kind("law", self.law, BallLaw, "RunningBalls() or StaticBalls()")
+        require_kind("law", self.law, BallLaw, "RunningBalls(), RaceControl() or StaticBalls()")
         for number, wave in enumerate(self.waviness):
             require_kind(f"waviness[{number}]", wave, Waviness, "a Waviness")
         self._require_films()
@@ -152,9 +152,9 @@ class BallBearing(BallElement):
             )
 
     @property
-    def running(self) -> tuple[int, float]:
-        """Inertia of the balls, of the law, and growth of the inner ring [m]."""
-        return self.law.inertia, self.growth
+    def running(self) -> tuple[BallLaw, float]:
+        """Law of the balls and growth of the inner ring [m]."""
+        return self.law, self.growth
 
     @property
     def cage_ratio(self) -> float:
@@ -246,5 +246,7 @@ class BallBearing(BallElement):
             "diameter": self.ball_diameter,
             "mass": self.ball_mass,
             "largest": self.largest_load,
+            "inner_reach": inner.friction_lever(1.0),
+            "outer_reach": outer.friction_lever(1.0),
         }
         return np.array([[row[name] for name in ROW]])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -21,14 +22,12 @@ from ...model import Array
 from ...native import Status
 from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
 from ...reactions.noise import MOST_LEFT
+from .ball_law import BallLaw, RaceControl, RunningBalls
 from .ball_results import BallLoads, BallRest
 from .elliptic_contact import EllipticContact
 
 MOST_PRESSURE = 4.2e9
 """Contact pressure that defines the static load rating of ball bearings (ISO 76) [Pa]."""
-
-MOST_TRACTION = 0.06
-"""Traction coefficient beyond which a ball is taken to slide (`native/rolling/ball.h`)."""
 
 
 class BallDegrees(ABC):
@@ -43,6 +42,11 @@ class BallDegrees(ABC):
     @abstractmethod
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
         """Inner and outer contact of a ball."""
+
+    @property
+    @abstractmethod
+    def running(self) -> tuple[BallLaw, float]:
+        """Law of the balls and growth of the inner rings [m]."""
 
     @property
     @abstractmethod
@@ -134,7 +138,11 @@ class BallDegrees(ABC):
         found = self.kernel.rest(load, speed, np.zeros(DEGREES) if start is None else _five("start", start))
         if found.status == Status.STUCK:
             raise EquilibriumError(
-                f"load must be one that the balls can carry, got {load.tolist()} (N, N m) at {speed!r} rad/s"
+                self.why_no_rest(
+                    "load",
+                    f"{load.tolist()} (N, N m) at {speed!r} rad/s",
+                    lambda kernel: kernel.rest(load, speed, np.zeros(DEGREES)).status,
+                )
             )
         at, size = self._at(found.motion, speed), float(np.linalg.norm(load))
         residual = float(np.linalg.norm(at.wrench + load)) / size if size else 0.0
@@ -159,6 +167,24 @@ class BallDegrees(ABC):
             evaluations=found.evaluations,
         )
 
+    def why_no_rest(self, name: str, got: str, rest: Callable[[BallKernel], int]) -> str:
+        """Return what to change where no rest was found: the law if the load has a rest without race control.
+
+        Parameters
+        ----------
+        name, got : str
+            The argument that is the load, and its value with the place and the speed.
+        rest : callable
+            From a kernel with another law to the status of its rest.
+        """
+        law, held = self.running[0], RunningBalls().numbers
+        if isinstance(law, RaceControl) and rest(self.kernel.with_law(held)) <= Status.OUTSIDE:
+            return (
+                f"law must be RunningBalls() for {name} {got}, under which balls that friction holds rest, "
+                f"got {law!r}: its forces jump where a ball cannot hold its gyroscopic moment"
+            )
+        return f"{name} must be one that the balls can carry, got {got}"
+
     def _at(self, displacement: ArrayLike, speed: float) -> BallsAt:
         motion, speed = _five("displacement", displacement), require_number("speed", speed)
         at = self.kernel.at(motion, speed)
@@ -182,6 +208,7 @@ class BallDegrees(ABC):
             gyroscopic_moment=each["gyroscopic"].copy(),
             orbit_speed=each["orbit"].copy(),
             traction=each["traction"].copy(),
+            slip_speed=each["slip"].copy(),
         )
 
     def explain(self, at: BallsAt, motion: Array, speed: float) -> None:
@@ -194,10 +221,11 @@ class BallDegrees(ABC):
         load, traction = float(at.each["load"].max()), float(at.each["traction"].max())
         if load > self.largest_load:
             warn_user(f"a ball carries {load:.4g} N, beyond {self.largest_load:.4g} N or 4200 MPa, {where}")
-        if traction > MOST_TRACTION:
+        most = self.running[0].most_traction
+        if traction > most:
             warn_user(
                 f"the gyroscopic moment asks for a traction coefficient of {traction:.3g}, beyond about "
-                f"{MOST_TRACTION} balls slide, {where}"
+                f"{most:.3g} balls slide, {where}"
             )
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import (
     ConvergenceError,
+    EquilibriumError,
     InputError,
     require_finite,
     require_kind,
@@ -26,6 +27,7 @@ from ...native.layouts.ball_structs import ROW
 from ...native.spec import parameter
 from ..kernel_reaction import KernelReaction
 from .ball_degrees import MOST_PRESSURE, BallDegrees
+from .ball_law import RaceControl
 
 _ROUNDOFF = 4e-16
 
@@ -43,11 +45,6 @@ class BallElement(BallDegrees, KernelReaction):
 
     @property
     @abstractmethod
-    def running(self) -> tuple[int, float]:
-        """Inertia of the balls, of `BallLaw`, and growth of the inner rings [m]."""
-
-    @property
-    @abstractmethod
     def waves(self) -> Array:
         """Waves of the races as the compiled kernel reads them, shape (waves, columns)."""
 
@@ -59,7 +56,8 @@ class BallElement(BallDegrees, KernelReaction):
     def kernel(self) -> BallKernel:
         """The bearing in compiled code."""
         place = (self.axial_displacement, *self.tilt)
-        return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping, self.waves)
+        law, growth = self.running
+        return BallKernel(self.rows, law.numbers, growth, place, self.axial_load, self.damping, self.waves)
 
     @property
     def pitch(self) -> float:
@@ -84,9 +82,16 @@ class BallElement(BallDegrees, KernelReaction):
 
         Balls with clearance leave the shaft free in a polygon, in a corner of which it hangs under a light
         load. Without gyroscopic moments the energy is convex, and a search that lowers it finds the rest.
+        EquilibriumError where race control has none.
         """
         found = self.kernel.planar_rest(load, speed)
-        return None if found.status > Status.OUTSIDE else (float(found.motion[0]), float(found.motion[1]))
+        if found.status <= Status.OUTSIDE:
+            return float(found.motion[0]), float(found.motion[1])
+        if isinstance(self.running[0], RaceControl):
+            got = f"{list(load)} N at {speed!r} rad/s"
+            why = self.why_no_rest("load", got, lambda kernel: kernel.planar_rest(load, speed).status)
+            raise EquilibriumError(why)
+        return None
 
     @cached_property
     def clearance(self) -> float:
@@ -171,16 +176,17 @@ class BallElement(BallDegrees, KernelReaction):
         self, kernel: str, *numbers: tuple[str, str, float, str], law: tuple[float, ...] = ()
     ) -> NativeSpec:
         """Return a kernel over these balls: its numbers after the growth, its law after the inertia."""
-        inertia, growth = self.running
+        ball_law, growth = self.running
         waves = self.waves
-        rows = (("growth", "m", growth, "radial growth of the inner rings against the outer ones"), *numbers)
+        grown = ("growth", "m", growth, "radial growth of the inner rings against the outer ones")
+        rows = (grown, *numbers, *ball_law.parameters)
         return NativeSpec(
             kernel=kernel,
             parameters=tuple(parameter(*row, minimum=-math.inf) for row in rows),
             tables={
                 "rows": self.rows,
                 "waves": waves if waves.size else np.zeros((1, waves.shape[1])),
-                "law": np.array([float(inertia), *law]),
+                "law": np.array([float(ball_law.numbers[0]), *law]),
             },
         )
 
@@ -191,9 +197,9 @@ class BallElement(BallDegrees, KernelReaction):
             raise InputError(f"position, velocity and speed must be finite and not overflow, got {state!r}")
         z, found = self.kernel.axial_place(*state)
         if found == Status.STUCK and self.axial_load is not None:
+            got = f"{self.axial_load!r} N at ({x!r}, {y!r}) m and {speed!r} rad/s"
             raise ConvergenceError(
-                f"axial_load must be one that the balls can carry, got {self.axial_load!r} N at "
-                f"({x!r}, {y!r}) m and {speed!r} rad/s"
+                self.why_no_rest("axial_load", got, lambda kernel: kernel.axial_place(*state)[1])
             )
         motion = np.array([x, y, z, *self.tilt])
         self.explain(self.kernel.at(motion, speed), motion, speed)

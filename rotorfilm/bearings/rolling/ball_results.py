@@ -30,7 +30,9 @@ class BallLoads(Readable):
         Of the ball about the shaft.
     traction : ndarray, shape (balls,) [1]
         Traction coefficient that the gyroscopic moment asks for, the larger of both contacts; a ball slides
-        beyond about 0.06.
+        beyond about 0.06 under `RaceControl`, and beyond 0.9 of its `traction_coefficient` otherwise.
+    slip_speed : ndarray, shape (balls,) [m/s]
+        Of the balls across the way that they roll, by the gyroscopic moment; 0 under `RaceControl`.
     """
 
     ball_angle: Array
@@ -44,6 +46,7 @@ class BallLoads(Readable):
     gyroscopic_moment: Array
     orbit_speed: Array
     traction: Array
+    slip_speed: Array
 
     @property
     def carrying(self) -> int:

@@ -13,6 +13,7 @@ from ...inputs.si_arguments import quantities
 from ...model import Array
 from .ball_bearing import BallBearing
 from .ball_element import BallElement
+from .ball_law import BallLaw
 from .elliptic_contact import EllipticContact
 
 
@@ -88,8 +89,8 @@ class BearingPair(BallElement):
         return self.bearing.contacts
 
     @property
-    def running(self) -> tuple[int, float]:
-        """Inertia of the balls and growth of the inner rings [m], those of the bearing."""
+    def running(self) -> tuple[BallLaw, float]:
+        """Law of the balls and growth of the inner rings [m], those of the bearing."""
         return self.bearing.running
 
     @property

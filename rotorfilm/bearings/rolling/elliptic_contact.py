@@ -88,6 +88,10 @@ class EllipticContact:
         cube = 6.0 * second * load * self.radius / (math.pi * kappa * self.combined_modulus)
         return kappa * cube ** (1.0 / 3.0), cube ** (1.0 / 3.0)
 
+    def friction_lever(self, load: float) -> float:
+        """Return 3/8 a E(m) [m] under a load [N]: the moment of friction in pure spin, over its force."""
+        return 0.375 * self.half_axes(load)[0] * self.integrals.second
+
     def pressure(self, load: float) -> float:
         """Return the largest pressure [Pa] under a load [N]."""
         a, b = self.half_axes(load)

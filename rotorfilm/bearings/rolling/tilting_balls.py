@@ -14,6 +14,7 @@ from ...native import Status
 from ...native.ball_kernel import BallKernel
 from ...results import Coefficients
 from .ball_element import BallElement, require_balls
+from .ball_law import RunningBalls
 
 _RADIAL = [0, 1, 3, 4]
 
@@ -92,14 +93,18 @@ class TiltingBalls:
         if bearing.axial_load is None:
             return bearing.axial_displacement
         held = (bearing.axial_displacement, tilt_x, tilt_y)
+        law, growth = bearing.running
         kernel = BallKernel(
-            bearing.kernel.rows, *bearing.running, held, bearing.axial_load, 0.0, bearing.waves
+            bearing.kernel.rows, law.numbers, growth, held, bearing.axial_load, 0.0, bearing.waves
         )
         z, status = kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:
+            got = f"{bearing.axial_load!r} N at ({x!r}, {y!r}) m, {(tilt_x, tilt_y)!r} rad, {speed!r} rad/s"
+            running = kernel.with_law(RunningBalls().numbers)
             raise ConvergenceError(
-                f"axial_load must be one that the balls can carry, got {bearing.axial_load!r} N at "
-                f"({x!r}, {y!r}) m, tilts ({tilt_x!r}, {tilt_y!r}) rad and {speed!r} rad/s"
+                bearing.why_no_rest(
+                    "axial_load", got, lambda _: running.axial_place(x, y, 0.0, 0.0, speed)[1]
+                )
             )
         return z
 

@@ -23,6 +23,8 @@ ROW = (
     "diameter",
     "mass",
     "largest",
+    "inner_reach",
+    "outer_reach",
 )
 """The numbers of rf_ball_row, the columns of the table `rows`."""
 
@@ -46,8 +48,14 @@ class BallStruct(ctypes.Structure):
         ("by_speed", c_double * 2),
         ("load", c_double * 2),
         ("angle", c_double * 2),
-        *((name, c_double) for name in ("centrifugal", "gyroscopic", "orbit", "gap", "traction")),
+        *((name, c_double) for name in ("centrifugal", "gyroscopic", "orbit", "gap", "traction", "slip")),
     ]
+
+
+class BallLawStruct(ctypes.Structure):
+    """rf_ball_law of ball.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [("inertia", c_int32), ("traction", c_double), ("slide", c_double)]
 
 
 class BallsStruct(ctypes.Structure):
@@ -57,7 +65,7 @@ class BallsStruct(ctypes.Structure):
         ("rows", c_void_p),
         ("count", c_size_t),
         ("growth", c_double),
-        ("inertia", c_int32),
+        ("law", BallLawStruct),
         ("cage", c_double),
         ("shaft", c_double),
         ("waves", c_void_p),

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "ball_contact.h"
 #include "ball_inertia.h"
+#include "ball_traction.h"
 
 #define STEPS 60
 #define HALVINGS 30
@@ -13,31 +15,9 @@
 #define STILL 1e-13    /* a centrifugal approach, over the same, below which a ball is taken as static */
 #define FAR 0.9        /* distance of the centers of curvature over that at touch, below which the rings are far apart */
 
-/* A Hertzian contact: direction e = (sin, cos) of its angle, t = de/d(angle), and d(load e)/d(center). */
-typedef struct contact {
-    double e[2], t[2], length, load, by[4];
-} contact;
-
-static contact press(double axial, double radial, double touch, double stiffness)
-{
-    contact c;
-    c.length = hypot(axial, radial);
-    c.e[0] = c.length > 0.0 ? axial / c.length : 0.0;
-    c.e[1] = c.length > 0.0 ? radial / c.length : 1.0;
-    c.t[0] = c.e[1];
-    c.t[1] = -c.e[0];
-    const double depth = c.length - touch, root = depth > 0.0 ? sqrt(depth) : 0.0;
-    c.load = stiffness * root * root * root;
-    const double along = 1.5 * stiffness * root, across = c.length > 0.0 ? c.load / c.length : 0.0;
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j)
-            c.by[2 * i + j] = along * c.e[i] * c.e[j] + across * c.t[i] * c.t[j];
-    return c;
-}
-
 /* The balance of a ball with its center at x: residual and its derivatives by x, by a and by log(speed)/2. */
 typedef struct balance {
-    contact in, out;
+    rf_ball_contact in, out;
     rf_ball_inertia inertia;
     double share[2]; /* of the gyroscopic moment in the friction at both contacts */
     double rest[2], by_x[4], by_a[4], by_speed[2];
@@ -46,9 +26,9 @@ typedef struct balance {
 
 static void balance_at(const rf_ball_row *row, int inertia, const double *a, const double *x, double speed, balance *at)
 {
-    at->in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
-    at->out = press(x[0], x[1], row->outer, row->outer_stiffness);
-    const contact *in = &at->in, *out = &at->out;
+    at->in = rf_ball_press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+    at->out = rf_ball_press(x[0], x[1], row->outer, row->outer_stiffness);
+    const rf_ball_contact *in = &at->in, *out = &at->out;
     rf_ball_inertia_at(row, inertia, in->e, out->e, speed, &at->inertia);
     const double *fc = at->inertia.force, *m = at->inertia.moment;
     at->share[0] = inertia == RF_BALLS_INNER_CONTROL ? 1.0 : 0.0;
@@ -86,26 +66,15 @@ static int is_free(const rf_ball_row *row, int inertia, const double *a, double 
     x[0] = 0.0;
     x[1] = row->outer;
     for (int k = 0; k < STEPS && x[1] != kept; ++k) {
-        const contact in = press(a[0] - x[0], fmax(a[1] - x[1], 0.0), row->inner, row->inner_stiffness);
+        const rf_ball_contact in = rf_ball_press(a[0] - x[0], fmax(a[1] - x[1], 0.0), row->inner, row->inner_stiffness);
         rf_ball_inertia_at(row, inertia, in.e, up, speed, &at->inertia);
         kept = x[1];
         x[1] = row->outer + pow(at->inertia.force[0] / row->outer_stiffness, 2.0 / 3.0);
     }
-    at->in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
-    at->out = press(x[0], x[1], row->outer, row->outer_stiffness);
+    at->in = rf_ball_press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+    at->out = rf_ball_press(x[0], x[1], row->outer, row->outer_stiffness);
     const int is_far = hypot(a[0], a[1]) < FAR * (row->inner + row->outer);
     return !(at->in.length > row->inner) || a[1] <= (is_far ? x[1] : 0.0);
-}
-
-/* Where the ball would be if the static load acted through its inner contact: the outer angle is reduced. */
-static void guess(const rf_ball_row *row, const double *a, double centrifugal, double *x)
-{
-    const double per = pow(row->inner_stiffness, -2.0 / 3.0) + pow(row->outer_stiffness, -2.0 / 3.0);
-    const contact through = press(a[0], a[1], row->inner + row->outer, pow(per, -1.5));
-    const double fx = through.load * through.e[0], fy = through.load * through.e[1] + centrifugal;
-    const double size = hypot(fx, fy), length = row->outer + pow(size / row->outer_stiffness, 2.0 / 3.0);
-    x[0] = size > 0.0 ? length * fx / size : length * through.e[0];
-    x[1] = size > 0.0 ? length * fy / size : length * through.e[1];
 }
 
 /* A residual that may be left. */
@@ -145,7 +114,7 @@ static int find(const rf_ball_row *row, int inertia, const double *a, double spe
 /* Force on the inner ring -(load e - share moment t), and its derivatives with the ball's center in balance. */
 static void answer(const balance *at, double speed, rf_ball *ball)
 {
-    const contact *in = &at->in, *out = &at->out;
+    const rf_ball_contact *in = &at->in, *out = &at->out;
     const double s = at->share[0], *m = at->inertia.moment;
     double inner[4], through[4], moved[6];
     for (int i = 0; i < 2; ++i) {
@@ -192,7 +161,7 @@ static void tell(const rf_ball_row *row, const balance *at, double speed, rf_bal
 static void stand(const rf_ball_row *row, const double *a, double speed, rf_ball *ball)
 {
     const double per = pow(row->inner_stiffness, -2.0 / 3.0) + pow(row->outer_stiffness, -2.0 / 3.0);
-    const contact c = press(a[0], a[1], a[1] > 0.0 ? row->inner + row->outer : HUGE_VAL, pow(per, -1.5));
+    const rf_ball_contact c = rf_ball_press(a[0], a[1], a[1] > 0.0 ? row->inner + row->outer : HUGE_VAL, pow(per, -1.5));
     memset(ball, 0, sizeof *ball);
     for (int k = 0; k < 2; ++k) {
         ball->force[k] = -c.load * c.e[k];
@@ -205,7 +174,7 @@ static void stand(const rf_ball_row *row, const double *a, double speed, rf_ball
     ball->gap = (a[1] > 0.0 ? c.length : 0.0) - row->inner - row->outer;
 }
 
-static int run(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
+static int run(const rf_ball_row *row, const rf_ball_law *law, int inertia, const double *a, double speed, rf_ball *ball)
 {
     balance at;
     double x[2];
@@ -215,7 +184,13 @@ static int run(const rf_ball_row *row, int inertia, const double *a, double spee
         at.in.load = 0.0;
         memset(at.inertia.moment, 0, sizeof at.inertia.moment);
     } else {
-        guess(row, a, at.inertia.force[0], x);
+        rf_ball_guess(row, a, at.inertia.force[0], x);
+        if (inertia == RF_BALLS_TRACTION) {
+            if (rf_ball_held(row, law, a, speed, x, ball))
+                return RF_OK;
+            /* Then from where the ball rests without its moment. */
+            return find(row, RF_BALLS_LOOSE, a, speed, x, &at) && rf_ball_held(row, law, a, speed, x, ball) ? RF_OK : RF_STUCK;
+        }
         if (!find(row, inertia, a, speed, x, &at) || !(at.in.load > 0.0))
             return RF_STUCK;
         answer(&at, speed, ball);
@@ -231,20 +206,22 @@ static int is_slow(const rf_ball_row *row, double speed)
     return force <= row->outer_stiffness * pow(STILL * (row->inner + row->outer), 1.5);
 }
 
-int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
+int rf_ball_at(const rf_ball_row *row, const rf_ball_law *law, const double *a, double speed, rf_ball *ball)
 {
     int status = RF_OK;
+    const int inertia = law->inertia;
     if (inertia == RF_BALLS_STATIC || is_slow(row, speed))
         stand(row, a, speed, ball);
     else
-        status = run(row, inertia, a, speed, ball);
+        status = run(row, law, inertia, a, speed, ball);
     /* An inner contact with next to no load holds no moment: then the outer race controls. */
     if (status == RF_STUCK && inertia == RF_BALLS_INNER_CONTROL)
-        status = run(row, RF_BALLS_OUTER_CONTROL, a, speed, ball);
+        status = run(row, law, RF_BALLS_OUTER_CONTROL, a, speed, ball);
     /* Nor does the outer one of a ball that the moment would carry away from the inner race, which then holds none. */
-    if (status == RF_STUCK && inertia != RF_BALLS_STATIC)
-        status = run(row, RF_BALLS_LOOSE, a, speed, ball);
-    if (status == RF_OK && (ball->traction > RF_MOST_TRACTION || !(fmax(ball->load[0], ball->load[1]) <= row->largest)))
+    if (status == RF_STUCK && (inertia == RF_BALLS_INNER_CONTROL || inertia == RF_BALLS_OUTER_CONTROL))
+        status = run(row, law, RF_BALLS_LOOSE, a, speed, ball);
+    const double most = inertia == RF_BALLS_TRACTION ? RF_MOST_SHARE * law->traction : RF_MOST_TRACTION;
+    if (status == RF_OK && (ball->traction > most || !(fmax(ball->load[0], ball->load[1]) <= row->largest)))
         return RF_OUTSIDE;
     return status;
 }

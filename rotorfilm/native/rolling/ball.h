@@ -5,6 +5,8 @@
 #ifndef ROTORFILM_BALL_H
 #define ROTORFILM_BALL_H
 
+#include <stdint.h>
+
 #include "../status.h"
 
 /* A row of equal balls. */
@@ -23,16 +25,34 @@ typedef struct rf_ball_row {
     double diameter;    /* of a ball [m] */
     double mass;        /* of a ball [kg] */
     double largest;     /* load of a ball for which the law is meant [N] */
+    double inner_reach; /* lever of friction against spin over the cube root of the load [m/N^(1/3)] */
+    double outer_reach;
 } rf_ball_row;
 
-#define RF_BALL_COLUMNS 15
+#define RF_BALL_COLUMNS 17
 
-/* Traction coefficient beyond which a ball would slide under its gyroscopic moment. */
+/* Traction coefficient beyond which a ball under race control would slide under its gyroscopic moment. */
 #define RF_MOST_TRACTION 0.06
 
+/* Share of the traction coefficient beyond which a ball that friction holds is taken to slide. */
+#define RF_MOST_SHARE 0.9
+
 /* Which inertia the balls have: none, or centrifugal force and gyroscopic moment, of balls that spin relative to the
-   inner ring only (no spin at the outer one), or to the outer one only; the last is for balls that hold no moment. */
-enum { RF_BALLS_STATIC, RF_BALLS_OUTER_CONTROL, RF_BALLS_INNER_CONTROL, RF_BALLS_LOOSE };
+   inner ring only (no spin at the outer one), or to the outer one only, or as the balance of friction at both has it; the
+   last is for balls that hold no moment. */
+enum {
+    RF_BALLS_STATIC,
+    RF_BALLS_OUTER_CONTROL,
+    RF_BALLS_INNER_CONTROL,
+    RF_BALLS_TRACTION,
+    RF_BALLS_LOOSE
+};
+
+typedef struct rf_ball_law {
+    int32_t inertia; /* one of these, but not the last */
+    double traction; /* traction coefficient at full sliding, of balls that friction holds */
+    double slide;    /* slide-to-roll ratio at which friction is 1/sqrt(2) of that */
+} rf_ball_law;
 
 typedef struct rf_ball {
     double force[2];     /* on the inner ring [N] */
@@ -45,10 +65,11 @@ typedef struct rf_ball {
     double orbit;        /* angular speed about the shaft [rad/s] */
     double gap;          /* approach of the inner contact, of static balls of both; negative where it is open [m] */
     double traction;     /* friction over load that the gyroscopic moment asks for, the larger of both contacts */
+    double slip;         /* speed across the way that the ball rolls, at both contacts [m/s] */
 } rf_ball;
 
 /* A ball under a given distance of the centers at a speed of the inner ring [rad/s]. RF_OUTSIDE where traction or load
    are beyond what is meant, RF_STUCK where no balance was found. */
-int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball);
+int rf_ball_at(const rf_ball_row *row, const rf_ball_law *law, const double *a, double speed, rf_ball *ball);
 
 #endif

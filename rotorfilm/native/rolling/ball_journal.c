@@ -24,8 +24,9 @@ static int rest_axially(const rf_balls *balls, double thrust, double speed, doub
             step = copysign(reach, rest);
             reach *= 2.0;
         }
+        /* The last step, which may be lost in roundoff, needs no bounds, one of which may still be infinite. */
         const double next = motion[2] + step;
-        motion[2] = next > low && next < high ? next : 0.5 * (low + high);
+        motion[2] = last || (next > low && next < high) ? next : 0.5 * (low + high);
     }
     return RF_STUCK;
 }

@@ -38,13 +38,31 @@ int rf_take_balls(const rf_tables *tables, uint32_t numbers, rf_ball_tables *min
         if (!is_row(rows->numbers + k * RF_BALL_COLUMNS))
             return rf_say(why, RF_INVALID, "row %u must be that of a ball bearing", (unsigned)k);
     const double inertia = given->numbers[0];
-    if (inertia != RF_BALLS_STATIC && inertia != RF_BALLS_OUTER_CONTROL && inertia != RF_BALLS_INNER_CONTROL)
-        return rf_say(why, RF_INVALID, "inertia must be 0, 1 or 2, got %.9g", inertia);
+    if (!(inertia >= RF_BALLS_STATIC && inertia <= RF_BALLS_TRACTION && inertia == floor(inertia)))
+        return rf_say(why, RF_INVALID, "inertia must be 0, 1, 2 or 3, got %.9g", inertia);
     memcpy(mine->rows, rows->numbers, count * sizeof *mine->rows);
     memcpy(mine->waves, waves->numbers, wavy * sizeof *mine->waves);
-    const rf_balls found = {mine->rows, count, 0.0, (int32_t)inertia, 0.0, 0.0, mine->waves, wavy};
+    const rf_balls found = {mine->rows, count, 0.0, {(int32_t)inertia, 0.0, 0.0}, 0.0, 0.0, mine->waves, wavy};
     *balls = found;
     *law = given->numbers;
+    return RF_OK;
+}
+
+size_t rf_ball_law_parameters(const rf_balls *balls)
+{
+    return balls->law.inertia == RF_BALLS_TRACTION ? 2 : 0;
+}
+
+int rf_set_ball_law(rf_balls *balls, const double *p, rf_message *why)
+{
+    static const char *const names[] = {"traction_coefficient", "slide_to_roll_ratio"};
+    for (size_t k = 0; k < rf_ball_law_parameters(balls); ++k)
+        if (!(p[k] > 0.0 && isfinite(p[k])))
+            return rf_say(why, RF_INVALID, "%s must be finite and positive, got %.9g", names[k], p[k]);
+    if (balls->law.inertia == RF_BALLS_TRACTION) {
+        balls->law.traction = p[0];
+        balls->law.slide = p[1];
+    }
     return RF_OK;
 }
 
@@ -61,7 +79,7 @@ int rf_check_balls(const double *p, int count, int damping, rf_message *why)
 const char *rf_ball_text(int status)
 {
     static const char *const said[] = {
-        "", "a ball must be pressed to 4200 MPa at most and need a traction coefficient of at most 0.06", "", "",
+        "", "a ball must be pressed to 4200 MPa at most, and its gyroscopic moment must be held without sliding", "", "",
         "the force is not finite", "", "the balls must find a balance, and the search found none"};
     return said[status];
 }

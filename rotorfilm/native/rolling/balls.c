@@ -83,7 +83,7 @@ int rf_balls_at(const rf_balls *balls, const double *motion, double speed, doubl
             rf_ball ball;
             place(balls, row, motion, angle, &at);
             wave(balls, angle, &at);
-            const int status = rf_ball_at(row, balls->inertia, at.a, speed, &ball);
+            const int status = rf_ball_at(row, &balls->law, at.a, speed, &ball);
             worst = status > worst ? status : worst;
             add(&ball, &at, wrench, by);
             if (each)

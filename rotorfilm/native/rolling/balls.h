@@ -32,7 +32,7 @@ typedef struct rf_balls {
     const rf_ball_row *rows;
     size_t count;
     double growth;   /* of the inner rings, radially against the outer ones [m] */
-    int32_t inertia; /* one of those of ball.h */
+    rf_ball_law law;
     double cage;     /* angle by which the cages are turned further [rad] */
     double shaft;    /* angle of the inner rings, where they have waves [rad] */
     const rf_ball_wave *waves;

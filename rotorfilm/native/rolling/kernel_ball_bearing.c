@@ -2,7 +2,8 @@
 
    Tables: rows, waves and law of ball_tables.h, law of 2: the inertia of the balls, and whether the second parameter is a
    thrust. Parameters: growth [m]; z [m] or the thrust [N]; tilt_x,
-   tilt_y [rad]; angle of the cage [rad], added to that of the rows; damping [N s/m]. Inputs and outputs of a reaction. */
+   tilt_y [rad]; angle of the cage [rad], added to that of the rows; damping [N s/m]; those of the law of the balls in
+   ball_tables.h. Inputs and outputs of a reaction. */
 
 /* Documentation of the FMU
 
@@ -12,14 +13,17 @@
    vector a; e is the unit vector along a contact at the angle alpha, t = de/d(alpha):
 
    Equations:
-   force = - sum over the balls of (Q_i e_i - s_i M t_i) - damping (vx, vy)
-   Q_i e_i - Q_o e_o - M (s_i t_i - s_o t_o) + F_c r = 0,  Q = K d^1.5,  d = distance - free distance, not below 0
-   F_c = mass pitch_diameter orbit^2 / 2,  M = - J orbit spin / ball_diameter,  (s_i, s_o) = (0, 2) or (1, 1)
+   force = - sum over the balls of (Q_i e_i - T_i t_i) - damping (vx, vy)
+   Q_i e_i - Q_o e_o - T_i t_i + T_o t_o + F_c r = 0,  Q = K d^1.5,  d = distance - free distance, not below 0
+   F_c = mass pitch_diameter orbit^2 / 2,  T_i + T_o = 2 M / ball_diameter,  M = - J orbit spin
+   Balls that friction holds: T = traction_coefficient Q slip / S,  S^2 = v0^2 + slip^2 + (3/8 a E spin_k)^2,
+   v0 = slide_to_roll_ratio pitch_diameter speed / 4. Race control: (T_i, T_o) = (0, 2) or (1, 1) M / ball_diameter
 
-   Validity: Dry elastic contacts of rigid rings, balls that roll without sliding and spin on one race only; a ball that
-   leaves the inner race rests on the outer one. Without inertia of the balls F_c and M are zero. The cage stands at the
-   angle that is given. Beyond a contact pressure of 4200 MPa, and where the gyroscopic moment asks for a traction
-   coefficient above 0.06, there is a warning. */
+   Validity: Dry elastic contacts of rigid rings, balls that roll along their orbit without sliding, and under
+   race control spin on one race only; a ball that leaves the inner race rests on the outer one. Without inertia of the balls
+   F_c and M are zero. The cage stands at the angle that is given. Beyond a contact pressure of 4200 MPa, and where the
+   gyroscopic moment asks for more than 0.9 of the traction coefficient (more than 0.06 under race control), there is a
+   warning. */
 #include <stdlib.h>
 
 #include "ball_tables.h"
@@ -39,6 +43,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     *sizes = mine;
     if (rf_take_balls(tables, 2, &self->tables, &self->journal.balls, &law, why))
         return RF_INVALID;
+    sizes->parameters += rf_ball_law_parameters(&self->journal.balls);
     self->journal.is_free = law[1] != 0.0;
     return RF_OK;
 }
@@ -52,7 +57,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
     rf_ball_journal *journal = &self->journal;
-    if (rf_check_balls(p, PARAMETERS, DAMPING, why) != RF_OK)
+    if (rf_check_balls(p, PARAMETERS, DAMPING, why) || rf_set_ball_law(&journal->balls, p + PARAMETERS, why))
         return RF_INVALID;
     journal->balls.growth = p[GROWTH];
     *(journal->is_free ? &journal->thrust : &journal->place[0]) = p[AXIAL];

@@ -1,7 +1,7 @@
 /* Kernel "five_degree_balls": a shaft in ball bearings that moves along x, y, z and tilts about x, y.
 
-   Tables: rows, waves and law of ball_tables.h, law of 1. Parameters: growth [m], damping along x and y [N s/m]. Inputs: x, y,
-   z [m], tilt_x, tilt_y [rad], vx, vy [m/s], speed [rad/s], angles of cage and shaft [rad]. Outputs: force_x, force_y,
+   Tables: rows, waves and law of ball_tables.h, law of 1. Parameters: growth [m], damping along x and y [N s/m], those of
+   the law of the balls in ball_tables.h. Inputs: x, y, z [m], tilt_x, tilt_y [rad], vx, vy [m/s], speed [rad/s], angles of cage and shaft [rad]. Outputs: force_x, force_y,
    force_z [N], moment_x, moment_y [N m]. */
 
 /* Documentation of the FMU
@@ -13,14 +13,17 @@
    derivatives of the distance of the centers of curvature by the motion:
 
    Equations:
-   (force, moment) = - sum over the balls of B' (Q_i e_i - s_i M t_i) - damping (vx, vy, 0, 0, 0)
-   Q_i e_i - Q_o e_o - M (s_i t_i - s_o t_o) + F_c r = 0,  Q = K d^1.5,  d = distance - free distance, not below 0
-   F_c = mass pitch_diameter orbit^2 / 2,  M = - J orbit spin / ball_diameter,  (s_i, s_o) = (0, 2) or (1, 1)
+   (force, moment) = - sum over the balls of B' (Q_i e_i - T_i t_i) - damping (vx, vy, 0, 0, 0)
+   Q_i e_i - Q_o e_o - T_i t_i + T_o t_o + F_c r = 0,  Q = K d^1.5,  d = distance - free distance, not below 0
+   F_c = mass pitch_diameter orbit^2 / 2,  T_i + T_o = 2 M / ball_diameter,  M = - J orbit spin
+   Balls that friction holds: T = traction_coefficient Q slip / S,  S^2 = v0^2 + slip^2 + (3/8 a E spin_k)^2,
+   v0 = slide_to_roll_ratio pitch_diameter speed / 4. Race control: (T_i, T_o) = (0, 2) or (1, 1) M / ball_diameter
 
-   Validity: Dry elastic contacts of rigid rings, balls that roll without sliding and spin on one race only; a ball that
-   leaves the inner race rests on the outer one. Without inertia of the balls F_c and M are zero. Waves of the races change
-   the distance of the centers of curvature; those of the inner one turn with the angle of the shaft. Beyond a contact
-   pressure of 4200 MPa, and where the gyroscopic moment asks for a traction coefficient above 0.06, there is a warning. */
+   Validity: Dry elastic contacts of rigid rings, balls that roll along their orbit without sliding, and under
+   race control spin on one race only; a ball that leaves the inner race rests on the outer one. Without inertia of the balls
+   F_c and M are zero. Waves of the races change the distance of the centers of curvature; those of the inner one turn with
+   the angle of the shaft. Beyond a contact pressure of 4200 MPa, and where the gyroscopic moment asks for more than 0.9 of
+   the traction coefficient (more than 0.06 under race control), there is a warning. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -41,7 +44,10 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     model *self = kernel;
     const double *law;
     *sizes = mine;
-    return rf_take_balls(tables, 1, &self->tables, &self->balls, &law, why);
+    if (rf_take_balls(tables, 1, &self->tables, &self->balls, &law, why))
+        return RF_INVALID;
+    sizes->parameters += rf_ball_law_parameters(&self->balls);
+    return RF_OK;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -52,7 +58,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
-    if (rf_check_balls(p, PARAMETERS, DAMPING, why) != RF_OK)
+    if (rf_check_balls(p, PARAMETERS, DAMPING, why) || rf_set_ball_law(&self->balls, p + PARAMETERS, why))
         return RF_INVALID;
     self->balls.growth = p[GROWTH];
     self->damping = p[DAMPING];

@@ -107,11 +107,20 @@ static double adapt(double error, const rf_method *method, int rejected)
     return factor < LEAST ? LEAST : factor > most ? most : factor;
 }
 
+/* The step became too short; the cause is what stopped attempts since the last step, empty where that was their error. */
 static int stuck(double t, double end, double h, const rf_message *cause, rf_message *why)
 {
     return rf_say(why, RF_STUCK,
                   "the integration cannot reach %.9g s from %.9g s, its step fell to %.3g s: %.200s", end, t,
                   h, cause->text[0] ? cause->text : "the tolerance cannot be met");
+}
+
+static int worn_out(double t, double end, rf_message *why)
+{
+    return rf_say(why, RF_STUCK,
+                  "the integration reached %.9g s of %.9g s within %d steps, the most in one call: ask for shorter "
+                  "communication steps or a larger tolerance",
+                  t, end, RF_MOST_STEPS);
 }
 
 /* The step size, no longer than the rest; where a new one is costly, the rest in equal parts. */
@@ -146,7 +155,8 @@ static int run_piece(rf_piece *p, double *t, double *x, rf_message *why)
     for (int count = 0; count < RF_MOST_STEPS; ++count) {
         h = fitted(h, p->end - *t, method->costly);
         const int last = *t + h >= p->end || h >= p->end - *t;
-        const int status = method->attempt(p, *t, h, x, &cause);
+        rf_message said = {""};
+        const int status = method->attempt(p, *t, h, x, &said);
         const double error = status <= RF_OUTSIDE ? error_of(p, x) : HUGE_VAL;
         const int accepted = error <= 1.0, before = p->last;
         if (accepted) {
@@ -161,12 +171,16 @@ static int run_piece(rf_piece *p, double *t, double *x, rf_message *why)
             if (*t >= p->end)
                 return RF_OK;
         }
+        if (status > RF_OUTSIDE)
+            cause = said;
+        else if (accepted && before == RF_ACCEPTED)
+            cause.text[0] = '\0';
         p->last = accepted ? RF_ACCEPTED : before == RF_FIRST && status > RF_OUTSIDE ? RF_FIRST : RF_REJECTED;
         h *= adapt(error, method, before == RF_REJECTED || !accepted);
         if (h < 10.0 * (nextafter(fabs(*t), HUGE_VAL) - fabs(*t)))
-            break;
+            return stuck(*t, p->end, h, &cause, why);
     }
-    return stuck(*t, p->end, h, &cause, why);
+    return worn_out(*t, p->end, why);
 }
 
 int rf_integrate(const rf_integration *job, double *t, double *x, const double *u, double end,

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...answers import ErrorEstimate, Found, Work, WorkUnit, beside_bound
-from ...bearings.rolling import BallBearing, RunningBalls, StaticBalls, palmgren_stiffness, stribeck_load
+from ...bearings.rolling import (
+    FRICTION_LIMITS,
+    BallBearing,
+    RaceControl,
+    RunningBalls,
+    StaticBalls,
+    palmgren_stiffness,
+    stribeck_load,
+)
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...model import Array
@@ -64,7 +72,7 @@ class BallRung(BaseRung):
     def rich(self) -> Balls:
         """The bearing with running balls; those of this rung if it has them."""
         single = single_of(self.bearing)
-        law = single.law if isinstance(single.law, RunningBalls) else RunningBalls()
+        law = RunningBalls() if isinstance(single.law, StaticBalls) else single.law
         return with_single(self.bearing, replace(single, law=law))
 
     def moved(self, value: Array | float, near: RestingBalls) -> ErrorEstimate:
@@ -200,8 +208,8 @@ def ball_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         remarks=scene.film_remarks,
         within=DRY if question.oil is None else WITHIN,
-        assumptions=lambda: control_moves(table.build(), question),
         distance=question.distance,
+        assumptions=lambda: friction_moves(table.build(), question),
     )
 
 
@@ -218,21 +226,39 @@ def rungs_of(bearing: Balls, question: BallQuestion, *, fixed: bool) -> tuple[Ru
     return rungs if question.oil is None else (*rungs, FilmsRung(bearing=bearing, question=question))
 
 
-def control_moves(bearing: Balls, question: BallQuestion) -> tuple[str, ...]:
-    """Return how much it moves the answer that one race is taken to control the spin, if that counts."""
+def friction_moves(bearing: Balls, question: BallQuestion) -> tuple[str, ...]:
+    """Return how much it moves the answer what is taken for the friction of running balls, if that counts.
+
+    Traction coefficient and slide-to-roll ratio are halved and doubled; under race control, the other race
+    controls.
+    """
     single = single_of(bearing)
-    if not isinstance(single.law, RunningBalls) or question.speed == 0.0:
+    if question.speed == 0.0 or isinstance(single.law, StaticBalls):
         return ()
-    other = replace(single.law, outer_control=not single.law.outer_control)
     try:
-        known, moved = (
-            question.value(question.rest(one))
-            for one in (bearing, with_single(bearing, replace(single, law=other)))
+        known = question.value(question.rest(bearing))
+        change = max(
+            question.distance(
+                known, question.value(question.rest(with_single(bearing, replace(single, law=law))))
+            )
+            for law in other_friction(single.law)
         )
     except RotorfilmError:
         return ()
-    which = "outer" if single.law.outer_control else "inner"
-    change = question.distance(known, moved)
     if change < 1e-3:
         return ()
+    if isinstance(single.law, RunningBalls):
+        return (f"friction of balls: half or double its numbers would change it by {change:.1%}",)
+    which = "outer" if single.law.outer_control else "inner"
     return (f"{which} race control: control by the other race would change it by {change:.1%}",)
+
+
+def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceControl]:
+    """Return laws between which that of a real bearing may lie."""
+    if isinstance(law, RaceControl):
+        return [replace(law, outer_control=not law.outer_control)]
+    return [
+        replace(law, **{name: min(max(factor * getattr(law, name), least), most)})
+        for name, (least, most) in FRICTION_LIMITS.items()
+        for factor in (0.5, 2.0)
+    ]

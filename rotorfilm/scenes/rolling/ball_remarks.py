@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...bearings.rolling import MOST_TRACTION, BearingPair, RunningBalls, StaticBalls
+from ...bearings.rolling import BearingPair, RunningBalls, StaticBalls
 from ...errors import RotorfilmError, ValidityWarning
 from ...model import Array
 from ..remarks import Remark, said
@@ -21,10 +21,10 @@ HEAVY = 0.06
 
 REMARKS = (
     Remark(
-        "traction",
-        MOST_TRACTION,
+        "sliding",
+        1.0,
         "sliding: the gyroscopic moment asks for a traction coefficient of {traction:.3g}, and balls slide "
-        "beyond about 0.06",
+        "beyond about {most_traction:.3g}",
     ),
     Remark(
         "lifted",
@@ -62,6 +62,7 @@ def ball_numbers(rest: RestingBalls, oil: RaceOil | None, roughness: float | Non
     -------
     dict of str to float
         traction : traction coefficient that the gyroscopic moment asks for.
+        most_traction : that beyond which balls slide; sliding : the first over it.
         lifted : balls that the rings do not press although thrust or preload should; all : all balls.
         idle_rows : rows of a preloaded pair whose balls are not pressed.
         neglected_inertia : centrifugal force over the largest contact load of static balls; else 0.
@@ -69,9 +70,12 @@ def ball_numbers(rest: RestingBalls, oil: RaceOil | None, roughness: float | Non
     """
     balls, bearing = rest.balls, rest.bearing
     idle = _idle(rest)
+    traction, most = float(balls.traction.max()), bearing.running[0].most_traction
     known = oil is not None and roughness is not None and rest.speed != 0.0
     return {
-        "traction": float(balls.traction.max()),
+        "traction": traction,
+        "most_traction": most,
+        "sliding": traction / most,
         "lifted": float(idle.sum()),
         "all": float(idle.size),
         "idle_rows": float(_idle_rows(bearing, idle)),

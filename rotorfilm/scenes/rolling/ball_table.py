@@ -9,6 +9,7 @@ from typing import Annotated, Any, Self
 from ...bearings.rolling import (
     BallBearing,
     BearingPair,
+    RaceControl,
     RollingMaterial,
     RunningBalls,
     StaticBalls,
@@ -43,7 +44,13 @@ OWN_MATERIAL = Keyed(
     RollingMaterial,
     {"young_modulus": Quantity("Pa"), "poisson_ratio": Quantity("1"), "density": Quantity("kg/m3")},
 )
-INERTIAS = {"static": StaticBalls, "running": RunningBalls}
+INERTIAS = {"static": StaticBalls, "running": RunningBalls, "race_control": RaceControl}
+BALL_LAWS = {
+    "traction_coefficient": RunningBalls,
+    "slide_to_roll_ratio": RunningBalls,
+    "outer_control": RaceControl,
+}
+"""Which law a number of the table belongs to."""
 
 
 @takes(Named(MATERIALS), Table(OWN_MATERIAL))
@@ -98,10 +105,13 @@ class BallTable:
         Of the rows of a pair.
     preload : float or None [N]
         Of a pair, as clamped at rest, dry and without growth.
-    inertia : StaticBalls or RunningBalls or None
-        "static" or "running" balls; if the file does not say, running ones, or what a question needs.
-    outer_control : bool
-        Whether running balls spin on the inner race only.
+    inertia : StaticBalls or RunningBalls or RaceControl or None
+        "static" balls, "running" ones that friction holds, or "race_control"; if the file does not say,
+        running ones, or what a question needs.
+    traction_coefficient, slide_to_roll_ratio : float or None [1]
+        Of running balls; None for 0.06 and 0.005.
+    outer_control : bool or None
+        Whether balls under race control spin on the inner race only; None for true.
     viscosity : float or None [Pa s]
         Of the oil on the races; None without oil, or where `[lubricant]` gives it.
     pressure_coefficient : float or None [1/Pa]
@@ -128,8 +138,10 @@ class BallTable:
     arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
     distance: Annotated[float | None, Quantity("m")] = None
     preload: Annotated[float | None, Quantity("N")] = None
-    inertia: Annotated[StaticBalls | RunningBalls | None, Named(INERTIAS)] = None
-    outer_control: Annotated[bool, flag] = True
+    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, Named(INERTIAS)] = None
+    traction_coefficient: Annotated[float | None, Quantity("1")] = None
+    slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
+    outer_control: Annotated[bool | None, flag] = None
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
     pressure_coefficient: Annotated[float | None, Quantity("1/Pa")] = None
     roughness: Annotated[float | None, Quantity("m")] = None
@@ -176,11 +188,19 @@ class BallTable:
         fresh = lubricant.cooling.supply_temperature
         return replace(self, viscosity=float(lubricant.oil.viscosity(fresh)))
 
+    def _law(self) -> StaticBalls | RunningBalls | RaceControl:
+        """Return the law of the balls with the numbers that the file gives."""
+        law = self.inertia or RunningBalls()
+        given = {name: getattr(self, name) for name in BALL_LAWS if getattr(self, name) is not None}
+        for name, value in given.items():
+            if not isinstance(law, BALL_LAWS[name]):
+                called = next(one for one, kind in INERTIAS.items() if kind is BALL_LAWS[name])
+                raise InputError(f"{name} must be given with inertia {called!r}, got {value!r}")
+        return replace(law, **given)
+
     def build(self) -> Balls:
         """Return the bearing, its contacts dry; raise InputError where a value breaks its rule."""
-        law = self.inertia or RunningBalls()
-        if isinstance(law, RunningBalls):
-            law = RunningBalls(outer_control=self.outer_control)
+        law = self._law()
         place = {
             name: getattr(self, name) for name in ("axial_displacement", "axial_load", "tilt", "damping")
         }
@@ -214,8 +234,15 @@ class BallTable:
         """Do nothing: ball bearings have no map."""
 
 
+LAW_NAMES = {
+    StaticBalls: "static balls",
+    RunningBalls: "running balls",
+    RaceControl: "running balls under race control",
+}
+
+
 def law_name(bearing: Balls) -> str:
     """Return what the law of the balls is called in print."""
     single = single_of(bearing)
-    name = "static balls" if isinstance(single.law, StaticBalls) else "running balls"
+    name = next(called for law, called in LAW_NAMES.items() if isinstance(single.law, law))
     return f"{name} on films" if any(single.films) else name

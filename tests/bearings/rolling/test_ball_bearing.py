@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from scipy.optimize import brentq
 
 from rotorfilm import (
     BallBearing,
@@ -190,6 +191,22 @@ def test_a_shaft_under_thrust_gives_way_along_its_axis(speed):
     assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(slopes[:, 0], rel=1e-6)
 
 
+@pytest.mark.filterwarnings("ignore:a ball carries", "ignore:the gyroscopic moment")
+def test_a_shaft_under_thrust_finds_its_place_across_the_whole_way():
+    # Newton's method may end from one side, while the other bound of the search is still infinite.
+    held = BallBearing(
+        balls=9, ball_diameter=8e-3, pitch_diameter=33e-3, contact_angle=0.35, axial_load=100.0
+    )
+    radii = np.linspace(5e-7, 1.5e-4, 300)
+    force = held.force([radii, 0.0 * radii], [0.0, 0.0], 157.0)
+    assert np.all(np.diff(force[0]) < 0.0)
+    for r in radii[::20]:
+        u = [r, 0.0, held.axial_place([r, 0.0], 157.0), 0.0, 0.0]
+        thrust = lambda z, r=r: held.wrench([r, 0.0, z, 0.0, 0.0], 157.0)[2] + 100.0  # noqa: E731
+        root = brentq(thrust, -3e-4, 3e-4, xtol=1e-15)
+        assert u[2] == pytest.approx(root, abs=1e-14)
+
+
 def test_batches_and_damping():
     bearing = replace(DEEP, damping=250.0)
     q, v = np.array([[0.0, 3e-6, 9e-6], [-8e-6, -9e-6, 1e-6]]), np.array([[0.1, 0.0, 0.2], [0.0, 0.1, 0.0]])
@@ -261,7 +278,9 @@ def test_errors_name_argument_rule_and_value():
         replace(DEEP, balls=3, ball_diameter=32e-3)
     with pytest.raises(InputError, match="axial_load must be a single finite number, got nan"):
         replace(DEEP, axial_load=math.nan)
-    with pytest.raises(InputError, match=r"law must be RunningBalls\(\) or StaticBalls\(\), got"):
+    with pytest.raises(
+        InputError, match=r"law must be RunningBalls\(\), RaceControl\(\) or StaticBalls\(\), got"
+    ):
         replace(DEEP, law=7)
     with pytest.raises(InputError, match=r"position must have shape \(2,\), got shape \(2, 3\)"):
         DEEP.axial_place(np.zeros((2, 3)))

@@ -11,7 +11,7 @@ from rotorfilm import (
     BearingPair,
     EquilibriumError,
     InputError,
-    RunningBalls,
+    RaceControl,
     StaticBalls,
     back_to_back,
     coefficients,
@@ -103,7 +103,7 @@ def test_tandem_shares_the_thrust():
 
 @pytest.mark.closed_form
 def test_speed_and_growth_change_the_preload():
-    pair = back_to_back(replace(ONE, law=RunningBalls()), distance=0.02, preload=PRELOAD)
+    pair = back_to_back(replace(ONE, law=RaceControl()), distance=0.02, preload=PRELOAD)
     grown = replace(pair, bearing=replace(pair.bearing, growth=2e-6))
     assert grown.approach == pytest.approx(pair.approach, rel=1e-12)
     assert grown.running_preload() > 1.1 * PRELOAD

@@ -10,6 +10,7 @@ from scipy.special import ellipe, ellipk
 
 from rotorfilm import (
     BallBearing,
+    RaceControl,
     RunningBalls,
     StaticBalls,
     back_to_back,
@@ -44,7 +45,7 @@ def least_energy(bearing, load, speed):
     inner, outer = hertz(pitch, 1.0), hertz(pitch, -1.0)
     angles = bearing.cage_angle + 2.0 * math.pi * np.arange(Z) / Z
     n = np.array([np.cos(angles), np.sin(angles)])
-    orbit = 0.5 * (1.0 - D / pitch) * speed if isinstance(bearing.law, RunningBalls) else 0.0
+    orbit = 0.5 * (1.0 - D / pitch) * speed if not isinstance(bearing.law, StaticBalls) else 0.0
     out = bearing.ball_mass * orbit**2 * pitch / 2.0
     unit, work = 1e-6, 1e-6 * math.hypot(*load)
     lowest = (out / outer) ** (2.0 / 3.0)  # a ball that only its inertia presses
@@ -83,7 +84,7 @@ def draw(seed):
     """Return a bearing, a load [N] and a speed at random."""
     rng = np.random.default_rng(seed)
     balls = int(rng.integers(6, 13))
-    law = (StaticBalls(), RunningBalls(), RunningBalls(outer_control=False))[seed % 3]
+    law = (StaticBalls(), RunningBalls(), RaceControl(outer_control=False))[seed % 3]
     bearing = BallBearing(
         balls=balls,
         ball_diameter=D,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotorfilm import BallBearing, RunningBalls, StaticBalls, back_to_back, variable_compliance
+from rotorfilm import BallBearing, RaceControl, StaticBalls, back_to_back, variable_compliance
 
 PAGE = (Path(__file__).parents[3] / "docs/rolling.md").read_text(encoding="utf-8")
 RPM = math.pi / 30.0
@@ -54,9 +54,9 @@ def test_what_speed_takes_of_the_stiffness():
         for thrust, rpm in cases
     ]
     assert found == pytest.approx(wanted, rel=0.02)
-    inner = replace(ANGULAR, law=RunningBalls(outer_control=False))
     one, other = (
-        bearing.rest((0.0, 0.0, 500.0, 0.0, 0.0), 30000.0 * RPM).balls for bearing in (ANGULAR, inner)
+        replace(ANGULAR, law=law).rest((0.0, 0.0, 500.0, 0.0, 0.0), 30000.0 * RPM).balls
+        for law in (RaceControl(), RaceControl(outer_control=False))
     )
     share, angle = printed(r"some (\d+) % of the centrifugal force and (\d+) deg of the inner contact angle")
     assert 100.0 * (1.0 - other.centrifugal_force[0] / one.centrifugal_force[0]) == pytest.approx(

@@ -137,9 +137,13 @@ class TurningBalls(Called):
         bearing, state = self.bearing, u.tolist()
         z, status = bearing.kernel.axial_place(*state, cage=cage, shaft=shaft)
         if status == Status.STUCK and bearing.axial_load is not None:
+            got = f"{bearing.axial_load!r} N at {state[:2]} m, {state[4]!r} rad/s, cage angle {cage!r} rad"
             raise ConvergenceError(
-                f"axial_load must be one that the balls can carry, got {bearing.axial_load!r} N at "
-                f"{state[:2]} m, {state[4]!r} rad/s and a cage angle of {cage!r} rad"
+                bearing.why_no_rest(
+                    "axial_load",
+                    got,
+                    lambda kernel: kernel.axial_place(*state, cage=cage, shaft=shaft)[1],
+                )
             )
         motion = np.array([*state[:2], z, *bearing.tilt])
         at = bearing.kernel.at(motion, state[4], cage, shaft)
