@@ -73,8 +73,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         A `ValidityWarning` tells of a film beyond its map, of a mean pressure |load|/(2 radius length) above
         half of the bulk modulus of a mineral oil, of a film that is not laminar (Reynolds number speed radius
         clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)), and of a temperature beyond
-        the viscosity law of the oil. Another tells of an equilibrium that is statically unstable: the stiffness
-        in slow motion has a negative real eigenvalue.
+        the viscosity law of the oil. Another tells of an equilibrium that is statically unstable: the
+        stiffness in slow motion has a negative real eigenvalue.
 
     Raises
     ------
