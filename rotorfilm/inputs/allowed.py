@@ -205,8 +205,8 @@ def _path(value: Any) -> str:
 
 
 def _numbers(value: Any) -> str:
-    """Check numbers or arrays of them, not-a-number among them: where data may lack."""
-    if isinstance(value, np.ndarray) and value.dtype.kind in "fiu":
+    """Check numbers or arrays of them, not-a-number among them, where data may lack, and complex phasors."""
+    if isinstance(value, np.ndarray) and value.dtype.kind in "fiuc":
         return ""
     if isinstance(value, bool | str | bytes | Mapping | NoneType):
         return "numeric"

@@ -420,7 +420,7 @@ def test_a_frequency_that_is_none_is_refused(ask, value):
 
 
 def test_a_frequency_beyond_all_asks_for_all():
-    assert rotor_modes(long_rotor(30), SPRINGS, 1.0, 1e308).eigenvalues.size == 244
+    assert rotor_modes(long_rotor(30), SPRINGS, 1.0, 1e149).eigenvalues.size == 244
 
 
 @pytest.mark.parametrize("speed", [math.nan, math.inf, [1.0, 2.0]])
