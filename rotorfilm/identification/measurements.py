@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, brief, require_finite, require_positive
-from ..model import Array
-from ..units import parse_quantity
+from ..core.errors import InputError, brief, require_finite, require_positive
+from ..core.model import Array
+from ..core.units import parse_quantity
 
 QUANTITIES = {
     "x": "m",

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from rotorfilm import BallSupport, ContactLaw, InputError, RigidRotor, coefficients, equilibrium, simulate
-from rotorfilm.model import Dynamic, Reaction, Switched
+from rotorfilm.core.model import Dynamic, Reaction, Switched
 
 ANGLES = (math.radians(-135), math.radians(-90), math.radians(-45), math.radians(90))
 

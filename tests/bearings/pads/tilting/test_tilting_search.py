@@ -13,8 +13,7 @@ from rotorfilm import (
     equilibrium,
     even_pivots,
 )
-from rotorfilm.bearings.pads.tilting.held_pads import TURN
-from rotorfilm.bearings.pads.tilting.pivots import directions
+from rotorfilm.bearings.pads.tilting_pads import TURN, directions
 
 SPEED = 300.0
 
@@ -22,7 +21,7 @@ SPEED = 300.0
 @pytest.mark.closed_form
 @pytest.mark.parametrize("heavy", [0.5, 10.0])
 @pytest.mark.parametrize("side", [1e-3, -1e-3, 1e-4])
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, heavy):
     bearing = tilting(3, 0.5, 80.0, -0.2, cells=(16, 4))
     load = heavy * bearing.force_scale * SPEED * np.array([side, -1.0])
@@ -39,7 +38,7 @@ def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, h
     assert abs(at.position[0]) > 0.3 * bearing.clearance
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_an_overloaded_pad_is_told_as_an_overloaded_journal_is():
     bearing = TiltingPadBearing(
         radius=0.04,
