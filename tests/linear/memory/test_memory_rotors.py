@@ -21,8 +21,8 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.linear.large import remembered
-from rotorfilm.linear.large.remembered import rotor_growing
+from rotorfilm.analysis import frequency_dependent as remembered
+from rotorfilm.analysis.frequency_dependent import rotor_growing
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RIGID = RigidShaft(
