@@ -212,7 +212,7 @@ def _numbers(value: Any) -> str:
         return "numeric"
     try:
         array = np.asarray(value)
-        right = array.dtype.kind in "fiub" or (
+        right = array.dtype.kind in ("fiubc" if array.ndim else "fiub") or (
             array.dtype.kind == "O" and np.asarray(value, dtype=float).size
         )
     except (TypeError, ValueError, OverflowError):
