@@ -73,7 +73,7 @@ class _Fit(NamedTuple):
         lags = -self.decay * (np.eye(order) + 2.0 * np.tril(np.ones((order, order)), -1))
         static = self.still - np.tensordot(_at_rest(order, self.decay), self.parts, 1)
         return Linearization(
-            np.kron(np.eye(2), lags),
+            np.asarray(np.kron(np.eye(2), lags), dtype=float),
             np.hstack([np.kron(np.eye(2), np.ones((order, 1))), np.zeros((2 * order, 2))]),
             -np.transpose(self.parts, (1, 2, 0)).reshape(2, 2 * order),
             np.hstack([-static, -self.damping]),
