@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,15 @@ class DynamicStiffness(Protocol):
         ----------
         s : complex [1/s]
         """
+
+
+@runtime_checkable
+class StateSpaceStiffness(Protocol):
+    """A `DynamicStiffness` of states that follow the journal, which a rotor may take as states of its own."""
+
+    @property
+    def at(self) -> Linearization:
+        """The states about the rest; its inputs begin with x, y, vx, vy, its outputs with the force."""
 
 
 @dataclass(frozen=True)

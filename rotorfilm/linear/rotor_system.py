@@ -9,19 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.inertial_model import added_mass
 from ..errors import InputError, warn_user
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor, require_flexible, translations
-from ..rotors.stations import station_name
-from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .large.driven import DrivenResponse, with_rates
-from .large.second_order import rest_near, second_order, small_motion
-from .large.tilting import film_rows
-from .large.work import SOLVED, counted, tally, with_work
+from .large.second_order import rest_near, small_motion
+from .large.state_space import response_rows, rotor_states
+from .large.work import SOLVED, counted, with_work
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 from .rotor_threshold import first_growing
@@ -52,7 +49,16 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
         opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
         bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
-        the counters `work` of `unbalance_response`.
+        the counters `work` of `unbalance_response`. States of bearings whose stiffness is K(s) follow those
+        of the rotor, as `left_memory_0`: tilting pads and lubricated balls exactly, a film that conserves
+        its oil with an error up to 1e-3 at frequencies up to that of the shaft, as `film_system`.
+
+    Raises
+    ------
+    InputError
+        If the shaft has a loss factor, or rests on a film that conserves its oil and does not turn.
+    ConvergenceError
+        As `film_system`.
     """
     return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
 
@@ -77,7 +83,8 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground. With its counters `work`.
+        [m/s2]. Outputs and states: as of `rotor_system`, displacements from the ground. With its counters
+        `work`, and its errors.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
@@ -110,7 +117,7 @@ def base_response(
     responses, labels = [], names(rotor.outputs)
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
-        sense, labels = _outputs(rotor, near)
+        sense, labels = response_rows(rotor, near)
         moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
         responses.append(sense @ with_rates(moved, frequency))
     import control
@@ -195,7 +202,7 @@ def synchronous_response(
     with counted(*SOLVED) as work:
         for speed in grid:
             at, motion = turned.at(float(speed), amplitudes(float(speed)))
-            sense, labels = _outputs(rotor, at)
+            sense, labels = response_rows(rotor, at)
             responses.append(sense @ motion)
     data = np.stack(responses, axis=-1)
     import control
@@ -241,7 +248,7 @@ def rotor_transmissibility(
     with counted(*SOLVED) as work:
         for speed in grid:
             at, motion = shaken.at(float(speed), np.eye(len(push)))
-            sense, labels = _outputs(rotor, at)
+            sense, labels = response_rows(rotor, at)
             wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
             responses.append(sense[wanted] @ motion)
     if not wanted:
@@ -262,39 +269,9 @@ def _state_space(
     rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array, inputs: Sequence[str], name: str | None
 ) -> control.StateSpace:
     """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
-    if rotor.structure.hysteresis is not None:
-        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    mass, damping, stiffness = second_order(rotor.structure, at)
-    n = len(mass)
     with counted(*SOLVED) as work:
-        tally("factorizations")
-        motion, pushed = np.split(
-            np.linalg.solve(mass, np.hstack([-stiffness, -damping, loads])), [2 * n], axis=1
-        )
-    sense, labels = _outputs(rotor, at)
-    by_state, by_acceleration = sense[:, : 2 * n], sense[:, 2 * n :]
+        found = rotor_states(rotor, at, loads)
     system = control_system(
-        np.vstack([np.eye(n, 2 * n, n), motion]),
-        np.vstack([np.zeros_like(pushed), pushed]),
-        by_state + by_acceleration @ motion,
-        by_acceleration @ pushed,
-        inputs=inputs,
-        outputs=labels,
-        states=names(rotor.states),
-        name=name,
+        *found.matrices, inputs=inputs, outputs=found.outputs, states=found.states, name=name
     )
     return with_work(system, work)
-
-
-def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
-    """Return rows over (q, q', q'') and names of all outputs."""
-    s = rotor.assembly
-    own = output_rows(s)
-    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
-    labels = names(rotor.outputs)[:-1]
-    for name, film in at.coefficients.items():
-        felt = film_rows(s, name, len(film.stiffness))
-        parts = (film.stiffness, film.damping, added_mass(film))
-        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
-        labels += [station_name(name, signal) for signal in HOUSING]
-    return np.vstack(rows), labels

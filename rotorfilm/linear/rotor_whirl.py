@@ -14,8 +14,8 @@ from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .coefficients import coefficients
 from .equilibrium import equilibrium
-from .large.inverse_iteration import CONVERGED, PATIENCE, ROUNDED, dynamics, mode_near
-from .large.second_order import journal_rows, second_order, small_motion
+from .large.inverse_iteration import CONVERGED, PATIENCE, ROUNDED, dynamics, whirl_near
+from .large.second_order import coefficients_near, journal_rows, rest_near, second_order
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 from .speed_events import SpeedEvent
 
@@ -46,7 +46,7 @@ class Start(NamedTuple):
 
 
 class Whirl(NamedTuple):
-    """A whirl in L(s) = s^2 M + s C + K, all at one speed.
+    """A whirl in L(s) = s^2 M + s C + K, all at one speed; K and C are K(s) and its slope of films with it.
 
     Attributes
     ----------
@@ -69,22 +69,27 @@ def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquil
 
 
 def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
-    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s)."""
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
-    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
+    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, s, STEP).items():
         rows = journal_rows(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
-    _, slope = dynamics(second_order(structure, whirl.at), s)
+    _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
     return complex(-(left @ changed) / (left @ slope @ right))
 
 
-def coefficient_rates(films: RotorFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
-    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
+def coefficient_rates(
+    films: RotorFilms, at: RotorEquilibrium, s: complex, step: float
+) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart.
+
+    Of a film with K(s) they are those of its matrices near the exponent s.
+    """
     rates = {}
     for name, film in films.turning.items():
         low, high = (
-            coefficients(film, equilibrium(film, at.loads[name], speed).position, speed)
+            coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
         )
         width = 2.0 * step * at.speed
@@ -104,8 +109,7 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: 
     speed, value, load = start
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, reactions, speed)
-        system = small_motion(rotor.structure, at, event.frequency(value, speed))
-        whirl = Whirl(at, *mode_near(system, value, load))
+        whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
         lead = event.lead(whirl.value, speed)
         if abs(lead) < CONVERGED * speed:
             return whirl, count

@@ -24,7 +24,7 @@ from ...inputs.si_arguments import quantities
 from ..ellipse import Ellipse, require_ellipticity
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
-from .film.contact_scheme import ContactScheme, UpwindScheme
+from .film.contact_scheme import ContactScheme, StaggeredScheme, UpwindScheme
 from .film.film_equations import ContactEquations
 from .film.pressure_fluid import BarusViscosity, DowsonHigginsonDensity, Piezoviscosity
 from .film.stationary import follow, stationary
@@ -91,6 +91,8 @@ class PointContact:
         for name, kind in kinds.items():
             if not isinstance(getattr(self, name), kind):
                 raise InputError(f"{name} must be a {kind.__name__}, got {getattr(self, name)!r}")
+        if self.grid.focus is not None and not isinstance(self.scheme, StaggeredScheme):
+            raise InputError(f"scheme must be StaggeredScheme() on graded cells, got {self.scheme!r}")
         require_kind(
             "density", self.density, DowsonHigginsonDensity | None, "a DowsonHigginsonDensity or None"
         )

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import require_inside
 from ...model import Array
 from ..reaction import broadcast_state
-from .law import CENTER, FilmLaw
+from .law import CENTER, FilmLaw, FilmOptions, options
 
 ROUNDOFF = 1e-14
 """A source below this fraction of its two terms is their cancellation, hence zero."""
@@ -55,14 +55,14 @@ class BoundLaw:
         """Return the force [N], shape (2, ...)."""
         eccentricity, source = kinematics(position, velocity, speed, self.clearance)
         mirror = self._mirror(speed)
-        film = self.law.force(mirror * eccentricity, mirror * source, self.slenderness)
+        film = self._in_mirror("force", (2,), mirror, eccentricity, source)
         return self.force_per_rate * mirror * film
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
         eccentricity, source = kinematics(self._off_center(position), velocity, speed, self.clearance)
         mirror = self._mirror(speed)
-        film = self.law.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
+        film = self._in_mirror("jacobian", (2, 4), mirror, eccentricity, source)
         film = self.force_per_rate * mirror[:, None] * film * np.tile(mirror, (2, *(1,) * speed.ndim))
         by_eccentricity, by_source = film[:, :2], film[:, 2:]
         # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
@@ -70,6 +70,19 @@ class BoundLaw:
         by_position = (by_eccentricity - 0.5 * speed * turned) / self.clearance
         by_speed = 0.5 * (by_source[:, 0] * eccentricity[1] - by_source[:, 1] * eccentricity[0])
         return np.concatenate([by_position, by_source / self.clearance, by_speed[:, None]], axis=1)
+
+    def _in_mirror(
+        self, what: str, shape: tuple[int, ...], mirror: Array, eccentricity: Array, source: Array
+    ) -> Array:
+        """Return what the law says where nothing is mirrored, and what its image says where something is."""
+        image, turned = options(self.law, FilmOptions).mirrored(), mirror[1] < 0.0
+        e, w = mirror * eccentricity, mirror * source
+        if image is None or not turned.any():
+            return np.asarray(getattr(self.law, what)(e, w, self.slenderness))
+        found = np.empty((*shape, *turned.shape))
+        for law, some in ((self.law, ~turned), (image, turned)):
+            found[..., some] = getattr(law, what)(e[:, some], w[:, some], self.slenderness)
+        return found
 
     def _off_center(self, position: Array) -> Array:
         """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from .rupture.complementarity_arc import ComplementarityArc as ComplementarityArc
     from .rupture.reynolds_arc import ReynoldsArc as ReynoldsArc
     from .rupture.rupture import FixedArc as FixedArc, RotatingArc as RotatingArc, Rupture
+    from .rupture.slit_arc import SlitArc as SlitArc
     from .short_film import ShortFilm as ShortFilm
     from .splitting.spectral_film import SpectralArcFilm as SpectralArcFilm
     from .splitting.splitting_film import SplittingFilm as SplittingFilm

@@ -20,7 +20,7 @@ from .extrapolated_film import ExtrapolatedFilm
 from .grooves.grooved_film import GroovedMapFilm
 from .map.map_film import MapFilm
 from .reynolds_film import ReynoldsFilm
-from .rupture.rupture import Rupture
+from .rupture.rupture import Rupture, attitude_of
 from .rupture.trial_integrals import whitened_functions
 from .short_film import ShortFilm
 from .splitting.spectral_film import SpectralArcFilm
@@ -116,7 +116,7 @@ def splitting_pressure(
         p / (12 viscosity (R/c)^2).
     """
     frame = polar_frame(eccentricity, source)
-    arc = film.rupture.arc(frame.chi, frame.turn, slenderness, film.basis)
+    arc = film.rupture.arc(frame.chi, frame.turn, slenderness, film.basis, attitude_of(frame))
     here = whitened_functions(frame.chi, arc.start, arc.end, film.basis)
     gamma = here.nodes.gamma
     g = frame.source[:, :1] * np.sin(gamma) + frame.source[:, 1:] * np.cos(gamma)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy import sparse
 
@@ -51,32 +49,20 @@ def _unit(vector: np.ndarray) -> np.ndarray:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def mode_near(
-    system: SecondOrder, value: complex, load: np.ndarray
+def whirl_near(
+    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, load: np.ndarray
 ) -> tuple[complex, np.ndarray, np.ndarray]:
-    """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
+    """Return the eigenvalue of a rotor about its rest next to another one, and its right and left vector.
+
+    Its shape is like that under a load; hysteresis is that at a frequency [rad/s]. Films that remember have
+    K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
 
     Raises
     ------
     ConvergenceError
         If the iteration does not end.
     """
-    return _iterated(lambda s: system, value, load)
-
-
-def whirl_near(
-    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, load: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray]:
-    """Return the same of a rotor about its rest, with hysteresis at a frequency [rad/s].
-
-    Films that remember have K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
-    """
-    return _iterated(motion_near(structure, at, frequency), value, load)
-
-
-def _iterated(
-    system_at: Callable[[complex], SecondOrder], value: complex, load: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray]:
+    system_at = motion_near(structure, at, frequency)
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
     found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]

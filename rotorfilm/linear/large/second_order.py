@@ -12,6 +12,7 @@ from scipy import sparse
 from ...bearings.at_frequency import MemoryCoefficients
 from ...bearings.inertial_model import added_mass
 from ...model import Array
+from ...results import Coefficients
 from ...rotors.sparse_chain import is_sparse
 from ...rotors.structure import Structure, across_planes, both_planes
 from ..rotor_rest import RotorEquilibrium
@@ -103,8 +104,14 @@ def remembering(at: RotorEquilibrium) -> dict[str, MemoryCoefficients]:
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
     """Return an equilibrium with K(s) and its slope of the films that remember, for motion near e^(s t)."""
-    near = {name: film.near(s) for name, film in remembering(at).items()}
-    return replace(at, coefficients={**at.coefficients, **near}) if near else at
+    if not remembering(at):
+        return at
+    return replace(at, coefficients={n: coefficients_near(film, s) for n, film in at.coefficients.items()})
+
+
+def coefficients_near(film: Coefficients, s: complex) -> Coefficients:
+    """Return K(s) and its slope as K and C of a film that remembers; any other as it is."""
+    return film.near(s) if isinstance(film, MemoryCoefficients) else film
 
 
 def motion_near(

@@ -12,8 +12,7 @@ import numpy as np
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
-from ...linear.large.inverse_iteration import mode_near
-from ...linear.large.second_order import small_motion
+from ...linear.large.inverse_iteration import whirl_near
 from ...linear.rotor_whirl import Whirl, on_films, value_rate
 from ...linear.speed_events import SpeedEvent, secant_speed
 from ...rotors.shaft.shaft_models import ShaftModel
@@ -143,8 +142,8 @@ class FieldSpeedRung(BaseRung):
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
             rests = field_rests(rung.films, at, self.level)
             warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
-            system = small_motion(structure, warm, event.frequency(whirl.value, speed))
-            whirl = Whirl(warm, *mode_near(system, whirl.value, whirl.right))
+            frequency = event.frequency(whirl.value, speed)
+            whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
             found = Found(speed, {}, rung.solution(whirl))
             return event.lead(whirl.value, speed), FieldSpeed(found, rests)
 

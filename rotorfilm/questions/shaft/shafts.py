@@ -12,8 +12,8 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUni
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
-from ...linear.large.inverse_iteration import dynamics, inverse_steps, mode_near
-from ...linear.large.second_order import SecondOrder, journal_rows, second_order, small_motion
+from ...linear.large.inverse_iteration import dynamics, inverse_steps, whirl_near
+from ...linear.large.second_order import SecondOrder, journal_rows, motion_near, second_order
 from ...linear.rotor_whirl import Start, Whirl, on_films, value_rate, whirl_of
 from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
@@ -118,10 +118,10 @@ class ShaftRung(BaseRung):
         rotor, reactions = model.rotor, self.films.reaction
         starts = []
         for speed, value in self.event.sightings(rotor, reactions, self.speeds):
-            at = rotor_equilibrium(rotor, reactions, speed)
-            system = small_motion(rotor.structure, at, self.event.frequency(value, speed))
-            shape = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
-            value, shape, _ = mode_near(system, value, shape)
+            at, structure = rotor_equilibrium(rotor, reactions, speed), rotor.structure
+            shape = np.random.default_rng(0).normal(size=len(structure.weight)) + 0j
+            frequency = self.event.frequency(value, speed)
+            value, shape, _ = whirl_near(structure, at, frequency, value, shape)
             seen = shape if model is self.model else self.model.seen(model.nodal(shape))
             starts.append(Start(speed, value, seen))
         return starts
@@ -223,7 +223,8 @@ class ShaftRung(BaseRung):
         self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
     ) -> CorrectedSpeed:
         frequency = self.event.frequency(whirl.value, whirl.at.speed)
-        system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients), frequency)
+        at, structure = on_films(whirl.at, coefficients), self.model.finer.structure
+        system = motion_near(structure, at, frequency)(whirl.value)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
         _, first, last = inverse_steps(system, whirl.value, right, left, 3)
         one, other = (-self.event.lead(step[0], whirl.at.speed) / rate for step in (first, last))

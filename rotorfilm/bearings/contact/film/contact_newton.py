@@ -72,7 +72,7 @@ class NewtonKrylov:
         self._few = FEW * equations.grid.shape[0]
         self._grids: tuple[HalvedGrid, ...] = ()
         self._cycle: Cycle | None = None
-        if place is not None:
+        if place is not None and not equations.is_dense:
             self._cycle = self._renewed(linearized(equations, place))
 
     @property
@@ -149,11 +149,14 @@ class NewtonKrylov:
         wet = linear.place.wet
         if linear.place.closure.approach == 0.0 and not np.any(wet):
             raise ConvergenceError("some cell must hold film for a load to rest on, got none")
+        right = np.append(residual, miss)
+        if self.equations.is_dense:
+            answer = linear.solved(right)
+            return np.where(wet, answer[:-1], 0.0), float(answer[-1]), 1
         known = self._cycle
         limit = STALE * min(COARSEST, self.equations.grid.shape[0])
         fresh = known is None or int(np.sum(known.linear.place.wet != wet)) > limit
         self._cycle = used = self._renewed(linear) if fresh or known is None else known
-        right = np.append(residual, miss)
         answer, count = self._krylov(linear, used, right, forcing)
         if count >= KRYLOV and not fresh:
             self._cycle = used = self._renewed(linear)

@@ -16,7 +16,14 @@ from scipy import sparse
 from ....model import Array
 from ...ellipse import CIRCLE, Ellipse
 from .contact_grid import ContactGrid
-from .deflection import Deflection, cell_deflection, center_weights, smooth_cell_deflection
+from .deflection import (
+    Deflection,
+    DenseDeflection,
+    cell_deflection,
+    center_weights,
+    midpoint_deflection,
+    smooth_cell_deflection,
+)
 
 SLACK = 0.1
 """Share of the film thickness by which a face may be too high before it is limited."""
@@ -29,7 +36,7 @@ class Sampling(NamedTuple):
     ----------
     gap : ndarray, shape (samples,)
         x^2 + (rho_y/rho_x) y^2 at the samples.
-    deflection : Deflection
+    deflection : Deflection or DenseDeflection
         From pressures on the cells to the samples.
     center : ndarray, shape (n,)
         Deflection at the origin per pressure of a cell.
@@ -47,7 +54,7 @@ class Sampling(NamedTuple):
     """
 
     gap: Array
-    deflection: Deflection
+    deflection: Deflection | DenseDeflection
     center: Array
     along: Any
     across: Any
@@ -75,7 +82,14 @@ class StaggeredScheme:
     After Panovko (2011), who deflects the surface by a midpoint rule; here the kernel is integrated exactly,
     without which the film thickness lacks .65 cells times the pressure. An alternating pressure leaves no
     trace in the film of the cells, so nothing damps it where the pressure gradient carries no flow.
+
+    Parameters
+    ----------
+    midpoint : bool
+        Whether the surface is deflected by that midpoint rule. The order is then 1.
     """
+
+    midpoint: bool = False
 
     order: ClassVar[int] = 2
     """Order of convergence in the size of the cells."""
@@ -83,15 +97,20 @@ class StaggeredScheme:
     def sampling(self, grid: ContactGrid, ellipse: Ellipse = CIRCLE) -> Sampling:
         """Return sample points and matrices for a grid, both lengths in units of the axis along x."""
         nx, m = grid.shape
-        kernel = partial(cell_deflection, strength=ellipse.strength)
+        rule = midpoint_deflection if self.midpoint else cell_deflection
+        kernel = partial(rule, strength=ellipse.strength)
         half_x, half_y = pair(nx, nx + 1, 0), pair(m, m + 1, 0)
-        x = grid.inlet + np.arange(nx + 1) * grid.spacing[0]
-        y = np.arange(m + 1) * grid.spacing[1]
+        x, y = grid.lines
+        bent = (
+            Deflection(grid, first=0.0, shape=(nx + 1, m + 1), corners=True, kernel=kernel)
+            if grid.focus is None
+            else DenseDeflection(grid, kernel=kernel)
+        )
         along = product(sparse.identity(nx + 1), half_y)
         stored = product(half_x, half_y)
         return Sampling(
             gap=_gap(x, y, ellipse),
-            deflection=Deflection(grid, first=0.0, shape=(nx + 1, m + 1), corners=True, kernel=kernel),
+            deflection=bent,
             center=center_weights(grid, kernel),
             along=along,
             across=product(half_x, sparse.identity(m + 1)),

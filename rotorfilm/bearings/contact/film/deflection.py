@@ -10,6 +10,7 @@ length.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy import fft
@@ -54,6 +55,16 @@ def smooth_cell_deflection(
     for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         total = total + cell_deflection(x + i * width[0], y + j * width[1], width, strength)
     return center + total / 24.0
+
+
+def midpoint_deflection(
+    x: Array, y: Array, width: tuple[Array | float, Array | float], strength: float = CIRCLE.strength
+) -> Array:
+    """Return `cell_deflection` by the midpoint rule of Belotserkovsky and Lifanov (1985), as published.
+
+    At the corners of square cells of size d it lacks 1.6155 d of the integral of 1/r, however small d is.
+    """
+    return np.asarray(strength * width[0] * width[1] / np.hypot(x, y))
 
 
 def _corner(x: Array, y: Array) -> Array:
@@ -114,7 +125,30 @@ class Deflection:
         return np.ascontiguousarray(lines[:, : self.samples[1]]).ravel()
 
 
+class DenseDeflection:
+    """Deflection at the corners of cells of any size, by a dense matrix.
+
+    Parameters
+    ----------
+    grid : ContactGrid
+    kernel : callable
+        As of `Deflection`.
+    """
+
+    def __init__(self, grid: ContactGrid, *, kernel: Kernel) -> None:
+        (x, y), (dx, dy) = grid.lines, grid.widths
+        along = x[:, None, None, None] - grid.x[:, None]
+        size: Any = dx[:, None], dy
+        both = [kernel(along, y[:, None, None] - side, size) for side in (grid.y, -grid.y)]
+        self.matrix = np.add(*both).reshape(len(x) * len(y), -1)
+
+    def __call__(self, pressure: Array) -> Array:
+        """Return the deflection at the corners, flat, for pressures on the cells, flat."""
+        return np.asarray(self.matrix @ pressure)
+
+
 def center_weights(grid: ContactGrid, kernel: Kernel) -> Array:
     """Return the deflections at the origin for unit pressures on each cell and its mirror image, flat."""
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
-    return 2.0 * kernel(-x, -y, grid.spacing).ravel()
+    size: Any = grid.spacing if grid.focus is None else (grid.widths[0][:, None], grid.widths[1])
+    return 2.0 * kernel(-x, -y, size).ravel()

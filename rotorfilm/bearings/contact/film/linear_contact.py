@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -63,6 +63,20 @@ class LinearContact(NamedTuple):
         film = by_pressure @ pressure + by_film @ bent + self.by_delta * x[-1]
         load = closure.approach * x[-1] + closure.load * self.equations.load(pressure)
         return np.append(np.where(wet, film, x[:-1]), load)
+
+    def solved(self, right: Array) -> Array:
+        """Return the answer to a right side by a dense matrix, for graded cells."""
+        wet, closure = np.flatnonzero(self.place.wet), self.place.closure
+        by_pressure, by_film = self.derivatives
+        bent: Any = self.equations.sampling.deflection
+        matrix = np.zeros((len(wet) + 1, len(wet) + 1))
+        matrix[:-1, :-1] = by_pressure[wet][:, wet].toarray() + by_film[wet] @ bent.matrix[:, wet]
+        matrix[:-1, -1], matrix[-1, -1] = self.by_delta[wet], closure.approach
+        matrix[-1, :-1] = closure.load * self.equations.area[wet]
+        found = np.linalg.solve(matrix, np.append(right[wet], right[-1]))
+        answer = right.copy()
+        answer[wet], answer[-1] = found[:-1], found[-1]
+        return answer
 
 
 def linearized(equations: ContactEquations, place: Place) -> LinearContact:

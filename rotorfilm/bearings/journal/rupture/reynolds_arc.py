@@ -81,7 +81,9 @@ class ReynoldsArc:
             "(n >= 4 and constant=True: 0.2-8 / 0.4-15 %)"
         )
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film and their derivatives (implicit function theorem).
 
         Raises
@@ -90,20 +92,37 @@ class ReynoldsArc:
             If a prescribed start lies where the source draws the film apart and no arc from there satisfies
             the condition.
         """
-        start, start_turn = self._start(turn)
-        edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
-        end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
-        slope = _slope(chi, turn, start, end, slenderness, basis)
-        free = end < start + TURN
-        safe = np.where(free, slope.by_end, 1.0)
-        end_chi = np.where(free, -slope.by_chi / safe, 0.0)
-        end_turn = np.where(free, -(slope.by_turn + slope.by_start * start_turn) / safe, start_turn)
-        return FilmArc(start, end, np.zeros_like(chi), end_chi, start_turn, end_turn)
+        found = ruptured_arc(chi, turn, *self._start(turn), slenderness, basis)
+        return found._replace(start_attitude=None, end_attitude=None)
 
     def _start(self, turn: Array) -> tuple[Array, Array]:
         if self.start is None:
             return turn + 0.5 * math.pi, np.ones_like(turn)
         return np.full_like(turn, self.start), np.zeros_like(turn)
+
+
+def ruptured_arc(
+    chi: Array, turn: Array, start: Array, start_turn: Array, slenderness: float, basis: Basis
+) -> FilmArc:
+    """Return the arc from a start that turns at some rate with the source, and how it turns with its start.
+
+    The latter stands as the derivative by an attitude that turns the start backward.
+
+    Raises
+    ------
+    ConvergenceError
+        As `ReynoldsArc.arc`.
+    """
+    edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
+    end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
+    slope = _slope(chi, turn, start, end, slenderness, basis)
+    free = end < start + TURN
+    safe = np.where(free, slope.by_end, 1.0)
+    end_chi = np.where(free, -slope.by_chi / safe, 0.0)
+    end_turn = np.where(free, -(slope.by_turn + slope.by_start * start_turn) / safe, start_turn)
+    end_start = np.where(free, -slope.by_start / safe, 1.0)
+    still = np.zeros_like(chi)
+    return FilmArc(start, end, still, end_chi, start_turn, end_turn, still - 1.0, -end_start)
 
 
 def _measured(basis: Basis) -> str:

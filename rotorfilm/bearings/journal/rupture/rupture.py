@@ -11,6 +11,7 @@ import numpy as np
 from ....errors import InputError, require_number
 from ....inputs.si_arguments import quantities
 from ....model import Array
+from ...films.law import PolarFrame
 
 SHORTEST_ARC = 1e-3
 """Extent [rad] below which arc integrals lose their digits."""
@@ -29,6 +30,9 @@ class FilmArc(NamedTuple):
         Derivatives with respect to the eccentricity ratio at a fixed direction of the source.
     start_turn, end_turn : ndarray [1]
         Derivatives with respect to the direction of the source.
+    start_attitude, end_attitude : ndarray [1] or None
+        Derivatives with respect to the attitude of the journal at a fixed direction of the source; None where
+        the film turns with the journal.
     """
 
     start: Array
@@ -37,6 +41,15 @@ class FilmArc(NamedTuple):
     end_chi: Array
     start_turn: Array
     end_turn: Array
+    start_attitude: Array | None = None
+    end_attitude: Array | None = None
+
+    @property
+    def by_attitude(self) -> FilmArc | None:
+        """The arc with the derivatives by the attitude in place of those by the source; None without."""
+        if self.start_attitude is None or self.end_attitude is None:
+            return None
+        return self._replace(start_turn=self.start_attitude, end_turn=self.end_attitude)
 
 
 class Basis(NamedTuple):
@@ -57,7 +70,9 @@ class Rupture(Protocol):
     def shortcoming(self, basis: Basis) -> str:
         """Return why a splitting film of this basis is not fit for the arc; empty if it is."""
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film.
 
         Parameters
@@ -70,7 +85,14 @@ class Rupture(Protocol):
             Bearing length / diameter.
         basis : Basis
             Coupling functions of the film that asks.
+        attitude : ndarray, shape (B,) [rad]
+            Direction of the journal from the bearing center; a film that turns with it does not ask.
         """
+
+
+def attitude_of(frame: PolarFrame) -> Array:
+    """Return the direction of the journal from the bearing center, from the x axis, shape (B,) [rad]."""
+    return np.arctan2(frame.axes[:, 1, 1], frame.axes[:, 0, 1])
 
 
 def rigid_arc(start: Array, end: Array, rate: float) -> FilmArc:
@@ -122,7 +144,9 @@ class FixedArc:
             f"got {self.extent:.6g}: the splitting series stalls"
         )
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film, which do not move."""
         return rigid_arc(np.full_like(turn, self.start), np.full_like(turn, self.start + self.extent), 0.0)
 
@@ -141,6 +165,8 @@ class RotatingArc:
         """Return an empty string: half a circle suits every basis."""
         return ""
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film, which turn with the source."""
         return rigid_arc(turn + 0.5 * math.pi, turn + 1.5 * math.pi, 1.0)

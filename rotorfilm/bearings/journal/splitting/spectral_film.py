@@ -13,7 +13,7 @@ variable of `elliptic`, times H^(-7/4).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,8 +23,9 @@ from ....model import Array
 from ...films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from ...films.legendre import gauss_weights, trial_functions
 from ..rupture.elliptic import FilmNodes, film_nodes
-from ..rupture.rupture import Basis, FilmArc, FixedArc, Rupture
+from ..rupture.rupture import Basis, FilmArc, FixedArc, Rupture, attitude_of
 from .axial_sums import FullAxialSum
+from .splitting_film import mirror_image, response_on
 
 BASIS = Basis(16, constant=True)
 """What a rupture rule is told that asks for the coupling functions: as good as converged."""
@@ -75,9 +76,17 @@ class SpectralArcFilm:
         )
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
-        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS)
-        nodes = film_nodes(frame.chi, arc.start, arc.end, self.degree + EXTRA_NODES)
-        return spectral_response(nodes, arc, frame.chi[0], self.degree, FullAxialSum(slenderness))
+        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS, attitude_of(frame))
+        nodes, axial = (
+            film_nodes(frame.chi, arc.start, arc.end, self.degree + EXTRA_NODES),
+            FullAxialSum(slenderness),
+        )
+        return response_on(arc, lambda one: spectral_response(nodes, one, frame.chi[0], self.degree, axial))
+
+    def mirrored(self) -> SpectralArcFilm | None:
+        """Return this film in a mirror, y to -y; None where its arc turns with the journal."""
+        image = mirror_image(self.rupture)
+        return None if image is None else replace(self, rupture=image)
 
 
 def spectral_response(
