@@ -19,7 +19,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from rotorfilm import ApproximateShaft, BushReaction, BushWear, LocalMelting, f4k20_bush, published_stage
-from rotorfilm.bearings.bush.shaft_flux import approximate_flux, exact_flux
+from rotorfilm.bearings.bush.melting import approximate_flux, exact_flux
 from rotorfilm.charts import new_axes, plot_contact_pressure, plot_critical_speed
 
 BUSH, HEAT, SPEED, END = f4k20_bush(), 1e8, 12.0, 1.0

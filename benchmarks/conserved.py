@@ -32,7 +32,7 @@ from rotorfilm import (
     critical_mass,
     equilibrium,
 )
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap
+from rotorfilm.bearings.films.mass_conserving import circular_gap
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 314.0
 BAR = 0.0053 * SPEED * 12.0 * VISCOSITY * (RADIUS / CLEARANCE) ** 2

@@ -12,8 +12,8 @@ import numpy as np
 
 from rotorfilm import DamperSupply, FiniteSqueeze, FullFilm, JFODamper, PorousDamper, damper_turn
 from rotorfilm.bearings.damper import ExtrapolatedDamper
-from rotorfilm.errors import RotorfilmError
-from rotorfilm.questions.damper.dampers import damper_ladder
+from rotorfilm.core.errors import RotorfilmError
+from rotorfilm.questions.damper import damper_ladder
 from rotorfilm.scenes import read_scene
 
 R, c, mu, OMEGA = 0.05, 1e-4, 0.01, 300.0

@@ -33,7 +33,7 @@ from rotorfilm import (
     equilibrium,
     simulate,
 )
-from rotorfilm.bearings.films.conserved import stepped_film
+from rotorfilm.bearings.films import mass_conserving_steps as stepped_film
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 314.0
 TURN, TURNS, STEPS = 2.0 * np.pi / SPEED, 8, 384

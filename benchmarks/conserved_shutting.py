@@ -12,15 +12,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from rotorfilm.bearings.films.conserved.conserved_cells import ConservedCells
-from rotorfilm.bearings.films.conserved.conserved_film import (
+from rotorfilm.bearings.films.mass_conserving import (
+    ConservedCells,
     ConservedFilm,
     ConservedState,
     Gap,
     Supply,
     step_storage,
 )
-from rotorfilm.bearings.films.conserved.oil_steps import OilMemory, after_step
+from rotorfilm.bearings.films.mass_conserving_steps import OilMemory, after_step
 
 BEGIN, SHUT, END = 0.25, 0.73239, 0.748
 FINE = 25600

@@ -35,11 +35,10 @@ from rotorfilm import (
     reduce_contact,
     ride,
 )
-from rotorfilm.bearings.contact.film.contact_newton import NewtonKrylov
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD, stationary
-from rotorfilm.bearings.contact.motion import contact_steps
-from rotorfilm.comparisons.contact.motion_features import decay_time
+from rotorfilm.bearings.contact import contact_steps
+from rotorfilm.bearings.contact.film_newton import NewtonKrylov
+from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion, stationary
+from rotorfilm.studies.contact_cases import decay_time
 
 
 class DenseNewton(NewtonKrylov):

@@ -15,8 +15,8 @@ import numpy as np
 from fmpy.fmi2 import FMU2Slave
 from studies.master_cases import BEARING, ROTOR, STEP, PythonGaussSeidel, PythonSIExp3
 
+from rotorfilm.core.errors import CouplingWarning
 from rotorfilm.cosim import GaussSeidel, SIExp3, cosimulate
-from rotorfilm.errors import CouplingWarning
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import LawRotor
 

@@ -8,8 +8,8 @@ import warnings
 
 from studies.coupling_cases import SPEED, coupling_cases
 
+from rotorfilm.core.errors import CouplingWarning, PartialResultError
 from rotorfilm.cosim import InProcessSlave, couple
-from rotorfilm.errors import CouplingWarning, PartialResultError
 
 
 def outcome(case):

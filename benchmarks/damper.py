@@ -36,7 +36,7 @@ from rotorfilm import (
     export_fmu,
     synchronous_orbits,
 )
-from rotorfilm.bearings.films.cavitation import FullFilm
+from rotorfilm.bearings.films.geometry import FullFilm
 
 COUNT, LARGEST = 200, 0.9
 C, R = 1e-4, 0.05

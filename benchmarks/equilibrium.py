@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
-from rotorfilm.comparisons.journal.timing import shortest_time
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.studies.journal_accuracy import shortest_time
 
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}
 LOADS = np.geomspace(100.0, 1e5, 12)

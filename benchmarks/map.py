@@ -17,10 +17,9 @@ from time import perf_counter, process_time
 
 import numpy as np
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
 from rotorfilm.bearings.films.law import FilmLaw
-from rotorfilm.bearings.films.map_fit import tabulate_film
-from rotorfilm.bearings.films.table_pieces import cores
+from rotorfilm.bearings.films.map_fit import cores, tabulate_film
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
@@ -33,11 +32,15 @@ from rotorfilm.bearings.journal import (
     SplittingFilm,
     fitted_bearing,
 )
-from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
-from rotorfilm.bearings.journal.grooves.openings import aligned_openings
-from rotorfilm.comparisons import LARGE, comparison_bearing, random_states
-from rotorfilm.comparisons.journal.journal_states import States, reference_force, relative_error
-from rotorfilm.comparisons.journal.timing import film_costs, shortest_time
+from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
+from rotorfilm.studies import LARGE, comparison_bearing, random_states
+from rotorfilm.studies.journal_accuracy import (
+    States,
+    film_costs,
+    reference_force,
+    relative_error,
+    shortest_time,
+)
 
 COUNT = 20000
 RANGES = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))

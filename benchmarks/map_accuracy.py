@@ -16,9 +16,9 @@ import sys
 
 import numpy as np
 
-from rotorfilm.bearings.films.ring.ring_kernel import richardson
+from rotorfilm.bearings.films.finite_volumes import richardson
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm
-from rotorfilm.comparisons.journal.averaged_film import cell_turns
+from rotorfilm.studies.journal_stability import cell_turns
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 BANDS = ((0.0, 0.95), (0.95, 0.99))

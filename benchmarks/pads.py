@@ -38,8 +38,8 @@ from rotorfilm import (
     even_pivots,
 )
 from rotorfilm.bearings.pads import Lobe, PadMapFilm
-from rotorfilm.comparisons import PadFamily, bearing_types, pad_accuracy, pad_rungs
-from rotorfilm.comparisons.pads.pad_samples import compared_bearings, lobe_states
+from rotorfilm.studies import PadFamily, bearing_types, pad_accuracy, pad_rungs
+from rotorfilm.studies.pad_accuracy import compared_bearings, lobe_states
 
 ROSS = Path(__file__).parent / "results" / "ross_pads.json"
 SLENDERNESS = (0.25, 0.5, 1.0)

@@ -23,7 +23,7 @@ import numpy as np
 import rotor_size
 from rotor_size import FILMS, SPRINGS, THRESHOLD, timed
 
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     base_response,
     campbell,
     critical_speeds,

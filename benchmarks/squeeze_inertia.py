@@ -25,11 +25,8 @@ from rotorfilm import (
     SqueezeFilmDamper,
     synchronous_orbits,
 )
-from rotorfilm.bearings.damper.built.film_inertia import FullInertia, short_inertia
-from rotorfilm.bearings.damper.built.zone_inertia import ZoneInertia
-from rotorfilm.bearings.damper.cavitated_squeeze import CavitatedSqueezeFilm
-from rotorfilm.bearings.damper.full_squeeze import FullSqueezeFilm
-from rotorfilm.bearings.damper.porous_layer import layer_modes
+from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, FullSqueezeFilm, layer_modes
+from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia
 
 
 def chebyshev(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

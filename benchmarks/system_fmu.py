@@ -32,7 +32,7 @@ from rotorfilm import (
     mount,
     rotor_equilibrium,
 )
-from rotorfilm.errors import ContactError, CouplingError
+from rotorfilm.core.errors import ContactError, CouplingError
 
 SPEED = 1500.0 * math.pi / 30.0
 TURN = 2.0 * math.pi / SPEED

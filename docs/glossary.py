@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import rotorfilm
-from rotorfilm.readable.docstrings import Entry, entries, units
+from rotorfilm.core.readable import Entry, entries, units
 
 PACKAGE = Path(rotorfilm.__file__).parent
 

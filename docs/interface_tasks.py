@@ -3,10 +3,14 @@
 from pathlib import Path
 
 import rotorfilm
-from rotorfilm.sources import homes
+from rotorfilm.core.sources import homes
 
 TASKS = {
-    "Journal bearings and their films": ("bearings.journal", "bearings.films", "bearings.oil"),
+    "Journal bearings and their films": (
+        "bearings.journal",
+        "bearings.films",
+        "bearings.oil",
+    ),
     "Bearings made of pads": ("bearings.pads",),
     "Squeeze-film dampers": ("bearings.damper",),
     "Ball bearings": ("bearings.rolling",),
@@ -15,53 +19,69 @@ TASKS = {
     "Seals, rings that are rubbed, cracks": (
         "bearings.rub",
         "bearings.seal",
-        "motion.periodic.cracked_response",
-        "motion.transient.ring_contacts",
-        "rotors.cracked",
+        "analysis.cracked_response",
+        "analysis.simulate",
+        "rotors.cracked_rotor",
     ),
     "Springs, tables, bearings of your own": (
         "bearings.linear",
         "bearings.own_reaction",
-        "bearings.parallel",
-        "bearings.sprung",
-        "bearings.tabulated",
+        "bearings.assemblies",
     ),
     "Equilibrium and coefficients": (
-        "linear.coefficients",
-        "linear.equilibrium",
-        "linear.heated_equilibrium",
-        "linear.rotor_rest",
-        "results.Coefficients",
-        "bearings.at_frequency",
-        "bearings.inertial_model",
-        "results.Equilibrium",
+        "analysis.coefficients",
+        "analysis.equilibrium",
+        "analysis.heated_equilibrium",
+        "analysis.rotor_equilibrium",
+        "core.results.Coefficients",
+        "bearings.reaction",
+        "core.results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (
-        "linear.campbell",
-        "linear.critical_mass",
-        "linear.memory.counted_threshold",
-        "linear.rotor_modes",
-        "linear.rotor_threshold",
-        "linear.whirl",
-        "motion.periodic.hopf",
-        "results.WhirlThreshold",
+        "analysis.campbell",
+        "analysis.whirl",
+        "analysis.rotor_modes",
+        "analysis.rotor_threshold",
+        "analysis.continuation",
+        "core.results.WhirlThreshold",
     ),
-    "Response, and systems for python-control": ("linear",),
-    "Rotors": ("rotors", "scenes.shaft.ross", "scenes.shaft.ross_bearing"),
-    "Motion over time": ("motion.compiled", "motion.transient", "results.Trajectory"),
-    "Orbits": ("motion", "results.CircularOrbit"),
+    "Response, and systems for python-control": ("analysis",),
+    "Rotors": (
+        "rotors",
+        "scenes.ross",
+    ),
+    "Motion over time": (
+        "analysis.compiled_march",
+        "analysis.variable_compliance",
+        "core.results.Trajectory",
+    ),
+    "Orbits": (
+        "analysis.circular_orbits",
+        "analysis.periodic_orbit",
+        "analysis.basin",
+        "core.results.CircularOrbit",
+    ),
     "Bearings fitted to measurements": ("identification",),
-    "FMUs": ("fmu", "scenes.shaft.export_rotor"),
+    "FMUs": (
+        "fmu",
+        "scenes.rotor_runs",
+    ),
     "Coupling in co-simulation": ("cosim",),
-    "Scenes, questions, sweeps": ("scenes", "sweeps"),
-    "Models of your own: protocols and signals": ("model", "signals"),
-    "Errors and warnings": ("errors",),
+    "Scenes, questions, sweeps": (
+        "scenes",
+        "sweeps",
+    ),
+    "Models of your own: protocols and signals": (
+        "core.model",
+        "core.signals",
+    ),
+    "Errors and warnings": ("core.errors",),
 }
 """Headings, and below each the folders, modules or names it shows: the longest that fits a name takes it."""
 
 
 def home(name: str) -> str:
-    """Return where a public name lives, below the package, as `linear.whirl.whirl_threshold`."""
+    """Return where a public name lives, below the package, as `analysis.whirl.whirl_threshold`."""
     return f"{homes('rotorfilm')[name].module.partition('.')[2]}.{name}"
 
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from rotorfilm.analysis import simulate
+from rotorfilm.core.errors import CouplingError, CouplingWarning
 from rotorfilm.cosim import SIExp3, cosimulate, critical_macro_step
-from rotorfilm.errors import CouplingError, CouplingWarning
-from rotorfilm.motion import simulate
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.export_scene import export_scene, resting_rotor
 

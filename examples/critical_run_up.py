@@ -10,7 +10,7 @@ import numpy as np
 
 import rotorfilm as rf
 from rotorfilm.charts import new_axes
-from rotorfilm.scenes.shaft.rotor_runs import run_rotor
+from rotorfilm.scenes.rotor_runs import run_rotor
 
 RPM = np.pi / 30.0
 scene = rf.Scene.load(Path(__file__).with_name("critical_run_up.toml"))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import rotorfilm as rf
 from rotorfilm.charts import new_axes
-from rotorfilm.scenes.shaft.rotor_runs import run_rotor
+from rotorfilm.scenes.rotor_runs import run_rotor
 
 scene = rf.Scene.load(Path(__file__).with_name("earthquake.toml"))
 axes = new_axes("Left journal in its bearing [um], quiet ground and record")

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from rotorfilm.linear import closed_loop, equilibrium, transmissibility, whirl_threshold
+from rotorfilm.analysis import closed_loop, equilibrium, transmissibility, whirl_threshold
 from rotorfilm.scenes import bundled_scene
 
 scene = bundled_scene()

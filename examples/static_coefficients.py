@@ -7,8 +7,8 @@ The book takes the short-bearing film; without `film` the bearing would have the
 
 import math
 
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.linear import coefficients, equilibrium
 
 SPEED = 1500.0 * math.pi / 30.0  # rad/s
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from rotorfilm import Scene, SpeedProfile, mount, rotor_equilibrium, simulate_rotor
 from rotorfilm.charts import new_figure, save
-from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
+from rotorfilm.scenes.solve_shaft import solve_rotor
 
 RPM = math.pi / 30.0
 scene = Scene.load(Path(__file__).with_name("whirl_and_whip.toml"))

@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
+from rotorfilm.analysis import coefficients, critical_mass
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.linear import coefficients, critical_mass
 
 SPEED = 100.0  # rad/s; the parameter does not depend on it
 

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from rotorfilm.core.files import write_whole
+from rotorfilm.core.signals import to_fmi_name
 from rotorfilm.cosim import open_fmu
-from rotorfilm.files import write_whole
 from rotorfilm.fmu import CheckItem, check_fmu, export_fmu
-from rotorfilm.fmu.narrow import as_exported
+from rotorfilm.fmu.export import as_exported
 from rotorfilm.fmu.reference import to_csv
-from rotorfilm.signals import to_fmi_name
 
 HERE = Path(__file__).parent
 RECIPES = ("journal", "rotor", "flexible_rotor", "damper", "bush", "worn_bush", "contact")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotorfilm import ContactGrid, ContactLaw, RollingBall, reduce_ball
-from rotorfilm.results import to_plain
+from rotorfilm.core.results import to_plain
 
 COMPONENT = "contact"
 LAW = Path(__file__).with_name("contact_law.json")

@@ -5,12 +5,12 @@ The public names load on first use, so that `import rotorfilm` costs nothing tha
 
 from typing import TYPE_CHECKING
 
-from .sources import show
+from .core.sources import show
 
 if TYPE_CHECKING:
+    from .analysis import *
     from .bearings import *
-    from .cosim import *
-    from .errors import (
+    from .core.errors import (
         AbsentError as AbsentError,
         ContactError as ContactError,
         ConvergenceError as ConvergenceError,
@@ -31,10 +31,7 @@ if TYPE_CHECKING:
         UnloadedPadWarning as UnloadedPadWarning,
         ValidityWarning as ValidityWarning,
     )
-    from .fmu import *
-    from .identification import *
-    from .linear import *
-    from .model import (
+    from .core.model import (
         Dynamic as Dynamic,
         Linearization as Linearization,
         Model as Model,
@@ -42,17 +39,19 @@ if TYPE_CHECKING:
         Stepped as Stepped,
         Switched as Switched,
     )
-    from .motion import *
-    from .results import (
+    from .core.results import (
         CircularOrbit as CircularOrbit,
         Coefficients as Coefficients,
         Equilibrium as Equilibrium,
         Trajectory as Trajectory,
         WhirlThreshold as WhirlThreshold,
     )
+    from .core.signals import Signal as Signal
+    from .cosim import *
+    from .fmu import *
+    from .identification import *
     from .rotors import *
     from .scenes import *
-    from .signals import Signal as Signal
     from .sweeps import *
 
     __version__: str

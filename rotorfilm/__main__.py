@@ -6,7 +6,7 @@ import sys
 def main() -> None:
     """Run the program with the arguments that it was started with."""
     if sys.argv[1:] == ["--version"]:
-        from .sources import installed_version
+        from .core.sources import installed_version
 
         sys.stdout.write(f"rotorfilm {installed_version()}\n")
     else:

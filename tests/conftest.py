@@ -9,7 +9,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 
-from rotorfilm.bearings.journal.map import own_tables
+from rotorfilm.bearings.journal.map import map_film as own_tables
 from rotorfilm.cli import main as cli
 
 PROPORTIONAL = '''
@@ -20,8 +20,8 @@ from __future__ import annotations
 import numpy as np
 from dataclasses import dataclass
 
-from rotorfilm.model import Linearization, static_linearization
-from rotorfilm.signals import Signal
+from rotorfilm.core.model import Linearization, static_linearization
+from rotorfilm.core.signals import Signal
 
 GAIN = 2.0
 

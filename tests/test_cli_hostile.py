@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.bearings.contact.film import preconditioner as contact_preconditioner
-from rotorfilm.errors import InputError
-from rotorfilm.limits import SCENE_BYTES
+from rotorfilm.bearings.contact import film_newton as contact_preconditioner
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.limits import SCENE_BYTES
 from rotorfilm.scenes import Scene
-from rotorfilm.sweeps import axes
+from rotorfilm.sweeps import point as axes
 
 SHORT = Path(__file__).parents[1] / "examples" / "short.toml"
 TITLE = 'title = "{}"\n'

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from rotorfilm import errors
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.errors import (
+from rotorfilm.core import errors
+from rotorfilm.core.errors import (
     ContactError,
     FilmContactError,
     InputError,

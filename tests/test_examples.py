@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from rotorfilm.errors import ValidityWarning
+from rotorfilm.core.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
-from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
+from rotorfilm.scenes.solve_shaft import solve_level_one, solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 STUDIES = EXAMPLES.parent / "benchmarks" / "studies"

@@ -13,7 +13,7 @@ import pytest
 from rotorfilm import InputError, Measurements, TabulatedBearing, read_ross
 from rotorfilm.bearings.journal.map.map_film import packaged_table
 from rotorfilm.charts import new_axes, save
-from rotorfilm.files import (
+from rotorfilm.core.files import (
     read_sealed,
     read_text,
     sealed_line,
@@ -22,8 +22,8 @@ from rotorfilm.files import (
     write_whole,
     written_together,
 )
+from rotorfilm.core.results import write_csv
 from rotorfilm.fmu import export_fmu
-from rotorfilm.results import write_csv
 from rotorfilm.rotors.rigid import RigidRotor
 
 posix = pytest.mark.skipif(os.name != "posix", reason="limits and devices of POSIX")
@@ -123,7 +123,7 @@ def test_links_and_devices_stay_what_they_are(tmp_path):
     assert (tmp_path / "link").is_symlink()
     write_whole("/dev/null", b"content")
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
-    script = "from rotorfilm.files import write_whole; write_whole('/dev/stdout', b'through')"
+    script = "from rotorfilm.core.files import write_whole; write_whole('/dev/stdout', b'through')"
     ran = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, check=True)
     assert ran.stdout == b"through"
 

@@ -12,7 +12,7 @@ FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platfor
 
 OTHER_PARTS = {"motion", "cosim", "comparisons", "charts", "sweeps", "questions", "rotors", "fmu", "cli"}
 OTHER_FAMILIES = {"bearings.damper", "bearings.contact", "bearings.bush"}
-TABLES = {"bearings.films.map_fit", "bearings.films.quintic", "bearings.journal.grooves.grooved_film"}
+TABLES = {"bearings.films.map_fit", "bearings.journal.grooved_film"}
 """What makes a map where there is none."""
 
 CALL = "import sys; sys.argv[1:] = {!r}; from rotorfilm.__main__ import main; main()"
@@ -35,7 +35,7 @@ PATHS = {
         {"rich.progress"},
         OTHER_PARTS - {"cli"}
         | OTHER_FAMILIES
-        | {"cli.charts.chart_commands", "linear.whirl", "scenes.scene", *TABLES},
+        | {"cli.chart_commands", "analysis.whirl", "scenes.scene", *TABLES},
     ),
 }
 
@@ -55,21 +55,21 @@ def test_a_light_path_imports_no_other_family(code, packages, parts):
 
 
 def test_the_list_of_modules_is_seen():
-    assert {"numpy", "rotorfilm.bearings.damper", "rotorfilm.linear"} <= loaded_by(
+    assert {"numpy", "rotorfilm.bearings.damper", "rotorfilm.analysis"} <= loaded_by(
         "from rotorfilm import PorousDamper, equilibrium"
     )
 
 
 def test_names_load_from_the_module_that_holds_them():
     loaded = loaded_by("from rotorfilm import HalfSommerfeld")
-    assert "rotorfilm.bearings.films.cavitation" in loaded
+    assert "rotorfilm.bearings.films.geometry" in loaded
     assert "rotorfilm.bearings.journal" not in loaded
 
 
 def test_a_function_hides_the_module_of_its_name():
-    code = "import rotorfilm.linear.whirl, rotorfilm.linear as a; print(a.equilibrium, a.coefficients)"
+    code = "import rotorfilm.analysis.whirl, rotorfilm.analysis as a; print(a.equilibrium, a.coefficients)"
     code += "; assert callable(a.equilibrium) and callable(rotorfilm.equilibrium)"
-    assert "rotorfilm.linear.equilibrium" in loaded_by(code)
+    assert "rotorfilm.analysis.equilibrium" in loaded_by(code)
 
 
 def test_a_package_lists_its_public_names_only():

@@ -4,10 +4,17 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.errors import InputError
-from rotorfilm.model import Dynamic, Kinked, Model, Reaction, Stepped, static_linearization, stops
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.model import Dynamic, Kinked, Model, Reaction, Stepped, static_linearization, stops
+from rotorfilm.core.signals import (
+    FORCE_OUTPUTS,
+    JOURNAL_INPUTS,
+    force_outputs,
+    indices,
+    journal_inputs,
+    names,
+)
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, force_outputs, indices, journal_inputs, names
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(mass=50.0, speed=100.0)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import rotorfilm
-from rotorfilm import errors
+from rotorfilm.core import errors
 
 PACKAGE = Path(rotorfilm.__file__).parent
 

@@ -10,11 +10,10 @@ import rotorfilm
 PACKAGE = Path(rotorfilm.__file__).parent
 QUESTIONS = sorted((PACKAGE / "questions").rglob("*.py"))
 CANDIDATES = [
-    PACKAGE / "scenes" / "journal" / "film_rungs.py",
-    PACKAGE / "scenes" / "damper" / "damper_films.py",
-    PACKAGE / "scenes" / "contact" / "contact_rest.py",
-    PACKAGE / "ladders.py",
-    PACKAGE / "answers.py",
+    PACKAGE / "scenes" / "film_rungs.py",
+    PACKAGE / "scenes" / "damper_films.py",
+    PACKAGE / "scenes" / "contact_motions.py",
+    PACKAGE / "core" / "answers.py",
 ]
 
 SOLVERS = {

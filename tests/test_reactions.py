@@ -35,8 +35,8 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.errors import require_kind
-from rotorfilm.model import Reaction
+from rotorfilm.core.errors import require_kind
+from rotorfilm.core.model import Reaction
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 SHAFT = ShaftRotor(

@@ -14,9 +14,9 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 VENDORED = {"fmi2Functions.h", "fmi2FunctionTypes.h", "fmi3Functions.h", "fmi3FunctionTypes.h"}
 """Headers of the standards, unchanged."""
 C_FILES = sorted(path for path in PACKAGE.rglob("*.[ch]") if path.name not in VENDORED)
-MAX_FILE_LINES = 300
-MAX_FUNCTION_LINES = 60
-USUAL_FUNCTION_LINES = 40
+MAX_FILE_LINES = 600
+MAX_FUNCTION_LINES = 80
+USUAL_FUNCTION_LINES = 25
 NOT_CODE = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT}
 
 
@@ -29,14 +29,22 @@ def parse(path):
 
 
 def code_lines(source):
-    """Return the numbers of the lines that hold code: no comments, no blank lines."""
+    """Return the numbers of the lines that hold code: no documentation, no comments, no blank lines."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    texts = {
+        line
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+        for line in range(node.lineno, node.end_lineno + 1)
+    }
     return {
         line
         for token in tokens
         if token.type not in NOT_CODE and token.string.strip()
         for line in range(token.start[0], token.end[0] + 1)
-    }
+    } - texts
 
 
 def function_lengths(path):
@@ -50,15 +58,17 @@ def function_lengths(path):
 
 
 @pytest.mark.parametrize("path", MODULES, ids=identify)
-def test_files_are_short(path):
-    lines = len(path.read_text(encoding="utf-8").splitlines())
-    assert lines <= MAX_FILE_LINES, f"{identify(path)} has {lines} lines: it holds more than one idea"
+def test_a_file_is_a_page(path):
+    lines = len(code_lines(path.read_text(encoding="utf-8")))
+    assert lines <= MAX_FILE_LINES, (
+        f"{identify(path)} has {lines} lines of code: it holds more than one subject"
+    )
 
 
 @pytest.mark.parametrize("path", C_FILES, ids=identify)
-def test_c_files_are_short(path):
+def test_a_c_file_is_a_page(path):
     lines = len(path.read_text(encoding="utf-8").splitlines())
-    assert lines <= MAX_FILE_LINES, f"{identify(path)} has {lines} lines: it holds more than one idea"
+    assert lines <= MAX_FILE_LINES, f"{identify(path)} has {lines} lines: it holds more than one subject"
 
 
 @pytest.mark.parametrize("path", MODULES, ids=identify)
@@ -69,7 +79,7 @@ def test_functions_are_short(path):
 
 def test_most_functions_are_very_short():
     counts = sorted(count for path in MODULES for _, count in function_lengths(path))
-    assert counts[len(counts) // 2] <= 10
+    assert counts[len(counts) // 2] <= 7
     assert sum(count <= USUAL_FUNCTION_LINES for count in counts) >= 0.9 * len(counts)
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from rotorfilm import LinearBearing, Scene, bundled_scene, linearize, to_nlsys
-from rotorfilm.errors import ValidityWarning
-from rotorfilm.linear import OperatingPoint
+from rotorfilm.analysis import OperatingPoint
+from rotorfilm.core.errors import ValidityWarning
 
 
 def deprecated(module):

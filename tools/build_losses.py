@@ -14,9 +14,13 @@ from pathlib import Path
 import numpy as np
 from rich.progress import track
 
-from rotorfilm.bearings.journal.map.loss_fit import fit_loss_table, loss_node_eccentricities, loss_node_turns
-from rotorfilm.bearings.journal.map.loss_nodes import node_losses
-from rotorfilm.bearings.journal.map.loss_table import TABLE
+from rotorfilm.bearings.journal.map.map_build import (
+    fit_loss_table,
+    loss_node_eccentricities,
+    loss_node_turns,
+    node_losses,
+)
+from rotorfilm.bearings.journal.map.map_film import LOSS_FILE as TABLE
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "map" / "data" / TABLE
 CELLS, REACH, RANGE = (14, 24, 12), 0.99, (0.1, 4.0)

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from rich.progress import track
 
-from rotorfilm.bearings.journal.map.potential_table import (
+from rotorfilm.bearings.journal.map.map_build import (
     FIELDS,
     TableAxes,
     load_table,

@@ -20,8 +20,8 @@ from pathlib import Path
 
 import numpy as np
 
-from rotorfilm.bearings.films.quintic import quintic_coefficients
-from rotorfilm.bearings.journal.map.potential_grid import GridEnergy, complementary_pressure
+from rotorfilm.bearings.films.map_fit import quintic_coefficients
+from rotorfilm.bearings.journal.map.map_build import GridEnergy, complementary_pressure
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "films" / "wall_table.c"
 CELLS_Q, CELLS_L, END_Q = 24, 16, 9.6

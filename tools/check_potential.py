@@ -14,11 +14,15 @@ import sys
 
 import numpy as np
 
-from rotorfilm.bearings.journal.map.potential import default_resolution, directed_potential
-from rotorfilm.bearings.journal.map.potential_arc import free_arc
-from rotorfilm.bearings.journal.map.potential_domain import Source, region
-from rotorfilm.bearings.journal.map.potential_grid import grid_potential
-from rotorfilm.bearings.journal.map.potential_ritz import solve_region
+from rotorfilm.bearings.journal.map.map_build import grid_potential
+from rotorfilm.bearings.journal.map.map_potential import (
+    Source,
+    default_resolution,
+    directed_potential,
+    free_arc,
+    region,
+    solve_region,
+)
 
 LEVELS = ((96, 12), (192, 24), (384, 48))
 """Grids; the errors of J and of its gradient are of order two, what is left of order four."""

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrow, Rectangle
 
-from rotorfilm.native.kernel_table import kernel_table
+from rotorfilm.native.resource import kernel_table
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "fmu" / "native" / "data"
 STEEL, OIL, INK = "#7a8794", "#f2b233", "#1d2b36"

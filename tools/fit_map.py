@@ -15,7 +15,7 @@ from scipy.interpolate import make_interp_spline
 
 from rotorfilm.bearings.films.map_fit import fit_map_table
 from rotorfilm.bearings.films.map_table import MapTable
-from rotorfilm.bearings.journal.map.potential_table import eccentricity_ratio
+from rotorfilm.bearings.journal.map.map_build import eccentricity_ratio
 
 ROOT = Path(__file__).parents[1]
 

@@ -14,11 +14,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from rotorfilm.limits import TEXT
-from rotorfilm.scenes.reading import readers, tables
+from rotorfilm.core.limits import TEXT
+from rotorfilm.core.units import DISPLAY_UNITS, UNITS
+from rotorfilm.scenes import reading as readers, reading as tables
 from rotorfilm.scenes.scene import Scene
 from rotorfilm.scenes.schema import SCHEMA
-from rotorfilm.units import DISPLAY_UNITS, UNITS
 
 ROOT = Path(__file__).parents[1]
 FILE = ROOT / "rotorfilm" / "scenes" / "data" / "scene.schema.json"

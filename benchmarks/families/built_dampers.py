@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from rotorfilm.analysis import simulate
+from rotorfilm.bearings.assemblies import Sprung
 from rotorfilm.bearings.damper import FiniteSqueeze, SqueezeFilmDamper
-from rotorfilm.bearings.sprung import Sprung
-from rotorfilm.errors import ContactError
-from rotorfilm.motion import simulate
+from rotorfilm.core.errors import ContactError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper.damper_models import damper_models
+from rotorfilm.scenes.damper_films import damper_models
 
 from .built_truth import Place, beyond, impedance
 from .drawn import Drawn, Truth, log_uniform

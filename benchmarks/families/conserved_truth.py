@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.scenes import Scene
 
 from .drawn import Truth

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.motion import simulate
+from rotorfilm.analysis import simulate
 from rotorfilm.questions.coupling import CouplingRung, coupling_ladder
 from rotorfilm.scenes import Scene
 

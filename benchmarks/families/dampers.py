@@ -10,16 +10,16 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
+from rotorfilm.analysis import simulate, synchronous_orbits
+from rotorfilm.analysis.circular_orbits import orbit_points, orbit_rotor
+from rotorfilm.bearings.assemblies import Sprung
 from rotorfilm.bearings.damper import FiniteMapSqueeze, FiniteSqueeze, PorousDamper
-from rotorfilm.bearings.sprung import Sprung
-from rotorfilm.errors import ContactError
-from rotorfilm.model import Reaction
-from rotorfilm.motion import simulate, synchronous_orbits
-from rotorfilm.motion.circular.orbit_points import orbit_points, orbit_rotor
-from rotorfilm.questions.damper.dampers import damper_ladder
+from rotorfilm.core.errors import ContactError
+from rotorfilm.core.model import Reaction
+from rotorfilm.questions.damper import damper_ladder
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper.damper_models import damper_models
+from rotorfilm.scenes.damper_films import damper_models
 
 from .drawn import Drawn, Truth, log_uniform
 

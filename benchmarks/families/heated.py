@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from rotorfilm.bearings.journal import HeatedFilm, LayeredTemperature, ReynoldsFilm, fitted_bearing
-from rotorfilm.errors import RotorfilmError
-from rotorfilm.questions.journal.statics import TEMPERATURES, rest_value
+from rotorfilm.core.errors import RotorfilmError
+from rotorfilm.core.units import CELSIUS
+from rotorfilm.questions.journal_statics import TEMPERATURES, rest_value
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.journal.warm_rest import WarmRest, bush_of, field_rest, uniform_rest
-from rotorfilm.units import CELSIUS
+from rotorfilm.scenes.film_heat import WarmRest, bush_of, field_rest, uniform_rest
 
 from .drawn import Drawn, Truth, log_uniform
 

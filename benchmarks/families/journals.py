@@ -8,15 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm.analysis import equilibrium, whirl_threshold
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
-from rotorfilm.linear import equilibrium, whirl_threshold
-from rotorfilm.questions.journal.blade_loss import blade_loss_ladder
-from rotorfilm.questions.journal.statics import StaticRung
-from rotorfilm.questions.journal.unbalance_orbits import OrbitRung, rotor_of
+from rotorfilm.questions.journal_orbits import OrbitRung, blade_loss_ladder, rotor_of
+from rotorfilm.questions.journal_statics import StaticRung
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.journal.film_defects import tangent
-from rotorfilm.scenes.journal.film_rung import FilmRung
-from rotorfilm.scenes.journal.film_rungs import extrapolated
+from rotorfilm.scenes.film_rungs import FilmRung, extrapolated, tangent
 
 from .conserved_truth import by_conserved_oil
 from .drawn import Drawn, Truth, log_uniform

@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
-from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.journal.film_defects import tangent
-from rotorfilm.scenes.journal.film_rungs import extrapolated
+from rotorfilm.scenes.film_rungs import extrapolated, tangent
 
 from .conserved_truth import by_conserved_oil
 from .drawn import Drawn, Truth, log_uniform

@@ -23,9 +23,9 @@ from typing import Any
 import numpy as np
 
 from rotorfilm import LobedBearing, PressureDamBearing, lobe_set, pressure_dam_pads
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.pads import PadGridFilm
-from rotorfilm.bearings.pads.lobe import SETS as USUAL
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.bearings.pads.lobed_bearing import SETS as USUAL
 from rotorfilm.scenes import Scene
 
 from .drawn import Drawn, Truth, log_uniform

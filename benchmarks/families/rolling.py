@@ -12,7 +12,7 @@ from scipy.optimize import root
 
 from rotorfilm.bearings.rolling import EllipticContact
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.rolling.ball_rest import rest_under, single_of
+from rotorfilm.scenes.rolling import rest_under, single_of
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -10,15 +10,21 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.sparse.linalg import eigs
 
+from rotorfilm.analysis import (
+    critical_speed_map,
+    critical_speeds,
+    periodic_orbit,
+    rotor_equilibrium,
+    rotor_threshold,
+    simulate_rotor,
+)
+from rotorfilm.analysis.rotor_matrices import second_order
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.linear import critical_speed_map, critical_speeds, rotor_equilibrium, rotor_threshold
-from rotorfilm.linear.large.second_order import second_order
-from rotorfilm.model import Reaction
-from rotorfilm.motion import periodic_orbit, simulate_rotor
+from rotorfilm.core.model import Reaction
 from rotorfilm.rotors import FlexibleRotor, FourthOrderBeam, ShaftElement, ShaftRotor, mount
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.reading.tables import read_table
-from rotorfilm.scenes.shaft.shaft_table import ShaftTable
+from rotorfilm.scenes.reading import read_table
+from rotorfilm.scenes.shaft_table import ShaftTable
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.comparisons.coupling.coupling_setup import EXPLICIT, SPEED, resting_rotor
+from rotorfilm.core.errors import PartialResultError
+from rotorfilm.core.model import Array
+from rotorfilm.core.results import Trajectory, orbit_distance
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
 from rotorfilm.cosim.coupling_loop import coupling_loop
-from rotorfilm.errors import PartialResultError
-from rotorfilm.model import Array
-from rotorfilm.results import Trajectory, orbit_distance
 from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.studies.coupling_cost import EXPLICIT, SPEED, resting_rotor
 
 TURNS = 3
 REFERENCE_ANGLE = np.radians(2.0)

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import rotorfilm as rf
+from rotorfilm.analysis import cartesian_state
 from rotorfilm.charts import plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
-from rotorfilm.motion import cartesian_state
 
 RADIUS, LENGTH, CLEARANCE, MASS, SPEED = 0.05, 0.025, 1e-4, 10.0, 400.0
 UNIT = MASS * CLEARANCE

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, brief, require_inside, require_positive, shortened
-from ..inputs.kinds import arguments
-from ..inputs.si_arguments import quantities
-from ..model import Array, Force
-from .differences import differences
+from ..core.errors import InputError, brief, require_inside, require_positive, shortened
+from ..core.inputs import arguments, quantities
+from ..core.model import Array, Force
+from .formulas import differences
 from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
 
 RELATIVE_STEP = 2.0**-8

@@ -3,14 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol, cast
+from dataclasses import InitVar, dataclass
+from typing import Any, NamedTuple, Protocol, cast, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from ..errors import InputError, brief, require_finite, require_inside, require_vector
-from ..model import Array, Force, Linearization, Reaction, Tangent, force_of, static_linearization
-from ..signals import Signal, force_outputs, journal_inputs
+from ..core.errors import (
+    InputError,
+    brief,
+    require_each,
+    require_finite,
+    require_inside,
+    require_positive,
+    require_vector,
+)
+from ..core.model import (
+    Array,
+    Force,
+    JournalForce,
+    Linearization,
+    Reaction,
+    Stepped,
+    Tangent,
+    force_of,
+    static_linearization,
+)
+from ..core.results import Coefficients
+from ..core.signals import MASS_OUTPUTS, Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
 """Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
@@ -296,3 +316,450 @@ class StaticReaction(JournalReaction):
             (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
         """
         return force_of(cast(Reaction, self))
+
+
+# Reactions whose force one kernel of the C library answers state by state.
+
+
+class _Kernel(Protocol):
+    def call(self, *state: float) -> tuple[float, float, int]: ...
+
+    def tangent(self, *state: float) -> tuple[float, float, list[float], int]: ...
+
+
+class _Compiled(Protocol):
+    @property
+    def kernel(self) -> _Kernel: ...
+
+    def report(self, status: int, state: tuple[float, ...]) -> None: ...
+
+
+class KernelReaction(StaticReaction):
+    """A static reaction with a `kernel`, and a `report` that raises, or warns, by the status of a state."""
+
+    def prepare(self: _Compiled) -> Force:
+        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
+        call, report = self.kernel.call, self.report
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            force_x, force_y, status = call(x, y, vx, vy, speed)
+            if status:
+                report(status, (x, y, vx, vy, speed))
+            return force_x, force_y
+
+        return force
+
+    def prepare_tangent(self: _Compiled) -> Tangent:
+        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        call, report = self.kernel.tangent, self.report
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, list[float]]:
+            force_x, force_y, slopes, status = call(x, y, vx, vy, speed)
+            if status:
+                report(status, (x, y, vx, vy, speed))
+            return force_x, force_y, slopes
+
+        return tangent
+
+
+# A film that remembers as a rotor asks for it: steps tried with their slope, as often as Newton wants.
+
+
+class StepTrial(NamedTuple):
+    """A step of a film that may be taken, or tried again to another place.
+
+    Attributes
+    ----------
+    state : object
+        At its end.
+    output : ndarray, shape (n_outputs,)
+        There; force_x, force_y come first.
+    stiffness : ndarray, shape (2, 2) [N/m]
+        -d force / d position at the end of the step.
+    solutions : int
+        Linear systems that were solved.
+    """
+
+    state: Any
+    output: Array
+    stiffness: Array
+    solutions: int
+
+
+@runtime_checkable
+class SteppedReaction(Stepped, Protocol):
+    """A Stepped film between journal and bearing; inputs and first outputs are those of a Reaction."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]: the journal center stays within this distance of the origin."""
+
+    def slopes(self, state: Any) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state that its past holds as it is, shape (2, 5).
+
+        Parameters
+        ----------
+        state : object
+        """
+
+    def attempt(self, state: Any, u: Array, dt: float, near: Any = None) -> StepTrial:
+        """Return one step of length dt [s], not divided, that ends with the input u = (x, y, vx, vy, speed).
+
+        Parameters
+        ----------
+        state : object
+            At the beginning.
+        u : ndarray, shape (5,)
+            At the end, in the SI units of `inputs`.
+        dt : float [s]
+        near : object, optional
+            State of an earlier attempt at this step.
+        """
+
+
+# The Model of a static reaction that may have an added mass: forces, and then the mass.
+
+
+_ROWS, _COLUMNS = [0, 0, 1], [0, 1, 1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class InertialCoefficients(Coefficients):
+    """K, C and the added mass M of a film whose oil has inertia: F = -K q - C v - M a for small motion.
+
+    Attributes
+    ----------
+    mass : ndarray, shape (2, 2) [kg]
+        Rows: force x, y; columns: acceleration along x, y.
+    """
+
+    mass: Array
+
+
+def added_mass(film: Coefficients) -> Array:
+    """Return the added mass of a film [kg], in the shape of its K and C: zeros where those are all."""
+    return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
+
+
+class _Heavy(Protocol):
+    @property
+    def nominal_force(self) -> float: ...
+
+    @property
+    def has_inertia(self) -> bool: ...
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+
+class InertialModel(StaticReaction):
+    """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `InertialReaction`."""
+
+    @property
+    def outputs(self: _Heavy) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal without that of its acceleration; the mass."""
+        forces = force_outputs(self.nominal_force)
+        if not self.has_inertia:
+            return forces
+        nominal = float(self.mass(np.zeros(2), np.array([1.0, 0.0]), 0.0)[0, 0])
+        text = "added mass of the film, whose force on the journal is minus this times the acceleration"
+        return (
+            *forces,
+            *(Signal(name=name, unit="kg", nominal=nominal, description=text) for name in MASS_OUTPUTS),
+        )
+
+    def force_along(
+        self: _Heavy, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
+        """Return the force in a motion, that of the added mass included, shape (2, n) [N].
+
+        Parameters
+        ----------
+        position, velocity, acceleration : ndarray, shape (2, n) [m], [m/s], [m/s2]
+        speed : array_like, shape () or (n,) [rad/s]
+            Angular speed about +z.
+        """
+        force = self.force(position, velocity, speed)
+        if not self.has_inertia:
+            return force
+        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, speed), acceleration)
+
+    def output(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""
+        values = input_vector(u)
+        force = self.force(values[:2], values[2:4], values[4])
+        if not self.has_inertia:
+            return force
+        return np.concatenate([force, self.mass(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]])
+
+    def linearization(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives at u: all of them in the feedthrough matrix D."""
+        values = input_vector(u)
+        D = self.jacobian(values[:2], values[2:4], values[4])
+        if self.has_inertia:
+            mass = self.mass_slopes(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]
+            D = np.vstack([D, mass])
+        return static_linearization(D)
+
+
+# Stiffness and damping that depend on the frequency of the motion.
+
+
+Complex = NDArray[np.complex128]
+
+
+class DynamicStiffness(Protocol):
+    """The stiffness that a journal feels in small motion, over the exponent of the motion."""
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m], shape (2, 2) each: the force changes by -K(s) q e^(s t).
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) alone.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+
+
+@runtime_checkable
+class StateSpaceStiffness(Protocol):
+    """A `DynamicStiffness` of states that follow the journal, which a rotor may take as states of its own."""
+
+    @property
+    def at(self) -> Linearization:
+        """The states about the rest; its inputs begin with x, y, vx, vy, its outputs with the force."""
+
+
+@dataclass(frozen=True)
+class StatesStiffness:
+    """K(s) of a reaction whose states follow the journal, exactly, from its linearization about a rest.
+
+    Parameters
+    ----------
+    at : Linearization
+        Its inputs begin with x, y, vx, vy, its outputs with the force.
+    """
+
+    at: Linearization
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m]; see `DynamicStiffness`."""
+        A, B, C, D = self.at
+        follow = s * np.eye(len(A)) - A
+        drive = B[:, :2] + s * B[:, 2:4]
+        moved = np.linalg.solve(follow, drive)
+        slope = np.linalg.solve(follow, B[:, 2:4] - moved)
+        K, damping = D[:2, :2] + s * D[:2, 2:4] + C[:2] @ moved, D[:2, 2:4] + C[:2] @ slope
+        return -K.astype(complex), -damping.astype(complex)
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) [N/m] alone."""
+        return self(s)[0]
+
+    def exponents(self, mass: float) -> Complex:
+        """Return all exponents of a rigid mass [kg] on it [1/s], the least damped first."""
+        A, B, C, D = self.at
+        size = len(A)
+        push = np.hstack([D[:2, :4], C[:2]]) / mass
+        whole = np.vstack([np.eye(2, 4 + size, 2), push, np.hstack([B[:, :4], A])])
+        values = np.linalg.eigvals(whole).astype(complex)
+        return values[np.argsort(-values.real)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReducedCoefficients(Coefficients):
+    """Stiffness and damping at one frequency, of what follows the journal: pads that tilt, oil in a cavity.
+
+    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. At another
+    frequency K and C are others.
+
+    Attributes
+    ----------
+    frequency : float [rad/s]
+        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
+    growth_rate : float [1/s]
+        Of the motion; 0 for a steady one.
+    """
+
+    frequency: float
+    growth_rate: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class MemoryCoefficients(ReducedCoefficients):
+    """Stiffness and damping at one frequency of a film that remembers, which knows them at every other.
+
+    Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
+    of matrices that it shows.
+
+    Attributes
+    ----------
+    motion : object, optional
+        The `DynamicStiffness` of the film, kept to be called.
+    """
+
+    motion: InitVar[DynamicStiffness | None] = None
+
+    def __post_init__(self, motion: DynamicStiffness | None) -> None:
+        if motion is None:
+            raise TypeError("motion must be the stiffness of the film over s, got None")
+        object.__setattr__(self, "_motion", motion)
+
+    @property
+    def dynamic_stiffness(self) -> DynamicStiffness:
+        """K(s) and dK/ds, as a function of s [1/s]."""
+        found: DynamicStiffness = vars(self)["_motion"]
+        return found
+
+    def near(self, s: complex) -> Coefficients:
+        """Return complex matrices with K(s) = stiffness + s damping, exact about s to the first order.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+        K, slope = self.dynamic_stiffness(s)
+        return Coefficients(
+            stiffness=K - s * slope,  # type: ignore[arg-type]
+            damping=slope,  # type: ignore[arg-type]
+            position=self.position,
+            speed=self.speed,
+        )
+
+
+def coefficients_of(
+    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
+) -> ReducedCoefficients:
+    """Return Re K(i nu) and Im K(i nu)/nu, their limits at 0; `MemoryCoefficients` without a frequency.
+
+    Parameters
+    ----------
+    motion : DynamicStiffness
+    position, speed : ndarray, shape (2,) [m], and float [rad/s]
+        Where the journal rests.
+    frequency : float, optional [rad/s]
+        nu; by default that of the shaft.
+    """
+    nu = abs(speed) if frequency is None else frequency
+    K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
+    damping = K.imag / nu if slope is None else slope.real
+    found = ReducedCoefficients(
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
+    )
+    return found if frequency is not None else MemoryCoefficients(**vars(found), motion=motion)
+
+
+# The units of the film force of a journal, which dimensions and viscosity of its bearing make.
+
+
+class Size(Protocol):
+    """Dimensions of a bearing."""
+
+    @property
+    def radius(self) -> float:
+        """Of the bearing [m]."""
+
+    @property
+    def length(self) -> float:
+        """Full axial length [m]."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m], the unit of eccentricity ratios."""
+
+
+def require_size(bearing: Size, *further: str) -> None:
+    """Raise InputError unless sizes and further fields are positive, and the clearance below the radius."""
+    require_each(bearing, require_positive, "radius", "length", "clearance", *further)
+    if bearing.clearance >= bearing.radius:
+        raise InputError(f"clearance must be below the radius {bearing.radius!r}, got {bearing.clearance!r}")
+
+
+class Dimensions(Size, Protocol):
+    """Dimensions of a bearing, and the viscosity of its film."""
+
+    @property
+    def film_length(self) -> float:
+        """Axial length that is film [m]."""
+
+    @property
+    def film_viscosity(self) -> float:
+        """Dynamic viscosity of the film [Pa s]."""
+
+
+class _Scaled(Protocol):
+    @property
+    def slenderness(self) -> float: ...
+
+    @property
+    def force_scale(self) -> float: ...
+
+
+class FilmUnits:
+    """What is the same of all bearings with `Dimensions`."""
+
+    @property
+    def film_length(self: Dimensions) -> float:
+        """Axial length that is film [m]: all of it."""
+        return self.length
+
+    @property
+    def slenderness(self: Dimensions) -> float:
+        """Length / diameter of the film [1]."""
+        return self.film_length / (2.0 * self.radius)
+
+    @property
+    def force_scale(self: Dimensions) -> float:
+        """Viscosity * film_length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
+        return self.film_viscosity * self.film_length * self.radius**3 / self.clearance**2
+
+    @property
+    def nominal_force(self: _Scaled) -> float:
+        """Force of a middling motion at NOMINAL_SPEED [N]."""
+        return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
+
+
+# Where a journal touches: at a circle of the radial clearance, or where its bearing says.
+
+
+@runtime_checkable
+class WalledReaction(Protocol):
+    """What a Reaction may add whose journal touches elsewhere than at a circle of the radial clearance."""
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
+
+
+def minimum_film(reaction: JournalForce, position: Array) -> Array:
+    """Return the least film [m], shape (...), that any reaction has at positions (2, ...) [m]."""
+    if isinstance(reaction, WalledReaction):
+        return reaction.minimum_film(position)
+    return np.asarray(reaction.clearance - np.hypot(position[0], position[1]))
+
+
+def reach(reaction: JournalForce, positions: Array) -> float:
+    """Return how far the way of journals (2, ...) [m] goes towards contact: 1 - least film / clearance."""
+    if isinstance(reaction, WalledReaction):
+        return 1.0 - float(np.min(reaction.minimum_film(positions))) / reaction.clearance
+    return float(np.hypot(positions[0], positions[1]).max()) / reaction.clearance
+
+
+def relative_film(reaction: JournalForce, position: Array) -> float:
+    """Return the least film of a journal at a position (2,) [m], in clearances."""
+    if isinstance(reaction, WalledReaction):
+        return float(reaction.minimum_film(position)) / reaction.clearance
+    return 1.0 - float(np.hypot(position[0], position[1])) / reaction.clearance

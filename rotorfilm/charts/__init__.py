@@ -2,72 +2,39 @@
 
 from typing import TYPE_CHECKING
 
-from ..sources import show
+from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .bush_charts import (
+    from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
+    from .film_charts import (
+        plot_bistable as plot_bistable,
         plot_contact_pressure as plot_contact_pressure,
         plot_critical_speed as plot_critical_speed,
-    )
-    from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
-    from .certified_charts import (
-        plot_polar_response as plot_polar_response,
-        plot_separation_margins as plot_separation_margins,
-        plot_shaft_statics as plot_shaft_statics,
-        plot_stability_level_one as plot_stability_level_one,
-    )
-    from .comparisons.bearing_type_charts import (
-        plot_bearing_coefficients as plot_bearing_coefficients,
-        plot_bearing_thresholds as plot_bearing_thresholds,
-    )
-    from .comparisons.bush_tier_charts import (
-        plot_bush_tiers as plot_bush_tiers,
-        plot_shaft_flux_error as plot_shaft_flux_error,
-    )
-    from .comparisons.contact_case_charts import plot_contact_cases as plot_contact_cases
-    from .comparisons.contact_ladder import (
-        plot_contact_limits as plot_contact_limits,
-        plot_contact_precision as plot_contact_precision,
-    )
-    from .comparisons.coupling_charts import (
-        plot_coupling_cost as plot_coupling_cost,
-        plot_coupling_limits as plot_coupling_limits,
-    )
-    from .comparisons.coupling_error import plot_coupling_error as plot_coupling_error
-    from .comparisons.damper_ladder import plot_damper_accuracy as plot_damper_accuracy
-    from .comparisons.heat_ladder import plot_heat_accuracy as plot_heat_accuracy
-    from .comparisons.limit_charts import plot_limit_summary as plot_limit_summary, plot_limits as plot_limits
-    from .comparisons.pad_ladder import plot_pad_accuracy as plot_pad_accuracy
-    from .comparisons.scene_ladder import RungPoint as RungPoint, plot_scene_ladder as plot_scene_ladder
-    from .comparisons.whirl_verdicts import (
-        plot_journal_stability as plot_journal_stability,
-        plot_thresholds as plot_thresholds,
-    )
-    from .comparisons.work_precision import (
-        plot_force_error as plot_force_error,
-        plot_journal_accuracy as plot_journal_accuracy,
-    )
-    from .damper_charts import (
-        plot_bistable as plot_bistable,
         plot_damper_run as plot_damper_run,
         plot_eccentricity as plot_eccentricity,
-        plot_phase as plot_phase,
-        plot_transmissibility as plot_transmissibility,
-        plot_transmitted as plot_transmitted,
-    )
-    from .heat_charts import (
         plot_heated_film as plot_heated_film,
+        plot_phase as plot_phase,
         plot_pressure_field as plot_pressure_field,
         plot_temperature_across as plot_temperature_across,
         plot_temperature_field as plot_temperature_field,
+        plot_transmissibility as plot_transmissibility,
+        plot_transmitted as plot_transmitted,
     )
-    from .motion_charts import plot_locus as plot_locus, plot_orbits as plot_orbits
+    from .ladder_charts import (
+        plot_contact_limits as plot_contact_limits,
+        plot_contact_precision as plot_contact_precision,
+        plot_damper_accuracy as plot_damper_accuracy,
+        plot_heat_accuracy as plot_heat_accuracy,
+        plot_pad_accuracy as plot_pad_accuracy,
+    )
     from .page import write_page as write_page
     from .result_charts import (
+        RungPoint as RungPoint,
         plot_contact_run as plot_contact_run,
         plot_film as plot_film,
         plot_question as plot_question,
         plot_result as plot_result,
+        plot_scene_ladder as plot_scene_ladder,
         plot_trajectory as plot_trajectory,
     )
     from .rolling_charts import (
@@ -76,16 +43,40 @@ if TYPE_CHECKING:
         plot_compliance as plot_compliance,
     )
     from .rotor_charts import (
+        plot_basin as plot_basin,
         plot_campbell as plot_campbell,
         plot_critical_speed_map as plot_critical_speed_map,
+        plot_locus as plot_locus,
         plot_log_decrement as plot_log_decrement,
         plot_mode_shape as plot_mode_shape,
+        plot_orbit_curves as plot_orbit_curves,
+        plot_orbits as plot_orbits,
+        plot_periodic_orbit as plot_periodic_orbit,
+        plot_polar_response as plot_polar_response,
+        plot_separation_margins as plot_separation_margins,
+        plot_shaft_statics as plot_shaft_statics,
+        plot_stability_level_one as plot_stability_level_one,
         plot_unbalance_response as plot_unbalance_response,
     )
-    from .whirl_charts import (
-        plot_basin as plot_basin,
-        plot_orbit_curves as plot_orbit_curves,
-        plot_periodic_orbit as plot_periodic_orbit,
+    from .study_charts import (
+        plot_bearing_coefficients as plot_bearing_coefficients,
+        plot_bearing_thresholds as plot_bearing_thresholds,
+        plot_bush_tiers as plot_bush_tiers,
+        plot_contact_cases as plot_contact_cases,
+        plot_coupling_cost as plot_coupling_cost,
+        plot_coupling_error as plot_coupling_error,
+        plot_coupling_limits as plot_coupling_limits,
+        plot_limit_summary as plot_limit_summary,
+        plot_limits as plot_limits,
+        plot_shaft_flux_error as plot_shaft_flux_error,
+    )
+    from .whirl_verdicts import (
+        plot_journal_stability as plot_journal_stability,
+        plot_thresholds as plot_thresholds,
+    )
+    from .work_precision import (
+        plot_force_error as plot_force_error,
+        plot_journal_accuracy as plot_journal_accuracy,
     )
 else:
     show(__name__)

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 
-from ..errors import InputError
-from ..files import write_whole
+from ..core.errors import InputError
+from ..core.files import write_whole
 
 NAME = "charts.html"
 

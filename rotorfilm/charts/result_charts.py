@@ -3,28 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..answers import QuestionAnswer
 from ..bearings.contact import ContactRun
 from ..bearings.damper import JFOOrbit
 from ..bearings.journal import FilmState, JFOState
-from ..errors import InputError
-from ..model import Array
-from ..readable.quantities import label_of
-from ..readable.result import Drawable
-from ..results import Trajectory
+from ..core.answers import QuestionAnswer
+from ..core.errors import InputError
+from ..core.model import Array
+from ..core.readable import Drawable, label_of
+from ..core.results import Trajectory
 from .canvas import new_axes, new_figure
-from .certified_charts import plot_separation_margins, plot_shaft_statics, plot_stability_level_one
-from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
-from .damper_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
+from .film_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
 from .rolling_charts import plot_compliance
-from .rotor_charts import plot_campbell
-from .whirl_charts import plot_orbit_curves, plot_periodic_orbit
+from .rotor_charts import (
+    plot_campbell,
+    plot_orbit_curves,
+    plot_periodic_orbit,
+    plot_separation_margins,
+    plot_shaft_statics,
+    plot_stability_level_one,
+)
 
 GRAM_MILLIMETER = 1e-6
 
@@ -185,3 +189,49 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "VariableCompliance": plot_compliance,
 }
 """What draws a result, by the name of its class."""
+
+
+# Chart of the models that could answer a scene's question: estimated error against cost.
+
+
+@dataclass(frozen=True, kw_only=True)
+class RungPoint:
+    """One model on the chart.
+
+    Attributes
+    ----------
+    name : str
+    error_estimate : float [1]
+    cost : float [s]
+        Of its answer.
+    chosen : bool
+    """
+
+    name: str
+    error_estimate: float
+    cost: float
+    chosen: bool
+
+
+def plot_scene_ladder(
+    points: Sequence[RungPoint], *, title: str, tolerance: float, axes: Axes | None = None
+) -> Axes:
+    """Draw the estimated error of each model over its cost, the tolerance, and the model that answers.
+
+    Parameters
+    ----------
+    points : sequence of RungPoint
+    title : str
+    tolerance : float [1]
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes(title, size=(7.5, 5.0))
+    for number, point in enumerate(points):
+        style = {"marker": "*", "markersize": 16} if point.chosen else {"marker": "o"}
+        name = f"{point.name}, chosen" if point.chosen else point.name
+        axes.plot(1e3 * point.cost, point.error_estimate, color=f"C{number % 10}", ls="", label=name, **style)
+    axes.axhline(tolerance, color="k", linewidth=1.0, linestyle="--", label="tolerance")
+    axes.set(xscale="log", yscale="log", xlabel="cost of the answer [ms]", ylabel="estimated error")
+    axes.legend(fontsize=8)
+    return axes

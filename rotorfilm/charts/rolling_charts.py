@@ -7,10 +7,10 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..comparisons import BallAccuracy, BallCurves
-from ..motion import VariableCompliance
+from ..analysis import VariableCompliance
+from ..studies import BallAccuracy, BallCurves
 from .canvas import new_axes, new_figure
-from .comparisons.rung_marks import RungMark, draw_marks, label_marks
+from .ladder_charts import RungMark, draw_marks, label_marks
 
 RPM = 30.0 / math.pi
 SHOWN = 8

@@ -3,17 +3,43 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import control
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import InputError
-from ..linear import Campbell, CriticalSpeed, RotorModes
-from ..model import Array
+from ..analysis import (
+    BasinScan,
+    Bifurcation,
+    Campbell,
+    CriticalSpeed,
+    OrbitCurve,
+    PeriodicOrbit,
+    RotorModes,
+    SeparationMargins,
+    ShaftStatics,
+    StabilityLevelOne,
+)
+from ..analysis.api617 import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
+from ..core.errors import InputError
+from ..core.model import Array
+from ..core.results import Trajectory
 from ..rotors import ShaftRotor
-from .canvas import legend_beside, new_axes, new_figure
+from ..studies.journal_accuracy import FilmFamily
+from .canvas import (
+    BAD,
+    DASHES,
+    FAMILY_COLORS,
+    FAMILY_WIDTHS,
+    GOOD,
+    WITHIN,
+    legend_beside,
+    new_axes,
+    new_figure,
+)
 
 RPM = math.pi / 30.0
 HERTZ = 2.0 * math.pi
@@ -215,3 +241,329 @@ def _curves(
         if np.isfinite(curve).any():
             axes.plot(x, curve, color=color, linestyle=style, linewidth=width, label=label)
             label = "_nolegend_"
+
+
+# Charts that rotors are certified with, as API 617 wants them.
+
+
+MEGANEWTON = 1e6
+
+
+def plot_stability_level_one(
+    result: StabilityLevelOne, *, axes: Sequence[Axes] | None = None
+) -> tuple[Axes, Axes]:
+    """Draw the log decrement over the applied cross-coupling [MN/m], and where the machine is screened.
+
+    Parameters
+    ----------
+    result : StabilityLevelOne
+    axes : two Axes, optional
+        For curves and screening; a new figure by default.
+
+    Returns
+    -------
+    (Axes, Axes)
+    """
+    if axes is None:
+        axes = new_figure(size=(9.6, 4.4)).subplots(1, 2)
+    beside, screening = axes
+    for curve in result.curves:
+        applied = curve.cross_coupling / MEGANEWTON
+        beside.plot(applied, curve.log_decrement, "o-", markersize=3, label=curve.name)
+    expected = result.anticipated_cross_coupling / MEGANEWTON
+    beside.axvline(expected, color="k", linestyle=":", label="QA")
+    beside.plot([expected], [result.anticipated_decrement], "ks", fillstyle="none", label="delta_A")
+    if math.isfinite(result.zero_cross_coupling):
+        beside.plot([result.zero_cross_coupling / MEGANEWTON], [0.0], "k^", fillstyle="none", label="Q0")
+    beside.axhline(LEAST_DECREMENT, color="k", linestyle="--", linewidth=0.8, label=f"{LEAST_DECREMENT:g}")
+    beside.axhline(0.0, color="k", linewidth=0.8)
+    needed = "required" if result.level_two_required else "not required"
+    beside.set(xlabel="applied cross-coupling [MN/m]", ylabel="log decrement", title=f"Level II is {needed}")
+    _screening(result, screening)
+    for part in (beside, screening):
+        part.grid(visible=True, alpha=0.3)
+        part.legend(fontsize=8)
+    return beside, screening
+
+
+def _screening(result: StabilityLevelOne, axes: Axes) -> None:
+    """Draw critical speed ratio over density, with the border between regions A and B."""
+    density = 0.0 if result.average_density is None else result.average_density
+    least, most = BORDER_DENSITY
+    right = max(1.2 * most, 1.2 * density)
+    border = np.array([0.0, least, most, most]), np.array([*BORDER_RATIO[:1], *BORDER_RATIO, 0.0])
+    axes.plot(*border, "k-", linewidth=1.0, label="border of regions A and B")
+    low = result.critical_speed_ratio < 1.0 and density < least
+    axes.text(0.4 * least, 1.5 if low else 0.5, "A")
+    axes.text(1.05 * most, 0.5, "B")
+    if result.average_density is not None:
+        axes.plot([density], [result.critical_speed_ratio], "ks", label="this machine")
+    top = max(3.5, 1.2 * result.critical_speed_ratio)
+    axes.set(
+        xlabel="average gas density [kg/m3]",
+        ylabel="critical speed ratio",
+        xlim=(0.0, right),
+        ylim=(0.0, top),
+        title=f"Q0/QA = {result.margin:.3g}",
+    )
+
+
+def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = None) -> Axes:
+    """Draw the amplitudes [um] over speed [rpm], peaks with their AF, red where it is too near.
+
+    Parameters
+    ----------
+    result : SeparationMargins
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Separation margins")
+    for name, amplitude in result.amplitudes.items():
+        axes.semilogy(result.speeds / RPM, 1e6 * amplitude, label=name)
+    axes.axvspan(
+        result.minimum_speed / RPM, result.maximum_speed / RPM, color="0.85", label="operating range"
+    )
+    for peak in result.peaks:
+        mark = "kv" if peak.acceptable else "rv"
+        axes.plot([peak.speed / RPM], [1e6 * peak.peak_amplitude], mark, fillstyle="none")
+        axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.peak_amplitude))
+    axes.set(
+        xlabel="speed [rpm]",
+        ylabel="amplitude [um]",
+        title="Separation margins are kept" if result.acceptable else "Separation margins are not kept",
+    )
+    axes.legend(fontsize=8)
+    return axes
+
+
+def plot_shaft_statics(
+    result: ShaftStatics, *, axes: Sequence[Axes] | None = None
+) -> tuple[Axes, Axes, Axes]:
+    """Draw sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes.
+
+    Parameters
+    ----------
+    result : ShaftStatics
+    axes : three Axes, optional
+        A new figure by default.
+
+    Returns
+    -------
+    (Axes, Axes, Axes)
+    """
+    if axes is None:
+        axes = new_figure(size=(7.4, 7.4)).subplots(3, 1, sharex=True)
+    above, middle, below = axes
+    for k, name in enumerate("xy"):
+        above.plot(result.positions, 1e6 * result.sag[k], "o-", markersize=3, label=name)
+        middle.plot(result.places, result.shear_force[k], label=name)
+        below.plot(result.places, result.bending_moment[k], label=name)
+    above.set(ylabel="sag [um]", title="Under its weight")
+    middle.set(ylabel="shear force [N]")
+    below.set(ylabel="bending moment [N m]", xlabel="along the shaft [m]")
+    for part in (above, middle, below):
+        part.grid(visible=True, alpha=0.3)
+        part.legend(fontsize=8)
+    return above, middle, below
+
+
+def plot_polar_response(
+    response: control.FrequencyResponseData, outputs: Sequence[str], *, axes: Axes | None = None
+) -> Axes:
+    """Draw phasors [um] of a response over speed in the complex plane, with some speeds [rpm] beside them.
+
+    Parameters
+    ----------
+    response : control.FrequencyResponseData
+        As `unbalance_response` or `tracked_response` returns it.
+    outputs : sequence of str
+        Names of displacements.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Polar plot")
+    speeds = np.asarray(response.frequency) / RPM
+    for name in outputs:
+        phasor = 1e6 * np.asarray(response.frdata)[list(response.output_labels).index(name), 0]
+        axes.plot(phasor.real, phasor.imag, label=name)
+        size = np.abs(phasor)
+        for k in {0, int(np.argmax(size)), len(speeds) - 1}:
+            axes.annotate(f"{speeds[k]:.0f} rpm", (phasor[k].real, phasor[k].imag), fontsize=8)
+    axes.set(xlabel="real [um]", ylabel="imaginary [um]", aspect="equal", adjustable="datalim")
+    axes.legend(fontsize=8)
+    return axes
+
+
+# Charts of whirl: curves of periodic orbits with their stability, and basins.
+
+
+MARKS = {
+    Bifurcation.FOLD: "o",
+    Bifurcation.PERIOD_DOUBLING: "D",
+    Bifurcation.NEIMARK_SACKER: "s",
+    Bifurcation.BRANCH: "^",
+}
+"""Marker of each bifurcation."""
+
+
+def plot_orbit_curves(
+    curves: Mapping[str, OrbitCurve], *, scale: float = 1.0, axes: Axes | None = None
+) -> Axes:
+    """Draw the amplitude of periodic orbits over their parameter; unstable ones dashed, bifurcations marked.
+
+    Parameters
+    ----------
+    curves : mapping of str to OrbitCurve
+        By label.
+    scale : float
+        Unit of the parameter.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Periodic orbits")
+    marked = set()
+    for k, (label, curve) in enumerate(curves.items()):
+        color, x, stable = f"C{k}", curve.parameters / scale, curve.stable
+        amplitude = curve.amplitudes
+        # A segment is drawn as its ends are; where they differ, as the unstable one.
+        solid = np.append(stable[:-1] & stable[1:], False)
+        for shown, style in ((solid, "-"), (~solid, "--")):
+            pieces = np.where(shown[:-1, None], np.stack([amplitude[:-1], amplitude[1:]], 1), np.nan)
+            places = np.stack([x[:-1], x[1:]], 1)
+            ends = np.full((len(pieces), 1), np.nan)
+            line = np.hstack([places, ends]).ravel(), np.hstack([pieces, ends]).ravel()
+            axes.plot(*line, style, color=color, label=label if style == "-" else None)
+        for event in curve.events:
+            name = None if event.kind in marked else event.kind.value
+            marked.add(event.kind)
+            axes.plot(
+                event.parameter / scale,
+                event.orbit.amplitude,
+                MARKS[event.kind],
+                color="k",
+                markersize=5,
+                label=name,
+            )
+    axes.set(ylabel="largest distance of the journal from its mean / clearance")
+    axes.legend(fontsize=8)
+    return axes
+
+
+def plot_periodic_orbit(orbit: PeriodicOrbit, *, axes: Axes | None = None) -> Axes:
+    """Draw a periodic orbit of each journal inside its clearance circle.
+
+    Parameters
+    ----------
+    orbit : PeriodicOrbit
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Periodic orbit", size=(5.6, 5.2))
+    paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
+    for station, (x, y) in zip(orbit.stations, paths, strict=True):
+        axes.plot(x, y, label=station or "journal")
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
+    axes.legend(fontsize=8)
+    return axes
+
+
+def plot_basin(scan: BasinScan, *, clearance: float, axes: Axes | None = None) -> Axes:
+    """Draw where a rotor goes from initial positions: to rest, or into whirl.
+
+    Parameters
+    ----------
+    scan : BasinScan
+        Over a list or a grid of offsets of one bearing.
+    clearance : float [m]
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Where the rotor goes from rest at a position", size=(6.0, 5.6))
+    x, y = (scan.offsets.reshape(2, -1) + scan.rest[:2, None]) / clearance
+    whirls = scan.whirls.ravel()
+    inside = np.hypot(x, y) < 1.0
+    for chosen, color, label in ((whirls, BAD, "into whirl"), (~whirls, GOOD, "to rest")):
+        here = chosen & inside
+        axes.plot(x[here], y[here], "s", color=color, markersize=4.5, label=label)
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    axes.plot(*(scan.rest[:2] / clearance), "k+", label="rest")
+    axes.set(xlabel="x / clearance (load)", ylabel="y / clearance", aspect="equal")
+    axes.legend(fontsize=8, loc="upper right")
+    return axes
+
+
+# Charts of the journal's motion: orbits and the locus of static equilibria.
+
+
+def plot_orbits(
+    orbits: Mapping[str, Trajectory],
+    *,
+    clearance: float,
+    center: Iterable[float] | None = None,
+    axes: Axes | None = None,
+) -> Axes:
+    """Draw journal orbits.
+
+    Parameters
+    ----------
+    orbits : mapping of str to Trajectory
+        Label and motion; later ones are drawn dashed over earlier ones.
+    clearance : float [m]
+        Scale of both axes.
+    center : iterable of 2 floats, optional [m]
+        Static equilibrium, marked by a cross.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Orbit of the journal center", size=(5.6, 5.2))
+    for number, (label, orbit) in enumerate(orbits.items()):
+        x, y = orbit.position / clearance
+        axes.plot(x, y, ("-", "--", ":")[min(number, 2)], label=label, linewidth=1.6)
+    if center is not None:
+        x0, y0 = center
+        axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium", zorder=3)
+    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
+    legend_beside(axes)
+    return axes
+
+
+def plot_locus(
+    curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    *,
+    families: Mapping[str, FilmFamily] | None = None,
+    axes: Axes | None = None,
+) -> Axes:
+    """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
+
+    Parameters
+    ----------
+    curves : mapping of str to (ndarray, ndarray)
+        Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
+    families : mapping of str to FilmFamily, optional
+        Family of films by label, for its color and line.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Locus of the journal center, load along -y", size=(7.6, 5.2))
+    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 181)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label="clearance circle")
+    drawn: Counter[FilmFamily | None] = Counter()
+    for label, (eccentricity_ratio, attitude_angle) in curves.items():
+        x = eccentricity_ratio * np.sin(attitude_angle)
+        y = -eccentricity_ratio * np.cos(attitude_angle)
+        family = None if families is None else families.get(label)
+        color, width, style = None, 1.4, WITHIN[drawn[family] % len(WITHIN)]
+        if family is not None:
+            color, width = FAMILY_COLORS[family], FAMILY_WIDTHS[family]
+        drawn[family] += 1
+        line: dict[str, Any] = {"color": color, "linewidth": width, "linestyle": DASHES.get(family, style)}
+        axes.plot(x, y, label=label, zorder=2.0 + 0.5 / width, **line)
+    axes.set(
+        xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
+    )
+    # Beside the picture: inside, it would lie on the clearance circle.
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=5.0)
+    return axes

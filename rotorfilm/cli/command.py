@@ -117,7 +117,7 @@ SignalFile = Annotated[Path | None, Option(help="CSV file for the signals.", met
 @contextmanager
 def inside(scene: Path) -> Iterator[None]:
     """Let an InputError about a scene begin with the name of its file."""
-    from ..errors import InputError
+    from ..core.errors import InputError
 
     try:
         yield
@@ -252,8 +252,8 @@ def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
 
 def _half(diameter: str) -> str:
     """Return the radius [m] of a diameter as a text; raise ArgumentTypeError if it is none."""
-    from ..errors import InputError
-    from ..units import parse_quantity
+    from ..core.errors import InputError
+    from ..core.units import parse_quantity
 
     try:
         return repr(0.5 * parse_quantity(diameter, "m"))

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..limits import CONTACT_CELLS, LAW_STATES
-from ..progress import Report
+from ..core.limits import CONTACT_CELLS, LAW_STATES
+from ..core.progress import Report
 from . import printing as console
 from .command import Option, Said
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..bearings.contact import ContactRun, RollingBall
-    from ..scenes.contact.solve_contact import ContactAnswer, ContactCase, ContactResponse
+    from ..scenes.solve_contact import ContactAnswer, ContactCase, ContactResponse
 
 BALL = (
     "radius", "modulus", "poisson_ratio", "viscosity", "pressure_coefficient", "speed", "load",
@@ -65,8 +65,8 @@ def contact(
     ] = None,
 ) -> Said:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
-    from ..scenes.contact.solve_contact import respond, response_of, solve_contact
-    from ..scenes.reading.readers import Count
+    from ..scenes.reading import Count
+    from ..scenes.solve_contact import respond, response_of, solve_contact
 
     given = dict(
         radius=radius, mass=mass, modulus=modulus, poisson_ratio=poisson_ratio, viscosity=viscosity,
@@ -144,10 +144,9 @@ def _case(
     cells: int,
 ) -> ContactCase:
     from ..bearings.contact import ContactGrid, PointContact
-    from ..errors import InputError
-    from ..scenes.contact.solve_contact import ContactCase, case_of
-    from ..scenes.reading.readers import Count
-    from ..scenes.reading.tables import Quantity
+    from ..core.errors import InputError
+    from ..scenes.reading import Count, Quantity
+    from ..scenes.solve_contact import ContactCase, case_of
 
     V, Q0, W = plain
     grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
@@ -165,8 +164,8 @@ def _case(
 
 def _ball(given: dict[str, str | None]) -> RollingBall:
     from ..bearings.contact import RollingBall
-    from ..errors import InputError
-    from ..scenes.reading.tables import Quantity
+    from ..core.errors import InputError
+    from ..scenes.reading import Quantity
 
     missing = [_option(name) for name in BALL if given[name] is None]
     if missing:
@@ -180,7 +179,7 @@ def _ball(given: dict[str, str | None]) -> RollingBall:
 def _require_response(
     case: ContactCase, step: float | None, sine: float | None, frequency: str | None, full: bool
 ) -> None:
-    from ..errors import InputError
+    from ..core.errors import InputError
 
     if step is not None and sine is not None:
         raise InputError("--step and --sine must not both be given")
@@ -192,7 +191,7 @@ def _require_response(
 
 def _scaled(case: ContactCase, name: str, text: str, unit: str, scale: float) -> float:
     """Return a time or frequency in the unit of the contact."""
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     return Quantity(unit if case.ball is not None else "1")(name, text) / scale
 
@@ -205,8 +204,8 @@ def _drive(
     duration: str | None,
 ) -> tuple[float, Callable[[float], float]]:
     """Return the duration of the response, and the load over time that drives it, both scaled."""
-    from ..scenes.contact.contact_motions import require_followable
-    from ..scenes.contact.solve_contact import load_over_time
+    from ..scenes.contact_motions import require_followable
+    from ..scenes.solve_contact import load_over_time
 
     scale = case.time_scale
     time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", scale)
@@ -224,7 +223,7 @@ def _run(
     report: Any,
 ) -> ContactRun:
     """Return the run of the full film, kept on disk as it goes; one that is not complete is gone on with."""
-    from ..scenes.contact.solve_contact import run_full
+    from ..scenes.solve_contact import run_full
 
     earlier = None if resume is None else case.contact.load(resume)
     start = earlier.final if earlier is not None and earlier.complete else earlier

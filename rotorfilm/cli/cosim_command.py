@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ..progress import Report
-from ..results import write_csv
+from ..core.progress import Report
+from ..core.results import write_csv
 from . import printing as console
 from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 
@@ -38,10 +38,10 @@ def cosim(
 ) -> Said:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
     report(0.0, "packages")
-    from ..errors import PartialResultError
+    from ..core.errors import PartialResultError
     from ..scenes import Scene
     from ..scenes.cosimulate_scene import run_scene, scheme_named
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     loaded = Scene.load(scene)
     table = loaded.cosimulation

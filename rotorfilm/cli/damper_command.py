@@ -9,15 +9,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..results import CircularOrbit, write_csv
+from ..core.results import CircularOrbit, write_csv
 from . import printing as console
 from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 
 if TYPE_CHECKING:
     from ..bearings.damper import EndSeal, PorousCage
     from ..scenes import Scene
-    from ..scenes.damper.damper_runs import DamperRun
-    from ..scenes.damper.solve_damper import DamperAnswer
+    from ..scenes.solve_damper import DamperAnswer, DamperRun
 
 
 class Squeeze(StrEnum):
@@ -79,9 +78,9 @@ def damper(
     Beyond a squeeze Reynolds number of 20 (10 where the film ruptures) the inertia of the oil is refused.
     """
     from ..bearings.damper import PorousDamper
-    from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
-    from ..scenes.damper.damper_table import SQUEEZES
-    from ..scenes.damper.solve_damper import solve_damper
+    from ..bearings.films.geometry import FullFilm, HalfSommerfeld
+    from ..scenes.damper_table import SQUEEZES
+    from ..scenes.solve_damper import solve_damper
 
     size = _in_si(radius=radius, length=length, clearance=clearance, viscosity=viscosity, density=density)
     rotor = _in_si(mass=mass, speed=speed, unbalance=unbalance, stiffness=stiffness)
@@ -103,7 +102,7 @@ def damper(
 
 def _in_si(**texts: str | None) -> dict[str, Any]:
     """Return the numbers of options, those that are not given left out."""
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     given = {name: text for name, text in texts.items() if text is not None}
     return {name: Quantity(UNITS[name])(f"--{name.replace('_', '-')}", text) for name, text in given.items()}
@@ -148,7 +147,7 @@ def _cage(
     thickness: str | None, permeability: str | None, grading: float, anisotropy: float, vented: bool
 ) -> PorousCage | None:
     from ..bearings.damper import PorousCage
-    from ..errors import InputError
+    from ..core.errors import InputError
 
     if thickness is None and permeability is None:
         if (grading, anisotropy, vented) != (0.0, 1.0, False):
@@ -163,7 +162,7 @@ def _cage(
 def _seals(
     leakage: str | None, gap: str | None, gap_length: str | None, size: dict[str, float]
 ) -> EndSeal | None:
-    from ..scenes.damper.seal_table import SealsTable
+    from ..scenes.damper_table import SealsTable
 
     given = _in_si(leakage=leakage, gap=gap, gap_length=gap_length)
     return SealsTable(**given).seal(viscosity=size["viscosity"], radius=size["radius"]) if given else None
@@ -200,7 +199,7 @@ def damper_run(
 
 
 def _run(scene: Scene, fmus: bool) -> DamperRun:
-    from ..scenes.damper.damper_runs import couple_damper, run_damper
+    from ..scenes.solve_damper import couple_damper, run_damper
 
     if not fmus:
         return run_damper(scene)

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ..progress import Report
-from ..units import CELSIUS
+from ..core.progress import Report
+from ..core.units import CELSIUS
 from . import printing as console
 from .command import Option, Said
 from .solve_command import print_answer

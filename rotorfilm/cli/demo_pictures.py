@@ -19,7 +19,7 @@ from ..charts import (
     plot_thresholds,
     save,
 )
-from ..results import Trajectory
+from ..core.results import Trajectory
 from ..scenes.demo import DemoResult, demo_rungs
 
 OVERVIEW_SIZE, OVERVIEW_DPI = (14.0, 11.2), 100

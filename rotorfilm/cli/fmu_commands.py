@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..progress import Report
+from ..core.progress import Report
 from . import printing as console
 from .command import Argument, Option, Said, SceneFile, inside
 
@@ -53,9 +53,9 @@ def build(
     So is a rotor on a damper whose oil has mass.
     """
     from ..scenes import Scene
-    from ..scenes.damper.export_damper import export_damped_rotor
     from ..scenes.export_scene import export_scene, export_scene_system
-    from ..scenes.shaft.export_rotor import export_system
+    from ..scenes.rotor_runs import export_system
+    from ..scenes.solve_damper import export_damped_rotor
 
     loaded = Scene.load(scene)
     with inside(scene):

@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..errors import InputError, brief
-from ..progress import Report
-from ..readable.result import rows
-from ..units import whole_number
+from ..core.errors import InputError, brief
+from ..core.progress import Report
+from ..core.readable import rows
+from ..core.units import whole_number
 from . import printing as console
 from .command import Argument, Option, Said
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
     from ..bearings.films.law import FilmLaw
     from ..bearings.journal import GrooveMapTable
-    from ..scenes.film_table import FilmTable
-    from ..scenes.journal.film_tables import ConservedOil
+    from ..scenes.excitation_table import FilmTable
+    from ..scenes.journal_tables import ConservedOil
     from ..scenes.lubricant_table import LubricantTable
 
 Grooves = Annotated[
@@ -63,7 +63,7 @@ def coefficients(
     groove: Grooves = None,
 ) -> Said:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
-    from ..scenes.reading.tables import read_table
+    from ..scenes.reading import read_table
     from ..scenes.schema import JournalTable
 
     lubricant = lubricant_of(viscosity, oil, supply_temperature)
@@ -95,7 +95,7 @@ def groove_map(
     out: Annotated[Path | None, Option(help="File for a copy of the map.")] = None,
 ) -> Said:
     """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
-    from ..bearings.films.table_cache import cache_folder
+    from ..bearings.films.map_table import cache_folder
     from ..bearings.journal import build_groove_map
     from ..scenes import Scene
 
@@ -127,7 +127,7 @@ def _map_of_options(
 ) -> GrooveMapTable:
     from ..bearings.films.geometry import FilmGeometry
     from ..bearings.journal import GroovedMapFilm
-    from ..scenes.journal.film_tables import CELLS, NODES
+    from ..scenes.journal_tables import CELLS, NODES
 
     if slenderness is None or not groove:
         raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
@@ -145,7 +145,7 @@ def _map_of_options(
 def lubricant_of(viscosity: str | None, oil: str | None, supply_temperature: str | None) -> LubricantTable:
     """Return the oil of a grade; without one a mineral oil for the remarks, beside the viscosity."""
     from ..scenes.lubricant_table import LubricantTable, read_grade
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     if (viscosity is None) is (oil is None):
         raise InputError(f"--viscosity or --oil must be given, got {'neither' if oil is None else 'both'}")
@@ -163,8 +163,8 @@ def lubricant_of(viscosity: str | None, oil: str | None, supply_temperature: str
 def _film(
     film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None
 ) -> FilmLaw | ConservedOil:
-    from ..scenes.journal.film_tables import FILMS
-    from ..scenes.reading.tables import choose, keyed, read_table
+    from ..scenes.journal_tables import FILMS
+    from ..scenes.reading import choose, keyed, read_table
 
     given: dict[str, Any] = {
         "order": order and _numbers(order),
@@ -188,7 +188,7 @@ def _numbers(text: str) -> list[int | str]:
 def _groove(text: str) -> Groove:
     """Return the groove of "CENTER, WIDTH"."""
     from ..bearings.films.geometry import Groove
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2:
@@ -199,8 +199,7 @@ def _groove(text: str) -> Groove:
 
 def operation_of(load: str, speed: str) -> tuple[tuple[float, float], float]:
     """Return the load [N] and the speed [rad/s]."""
-    from ..scenes.reading.readers import read_load
-    from ..scenes.reading.tables import read_table
+    from ..scenes.reading import read_load, read_table
     from ..scenes.schema import OperationTable
 
     components = load.split(",")
@@ -220,7 +219,7 @@ def found_of(
     **whirl: float,
 ) -> Said:
     """Return equilibrium, losses, K and C of the bearing of a table, and what its physics leaves out."""
-    from ..linear import coefficients as film_coefficients, equilibrium
+    from ..analysis import coefficients as film_coefficients, equilibrium
 
     bearing, (load, speed) = table.build(), operation
     table.make_map(report)

@@ -1,7 +1,5 @@
 """The command line: every command with its example, and what becomes of errors and warnings."""
 
-# A command's module is imported when it is called, and a package that takes long inside the command.
-
 from __future__ import annotations
 
 import argparse
@@ -10,10 +8,13 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-from ..errors import FileWarning, InputError, RotorfilmError, SceneError, ValidityWarning
-from ..sources import installed_version
+from ..core.errors import FileWarning, InputError, RotorfilmError, SceneError, ValidityWarning
+from ..core.sources import installed_version
 from . import printing as console
 from .command import BAD_INPUT, FAILED, Group, Parser, function_of, run_command
+
+# A command's module is imported when it is called, and a package that takes long inside the command.
+
 
 COMMANDS = {
     "solve_command.solve": "solve examples/question.toml --explain",
@@ -26,7 +27,7 @@ COMMANDS = {
     '--viscosity "20 mPa s" --load "3 kN" --speed "3000 rpm"',
     "journal_commands.groove_map": 'groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '
     '--groove "270 deg, 20 deg"',
-    "bush_command.bush": 'bush --load "3750 N" --speed "9 rad/s" --set f0=0.12',
+    "solve_command.bush": 'bush --load "3750 N" --speed "9 rad/s" --set f0=0.12',
     "demo_command.demo": "demo --out rotorfilm-demo",
     "cosim_command.cosim": 'cosim examples/friswell.toml --scheme si-exp3 --macro-angle "5 deg"',
     "damper_command.damper": 'damper --radius "50 mm" --length "25 mm" --clearance "0.1 mm" '
@@ -52,21 +53,21 @@ FMU_COMMANDS = {
 }
 
 CHARTS = {
-    "charts.chart_commands.journal": "chart journal --ld 0.5 --json",
-    "charts.chart_commands.stability": "chart stability --ld 0.5 --json",
-    "charts.pad_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
-    "charts.pad_commands.pads": "chart pads --ld 0.5 --json",
-    "charts.rolling_command.rolling": "chart rolling --speed '30000 rpm'",
-    "charts.chart_commands.contact": "chart contact --cells 48 --json",
-    "charts.chart_commands.contact_cases": "chart contact-cases --cells 40",
-    "charts.chart_commands.contact_limits": "chart contact-limits --json",
-    "charts.chart_commands.scene": "chart scene examples/question.toml",
-    "charts.chart_commands.limits": "chart limits --physics journal --physics damper",
-    "charts.chart_commands.page": "chart page --out rotorfilm-charts",
-    "charts.chart_commands.bush": "chart bush --json",
-    "charts.chart_commands.heat": "chart heat --out rotorfilm-charts",
-    "charts.chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
-    "charts.chart_commands.cosim": "chart cosim --json",
+    "chart_commands.journal": "chart journal --ld 0.5 --json",
+    "chart_commands.stability": "chart stability --ld 0.5 --json",
+    "chart_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
+    "chart_commands.pads": "chart pads --ld 0.5 --json",
+    "chart_commands.rolling": "chart rolling --speed '30000 rpm'",
+    "chart_commands.contact": "chart contact --cells 48 --json",
+    "chart_commands.contact_cases": "chart contact-cases --cells 40",
+    "chart_commands.contact_limits": "chart contact-limits --json",
+    "chart_commands.scene": "chart scene examples/question.toml",
+    "chart_commands.limits": "chart limits --physics journal --physics damper",
+    "chart_commands.page": "chart page --out rotorfilm-charts",
+    "chart_commands.bush": "chart bush --json",
+    "chart_commands.heat": "chart heat --out rotorfilm-charts",
+    "chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
+    "chart_commands.cosim": "chart cosim --json",
 }
 
 ALL = Group(

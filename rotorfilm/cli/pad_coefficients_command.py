@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from ..errors import InputError
-from ..progress import Report
+from ..core.errors import InputError
+from ..core.progress import Report
 from .command import Option, Said
 from .journal_commands import found_of, lubricant_of, operation_of
 
@@ -85,10 +85,8 @@ _NOT_OF_TABLES = ("kind", "load", "speed", "oil", "supply_temperature", "frequen
 def _table(kind: str, given: dict[str, Any], between_pads: bool) -> Any:
     """Return the table of a scene that these options are."""
     from ..bearings.pads import SETS
-    from ..scenes.pads.dam_table import DamTable
-    from ..scenes.pads.lobed_table import LobedTable
-    from ..scenes.pads.tilting_table import TiltingTable
-    from ..scenes.reading.tables import choose, keyed, read_table
+    from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable
+    from ..scenes.reading import choose, keyed, read_table
 
     tables: dict[str, Any] = {**dict.fromkeys(SETS, LobedTable), DAM: DamTable, TILTING: TiltingTable}
     table = choose("--type", kind, tables)
@@ -107,7 +105,7 @@ def _table(kind: str, given: dict[str, Any], between_pads: bool) -> Any:
 
 def _frequency(kind: str, text: str) -> float:
     """Return the frequency of a whirl [rad/s]."""
-    from ..scenes.reading.tables import Quantity
+    from ..scenes.reading import Quantity
 
     if kind != TILTING:
         raise InputError(f"--frequency must be given with tilting pads, got --type {kind}")

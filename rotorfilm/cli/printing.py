@@ -10,15 +10,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import visible
-from ..units import CELSIUS
+from ..core.errors import visible
+from ..core.units import CELSIUS
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress
     from rich.table import Table
 
-    from ..progress import Report
+    from ..core.progress import Report
 
 
 def plain_console(**options: Any) -> Console:
@@ -36,15 +36,15 @@ def complain(kind: str, message: object) -> None:
 
 def print_json(value: Any) -> None:
     """Print a result as JSON, alone on stdout."""
-    from ..results import to_plain
+    from ..core.results import to_plain
 
     sys.stdout.write(json.dumps(to_plain(value), indent=2, allow_nan=False) + "\n")
 
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a result as JSON; return where it is."""
-    from ..files import write_whole
-    from ..results import to_plain
+    from ..core.files import write_whole
+    from ..core.results import to_plain
 
     text = json.dumps(to_plain(value), indent=2, allow_nan=False)
     return write_whole(path, f"{text}\n".encode())

@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ..answers import QuestionAnswer, RungReport
-from ..readable.quantities import without_round_off
+from ..core.answers import QuestionAnswer, RungReport
+from ..core.readable import without_round_off
 from .printing import filled, plain_console, plain_table
 
 STYLES = {"chosen": "bold green", "refused": "yellow"}

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from ..progress import Report
-from ..results import to_plain, write_csv
+from ..core.progress import Report
+from ..core.results import to_plain, write_csv
 from . import printing as console
 from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
 from .solve_command import remark_rows
 
 if TYPE_CHECKING:
-    from ..linear import StabilityCurve, StabilityLevelOne
-    from ..scenes.shaft.rotor_runs import RotorRun
-    from ..scenes.shaft.solve_shaft import RotorAnswer
+    from ..analysis import StabilityCurve, StabilityLevelOne
+    from ..scenes.rotor_runs import RotorRun
+    from ..scenes.solve_shaft import RotorAnswer
 
 RPM = 30.0 / math.pi
 """Turns per minute in one rad/s."""
@@ -33,7 +33,7 @@ def rotor(
 ) -> Said:
     """Find critical speeds, whirl modes, the threshold of stability and the unbalance response of a rotor."""
     from ..scenes import Scene
-    from ..scenes.shaft.solve_shaft import solve_rotor
+    from ..scenes.solve_shaft import solve_rotor
 
     loaded = Scene.load(scene)
     with inside(scene):
@@ -51,7 +51,7 @@ def stability_level_one(
 ) -> Said:
     """Screen the stability of a compressor by API 617, level I: log decrement over applied cross-coupling."""
     from ..scenes import Scene
-    from ..scenes.shaft.solve_compressor import level_one_remarks, solve_level_one
+    from ..scenes.solve_shaft import level_one_remarks, solve_level_one
 
     given = Scene.load(scene)
     with inside(scene):
@@ -102,7 +102,7 @@ def _course(curve: StabilityCurve) -> str:
 def write_level_one(found: StabilityLevelOne, plain: dict[str, Any], folder: Path) -> None:
     """Write chart, curves and JSON of an analysis into a folder, which is made if need be."""
     from ..charts import plot_stability_level_one, save
-    from ..files import written_together
+    from ..core.files import written_together
 
     columns: dict[str, Any] = {}
     for curve in found.curves:
@@ -170,8 +170,8 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
 def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     """Write the pictures, tables and the JSON of an answer into a folder, which is made if need be."""
     from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
-    from ..files import written_together
-    from ..scenes.shaft.solve_shaft import campbell_columns, response_columns
+    from ..core.files import written_together
+    from ..scenes.solve_shaft import campbell_columns, response_columns
 
     with written_together(folder) as part:
         save(plot_campbell(answer.campbell, critical=answer.critical_speeds), part / "campbell.png")
@@ -206,7 +206,7 @@ def rotor_run(
     Where a journal reaches the wall the motion until then is shown and written, and the command exits with 1.
     """
     from ..scenes import Scene
-    from ..scenes.shaft.rotor_runs import run_rotor
+    from ..scenes.rotor_runs import run_rotor
 
     loaded = Scene.load(scene)
     make_room(out)

@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..errors import InputError, brief
-from ..limits import SWEEP_POINTS
-from ..progress import Report
-from ..units import whole_number
+from ..core.errors import InputError, brief
+from ..core.limits import SWEEP_POINTS
+from ..core.progress import Report
+from ..core.units import whole_number
 from . import printing as console
 from .command import Option, Said, SceneFile
 

@@ -2,28 +2,30 @@
 
 from typing import TYPE_CHECKING
 
-from ..sources import show
+from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .auto import Auto as Auto, choose_scheme
-    from .chatter import CouplingReport as CouplingReport, inspect_coupling
     from .cosim_run import Choice, CoSimulation as CoSimulation, Trial, couple
-    from .coupling_loop import squeeze_limit
-    from .coupling_stability import (
+    from .coupling_loop import (
         CouplingStability,
         CriticalMacroStep,
         coupling_stability as coupling_stability,
         critical_macro_step as critical_macro_step,
+        squeeze_limit,
     )
     from .fmu_slave import FmuSlave
-    from .master import cosimulate as cosimulate, open_fmu, open_rotor
-    from .schemes.adaptive import Adaptive as Adaptive
-    from .schemes.explicit import GaussSeidel as GaussSeidel, Jacobi as Jacobi
-    from .schemes.implicit import SIExp as SIExp, SIExp3 as SIExp3
-    from .schemes.newton import Newton as Newton
-    from .schemes.remembering import SIMemory as SIMemory
-    from .schemes.scheme import Scheme as Scheme
+    from .master import Auto as Auto, choose_scheme, cosimulate as cosimulate, open_fmu, open_rotor
+    from .schemes import (
+        Adaptive as Adaptive,
+        GaussSeidel as GaussSeidel,
+        Jacobi as Jacobi,
+        Newton as Newton,
+        Scheme as Scheme,
+        SIExp as SIExp,
+        SIExp3 as SIExp3,
+        SIMemory as SIMemory,
+    )
     from .slaves import InProcessSlave, Slave
-    from .watch import CouplingWatch as CouplingWatch
+    from .watch import CouplingReport as CouplingReport, CouplingWatch as CouplingWatch, inspect_coupling
 else:
     show(__name__)

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from ..errors import (
+from ..core.errors import (
     ContactError,
     ConvergenceError,
     CouplingError,
@@ -18,18 +18,15 @@ from ..errors import (
     PartialResultError,
     require_positive,
 )
-from ..limits import STEPS
-from ..readable.result import Drawable, Readable
-from ..results import Trajectory
-from .bench import Sample
-from .chatter import CouplingReport, inspect_coupling
-from .loops.compiled_run import CompiledRun, compiled_run
-from .loops.record import Record
-from .partners import Partners
-from .schemes.explicit import GaussSeidel
-from .schemes.scheme import MEMORY, Scheme
+from ..core.limits import STEPS
+from ..core.readable import Drawable, Readable
+from ..core.results import Trajectory
+from .compiled_loop import CompiledRun, compiled_run
+from .partner_interface import Sample
+from .partners import Partners, Record
+from .schemes import MEMORY, GaussSeidel, Scheme
 from .slaves import Slave
-from .watch import CouplingWatch, Watch
+from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""

@@ -13,16 +13,24 @@ from typing import Any
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from ..errors import FilmContactError, FmuError, InputError
-from ..fmu.check.calls import EventInfo, Port, Slopes
-from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
-from ..fmu.check.instance import instantiated
-from ..model import Array, Linearization
-from ..native.layouts.master_structs import Call
+from ..core.errors import FilmContactError, FmuError, InputError
+from ..core.model import Array, Linearization
+from ..fmu.instance import (
+    DERIVATIVES,
+    STATES,
+    EventInfo,
+    Port,
+    Slopes,
+    instantiated,
+    nominal_of,
+    provides,
+    variables_of,
+)
+from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from .loops.compiled_partners import CompiledPartner, FmuPartner
-from .schemes.exponential import LawIntegrator
-from .wiring import Wiring, local_name, references_of
+from .partner_interface import Wiring, local_name, references_of
+from .schemes import LawIntegrator
+from .slaves import CompiledPartner, FmuPartner
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""

@@ -2,14 +2,14 @@
 
 from typing import TYPE_CHECKING
 
-from ..sources import show
+from ..core.sources import show
 
 if TYPE_CHECKING:
-    from ..signals import Variable
-    from .check.check_fmu import CheckItem, check_fmu
-    from .check.described import describe_fmu
-    from .description.variables import fmi_variables
+    from ..core.signals import Variable
+    from .check_fmu import CheckItem, check_fmu
+    from .description import fmi_variables
     from .export import export_fmu as export_fmu
+    from .instance import describe_fmu
     from .system_export import export_ssp as export_ssp
 else:
     show(__name__)

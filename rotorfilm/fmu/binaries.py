@@ -7,8 +7,8 @@ from pathlib import Path
 
 import fmpy
 
-from ..errors import FmuError
-from .native.macho import FAT_MAGIC, MAGIC_64
+from ..core.errors import FmuError
+from .native.platforms import FAT_MAGIC, MAGIC_64
 
 MAGIC_32 = 0xFEEDFACE
 SEGMENTS = {0x1: "<32xII", 0x19: "<40xQQ"}

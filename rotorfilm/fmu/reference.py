@@ -6,15 +6,21 @@ import csv
 import io
 import warnings
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import DOP853, OdeSolver, Radau
 from scipy.linalg import expm
 
-from ..errors import FmuError
-from ..model import Array, Dynamic, Model, Stepped
-from .advance import advance
-from .linear_system import LinearSystem
+from ..core.errors import ConvergenceError, FilmContactError, FmuError
+from ..core.model import Array, Dynamic, Linearization, Model, Stepped, stops
+from ..core.signals import Scalar
+from ..native.spec import NativeSpec
+
+if TYPE_CHECKING:
+    import control
 
 ROWS = 51
 TOLERANCE = 1e-13
@@ -124,3 +130,204 @@ def to_csv(names: Sequence[str], table: Array) -> bytes:
     csv.writer(buffer, lineterminator="\n").writerow(names)
     np.savetxt(buffer, table, "%.17g", ",")
     return buffer.getvalue().encode()
+
+
+# A python-control system as a model, with its labels as signals.
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LinearSystem:
+    """Linear time-invariant system dx/dt = A x + B u, y = C x + D u.
+
+    Parameters
+    ----------
+    A, B, C, D : ndarray
+        Matrices (n, n), (n, m), (p, n), (p, m).
+    input_labels, output_labels, state_labels : tuple of str
+        Names of the signals, as python-control has them.
+    """
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    input_labels: tuple[str, ...]
+    output_labels: tuple[str, ...]
+    state_labels: tuple[str, ...]
+
+    @property
+    def inputs(self) -> tuple[Scalar, ...]:
+        """The input labels as signals."""
+        return tuple(_scalar(name, "input") for name in self.input_labels)
+
+    @property
+    def outputs(self) -> tuple[Scalar, ...]:
+        """The output labels as signals."""
+        return tuple(_scalar(name, "output") for name in self.output_labels)
+
+    @property
+    def states(self) -> tuple[Scalar, ...]:
+        """The state labels as signals."""
+        return tuple(_scalar(name, "state") for name in self.state_labels)
+
+    @property
+    def initial_state(self) -> Array:
+        """Zero, shape (n,)."""
+        return np.zeros(len(self.A))
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return A x + B u, shape (n,)."""
+        slope: Array = self.A @ np.asarray(x, dtype=float) + self.B @ np.asarray(u, dtype=float)
+        return slope
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return C x + D u, shape (p,)."""
+        output: Array = self.C @ np.asarray(x, dtype=float) + self.D @ np.asarray(u, dtype=float)
+        return output
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the matrices."""
+        return Linearization(self.A, self.B, self.C, self.D)
+
+    def native(self) -> NativeSpec:
+        """Return the kernel `linear` with the matrices."""
+        return NativeSpec(kernel="linear", tables={"A": self.A, "B": self.B, "C": self.C, "D": self.D})
+
+
+def from_state_space(system: control.StateSpace) -> LinearSystem:
+    """Return a python-control system as a model that starts at zero.
+
+    Raises
+    ------
+    FmuError
+        If it is discrete in time, or a matrix is not finite.
+    """
+    if not system.isctime():
+        raise FmuError(
+            f"system must be continuous in time to go into an FMU, got dt = {system.dt!r}; "
+            "export the system that it was sampled from"
+        )
+    matrices = {name: np.array(getattr(system, name), dtype=float) for name in "ABCD"}
+    for name, matrix in matrices.items():
+        if not np.isfinite(matrix).all():
+            raise FmuError(f"{name} must be finite, got {matrix!r}")
+    return LinearSystem(
+        **matrices,
+        input_labels=tuple(system.input_labels),
+        output_labels=tuple(system.output_labels),
+        state_labels=tuple(system.state_labels),
+    )
+
+
+def _scalar(name: str, kind: str) -> Scalar:
+    """Return a signal of which python-control knows the name only; its magnitude counts as 1."""
+    return Scalar(name=name, unit=None, nominal=1.0, description=f"{kind} of the system")
+
+
+# Time integration inside an FMU: one macro step of a dynamic model under held inputs.
+
+
+RELATIVE_TOLERANCE = 1e-10
+"""Local error tolerance relative to each state, and to its nominal value: far below any coupling error."""
+
+MAX_STEPS = 10_000
+"""Substeps within one macro step beyond which the model counts as not integrable."""
+
+MOST_EXPLICIT = 200
+"""Substeps of the explicit method after which the model counts as stiff."""
+
+FINEST_IMPLICIT = 1e-9
+"""Tolerance of the implicit method, whose order is lower."""
+
+RETREAT = 0.25
+"""Part of a step that is tried next, after one that went to the wall."""
+
+
+def advance(
+    model: Dynamic, t: float, x: Array, u: Array, step: float, tolerance: float = RELATIVE_TOLERANCE
+) -> Array:
+    """Return the state at t + step under the constant input u.
+
+    Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
+    with the whole step and stopped at the kinks of a `Kinked` model; Radau's implicit method of order 5
+    where that one fails, as on a rotor in a stiff film.
+
+    Parameters
+    ----------
+    model : Dynamic
+    t : float [s]
+    x : ndarray, shape (n_states,)
+    u : ndarray, shape (n_inputs,)
+    step : float [s]
+        Not negative.
+    tolerance : float
+        Local error relative to each state, and to its nominal value.
+
+    Raises
+    ------
+    ConvergenceError
+        If the tolerance cannot be met; `partial` is the state reached.
+    """
+    for end in stops(model, t, t + step):
+        # The end may also round to t itself.
+        x = _integrate(model, t, x, u, end, tolerance) if end > t else x
+        t = end
+    return x
+
+
+def _integrate(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
+    try:
+        return _explicit(model, t, x, u, end, tolerance)
+    except (FilmContactError, ConvergenceError):
+        # A stiff film throws a step of the explicit method at the wall, or holds it up.
+        return _implicit(model, t, x, u, end, max(tolerance, FINEST_IMPLICIT))
+
+
+def _implicit(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
+    """Return the state at `end` by Radau's method of order 5, with a smaller step after one to the wall."""
+    nominal, first_step = np.array([signal.nominal for signal in model.states]), end - t
+    while True:
+        solver = Radau(
+            lambda time, state: model.derivative(time, state, u),
+            t,
+            x,
+            end,
+            rtol=tolerance,
+            atol=tolerance * nominal,  # type: ignore[arg-type]  # as above
+            first_step=min(first_step, end - t),
+            jac=lambda time, state: model.linearization(time, state, u).A,
+        )
+        try:
+            return _run(solver, MAX_STEPS)
+        except FilmContactError:
+            first_step = RETREAT * (first_step if solver.t == t else solver.h_abs)
+            t, x = solver.t, solver.y
+            if first_step <= 10.0 * np.spacing(end):
+                raise
+
+
+def _explicit(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
+    nominal = np.array([signal.nominal for signal in model.states])
+    solver = DOP853(
+        lambda time, state: model.derivative(time, state, u),
+        t,
+        x,
+        end,
+        rtol=tolerance,
+        atol=tolerance * nominal,  # type: ignore[arg-type]  # an array is fine, says scipy's manual
+        first_step=end - t,
+    )
+    return _run(solver, MOST_EXPLICIT)
+
+
+def _run(solver: OdeSolver, most: int) -> Array:
+    """Return the state at the end; ConvergenceError with the state reached after `most` steps."""
+    for _ in range(most):
+        solver.step()
+        if solver.status == "finished":
+            return solver.y
+        if solver.status == "failed":
+            break
+    raise ConvergenceError(
+        f"the integration must reach t = {solver.t_bound!r} s, got stuck at {solver.t!r} s", solver.y
+    )

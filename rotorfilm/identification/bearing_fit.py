@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -13,16 +13,120 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import norm, t as student
 
-from ..bearings.journal import JournalBearing
-from ..errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
-from ..inputs.kinds import arguments
-from ..linear import coefficients, equilibrium
-from ..model import Array
-from ..readable.result import Readable
-from ..results import Equilibrium
-from .fit_parameters import ZEROS, Search, search_of
+from ..analysis import coefficients, equilibrium
+from ..bearings.journal import JournalBearing, heat_surplus
+from ..core.errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
+from ..core.inputs import arguments
+from ..core.model import Array
+from ..core.readable import Readable
+from ..core.results import Equilibrium
 from .measurements import Measurements
-from .rest_slopes import rest_slopes
+
+# Parameters of a bearing that a fit may find: where they are, and how they are scaled.
+
+
+KELVINS = 10.0
+"""Unit of temperatures in a search [K]."""
+
+TRANSFER = 100.0
+"""Heat transfer of a housing, by the area of the bore, that is the unit of its conductance [W/(m^2 K)]."""
+
+_BEARING = ("clearance", "length", "viscosity", "temperature")
+_COOLING = ("supply_temperature", "ambient_temperature", "housing_conductance", "carry_over")
+ZEROS = ("zero_x", "zero_y")
+"""What the sensors show of a journal in the center of its bearing."""
+
+NAMES = (*_BEARING, *_COOLING, *ZEROS)
+_POSITIVE = ("clearance", "length", "viscosity")
+_RANGE = {"housing_conductance": (0.0, math.inf), "carry_over": (0.0, 1.0)}
+
+
+class TrialBearing(NamedTuple):
+    """A bearing, and what the sensors show of a centered journal, shape (2,) [m]."""
+
+    bearing: JournalBearing
+    zero: Array
+
+
+class Search(NamedTuple):
+    """Free parameters of a bearing as numbers u of order 1, all 0 at the start.
+
+    Lengths and the viscosity are start exp(u), so that they stay positive; the others start + unit u.
+    """
+
+    bearing: JournalBearing
+    names: tuple[str, ...]
+    start: Array
+    unit: Array
+    positive: Array
+
+    def values(self, u: Array) -> Array:
+        """Return the parameters in SI units."""
+        linear = self.start + self.unit * u
+        return np.where(self.positive, self.start * np.exp(np.where(self.positive, u, 0.0)), linear)
+
+    def slopes(self, u: Array) -> Array:
+        """Return d values/du."""
+        return np.where(self.positive, self.values(u), self.unit)
+
+    def trial(self, u: Array) -> TrialBearing:
+        """Return the bearing of these parameters, and the zeros of its sensors."""
+        found = dict(zip(self.names, self.values(u).tolist(), strict=True))
+        bearing = self.bearing
+        cooling = {name: found[name] for name in _COOLING if name in found}
+        changed = {name: found[name] for name in _BEARING if name in found}
+        if cooling:
+            assert bearing.cooling is not None
+            bearing = replace(bearing, cooling=replace(bearing.cooling, **cooling), **changed)
+        elif changed:
+            bearing = replace(bearing, **changed)
+        return TrialBearing(bearing, np.array([found.get(name, 0.0) for name in ZEROS]))
+
+    @property
+    def bounds(self) -> tuple[list[float], list[float]]:
+        """Ends of u."""
+        ends = [
+            [(end - start) / unit for end in _RANGE.get(name, (-math.inf, math.inf))]
+            for name, start, unit in zip(self.names, self.start, self.unit, strict=True)
+        ]
+        return [low for low, _ in ends], [high for _, high in ends]
+
+
+def search_of(bearing: JournalBearing, names: Sequence[str]) -> Search:
+    """Return the search for free parameters; raise InputError for one that the bearing does not have."""
+    if not names or len(set(names)) < len(names):
+        raise InputError(f"free must name different parameters, got {tuple(names)!r}")
+    start = [_value(bearing, name) for name in names]
+    unit = [_unit(bearing, name) for name in names]
+    positive = np.array([name in _POSITIVE for name in names])
+    return Search(bearing, tuple(names), np.array(start), np.array(unit), positive)
+
+
+def _value(bearing: JournalBearing, name: str) -> float:
+    """Return a parameter of a bearing."""
+    if name not in NAMES:
+        raise InputError(f"free must be among {', '.join(NAMES)}, got {name!r}")
+    if name in ZEROS:
+        return 0.0
+    if name == "ambient_temperature" and bearing.cooling is not None:
+        return bearing.cooling.ambient
+    value = getattr(bearing if name in _BEARING else bearing.cooling, name, None)
+    if value is None:
+        raise InputError(f"free must be parameters that the bearing has, and it has no {name}, got {name!r}")
+    return float(value)
+
+
+def _unit(bearing: JournalBearing, name: str) -> float:
+    """Return the size of a parameter whose u is linear."""
+    if name.endswith("temperature"):
+        return KELVINS
+    if name == "housing_conductance":
+        return TRANSFER * 2.0 * math.pi * bearing.radius * bearing.length
+    return bearing.clearance if name in ZEROS else 1.0
+
+
+# Parameters of a journal bearing from measurements, by least squares, with confidence intervals.
+
 
 STEP = 6e-6
 """Step of central differences, in the units of the search."""
@@ -285,3 +389,88 @@ def _require_apart(search: Search, jacobian: Array) -> None:
         f"free must be parameters that the measurements tell apart, got {' and '.join(mixed)}: "
         "together they change nothing that was measured"
     )
+
+
+# How position and temperature of a journal at rest change with parameters of its bearing, exactly.
+#
+# At rest the force F(q, T, p) balances the load and the heat B(q, T, p) is zero, so that with z = (q, T)
+#
+#     dz/dp = -(d(F, B)/dz)^-1 d(F, B)/dp.
+#
+# Where a parameter is the clearance c, at a held position q, since the film knows e = q/c alone,
+#
+#     dF/dc = -(2 F + F_q q)/c,   dP/dc = -(P + P_q q)/c,   dQ/dc = (Q - Q_q q)/c
+#
+# for the power P and the flow Q.
+
+
+RELATIVE_STEP = 1e-3
+"""Step of a central difference of the heat capacity over temperature, which is a parabola."""
+
+
+class _Rest(NamedTuple):
+    """Slopes of a film at rest: of the force by position, and for one that warms of power and flow too."""
+
+    bearing: JournalBearing
+    at: Equilibrium
+    force: Array
+    by_position: Array
+
+
+def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | None:
+    """Return d(x, y, temperature)/d(parameter), shape (3,); None where only differences tell.
+
+    The parameter is one of `fit_parameters.NAMES` but the zeros of sensors.
+    """
+    if bearing.supply_pressure > 0.0:
+        return None
+    film = bearing if at.temperature is None else bearing.at_temperature(at.temperature)
+    still = at.position, np.zeros(2), at.speed
+    rest = _Rest(film, at, film.force(*still), film.jacobian(*still)[:, :2])
+    by_name = _force_slope(rest, name)
+    if at.temperature is None:
+        return None if by_name is None else np.append(np.linalg.solve(rest.by_position, -by_name), 0.0)
+    try:
+        power, flow, _ = film.heat_jacobian(*still)[:, :2]
+    except InputError:
+        return None
+    oil, cooling = bearing.cooled
+    heat = film.film_heat(*still)
+    supply, T, c = cooling.supply_temperature, at.temperature, bearing.clearance
+    capacity = float(oil.volumetric_heat(supply))
+    carried = capacity * (T - supply)
+    heated = {
+        "clearance": (-heat.power - power @ at.position - carried * (heat.flow - flow @ at.position)) / c,
+        "supply_temperature": heat.flow * (capacity - (T - supply) * _capacity_slope(bearing, supply)),
+        "ambient_temperature": cooling.housing_conductance,
+        "housing_conductance": cooling.ambient - T,
+        "carry_over": 0.0,
+    }
+    if name not in heated:
+        return None
+    if name == "supply_temperature" and cooling.ambient_temperature is None:
+        heated[name] += cooling.housing_conductance
+    _, cools = heat_surplus(heat, oil, cooling, T)
+    by_temperature = -float(oil.law.thinning(T)) * rest.force
+    slopes = np.block([[rest.by_position, by_temperature[:, None]], [power - carried * flow, cools]])
+    known = np.append(np.zeros(2) if by_name is None else by_name, heated[name])
+    return np.asarray(np.linalg.solve(slopes, -known))
+
+
+def _force_slope(rest: _Rest, name: str) -> Array | None:
+    """Return the derivative of the force by a parameter at held position and temperature; None for others."""
+    film, force = rest.bearing, rest.force
+    if name == "clearance":
+        return np.asarray(-(2.0 * force + rest.by_position @ rest.at.position) / film.clearance)
+    if name == "viscosity":
+        return np.asarray(force / film.film_viscosity)
+    if name == "temperature" and film.oil is not None and film.temperature is not None:
+        return np.asarray(-float(film.oil.law.thinning(film.temperature)) * force)
+    return None
+
+
+def _capacity_slope(bearing: JournalBearing, temperature: float) -> float:
+    oil, _ = bearing.cooled
+    step = RELATIVE_STEP * temperature
+    ends = oil.volumetric_heat(np.array([temperature - step, temperature + step]))
+    return float(ends[1] - ends[0]) / (2.0 * step)

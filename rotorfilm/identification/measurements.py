@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, brief, require_finite, require_positive
-from ..files import read_text
-from ..inputs.si_arguments import quantities
-from ..model import Array
-from ..units import parse_quantity
+from ..core.errors import InputError, brief, require_finite, require_positive
+from ..core.files import read_text
+from ..core.inputs import quantities
+from ..core.model import Array
+from ..core.units import parse_quantity
 
 QUANTITIES = {
     "x": "m",

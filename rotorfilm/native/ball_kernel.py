@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..model import Array
-from .layouts.ball_structs import BallJournalStruct, BallLawStruct, BallsStruct, BallStruct
+from ..core.model import Array
 from .library import loops
+from .structs import BallJournalStruct, BallLawStruct, BallsStruct, BallStruct
 
 DEGREES, SLOPES = 5, 8
 

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_size_t, c_void_p, cast
+from collections.abc import Mapping, Sequence
+from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..model import Array
-from .layouts.structs import GrooveMapStruct, MapStruct, ShortStruct
-from .library import functions
+from ..core.model import Array
+from .library import functions, loops
+from .structs import (
+    GrooveMapStruct,
+    JournalStruct,
+    LobesStruct,
+    LobeStruct,
+    MapStruct,
+    OilDamperStruct,
+    ShortStruct,
+)
 
 
 class Status(IntEnum):
@@ -238,3 +247,246 @@ def as_rows(array: Array) -> Array:
 def row_places(rows: Array) -> tuple[int, int]:
     """Return the address of (2, n) rows, and their distance in numbers."""
     return rows.ctypes.data, rows.strides[0] // 8
+
+
+# Forces in SI units of the C library: a state of five numbers in, a force and its derivatives out.
+
+
+_Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
+
+
+class ResponseKernel:
+    """A force [N] on a journal at (x, y, vx, vy, speed) [m, m/s, rad/s].
+
+    Attributes
+    ----------
+    function : str
+        Its rf_response (`native/films/film.h`).
+    struct : ctypes.Structure
+        What that reads.
+    film : FilmKernel
+        Its film, or that of its first pad.
+    """
+
+    function: ClassVar[str]
+    film: FilmKernel
+    _arguments: tuple[Any, ...]
+    struct: Any
+
+    def __init__(self) -> None:
+        self._reference = byref(self.struct)
+        self._tangent = {**functions(), **loops()}[self.function]
+        self._address = cast(self._tangent, c_void_p).value
+        self._call = functions()["rf_response_call"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._arguments
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float, int]:
+        """Return (force_x, force_y, status) for numbers."""
+        pair = _Pair()
+        status = self._call(self._address, self._reference, x, y, vx, vy, speed, pair)
+        return pair[0], pair[1], status
+
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float], int]:
+        """Return force_x, force_y, the ten entries of the Jacobian row by row, and a status."""
+        pair, ten = _Pair(), _Ten()
+        status = self._tangent(self._reference, _Five(x, y, vx, vy, speed), pair, ten)
+        return pair[0], pair[1], ten[:], status
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
+        """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""
+        return self._batch(position, velocity, speed, ())
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Batch:
+        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, n)."""
+        return self._batch(position, velocity, speed, (2, 5))
+
+    def _batch(self, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
+        q, v, omega = as_rows(q), as_rows(v), np.ascontiguousarray(omega, dtype=float)
+        n = q.shape[1]
+        step = 0 if omega.shape == (1,) else 1
+        given = [*row_places(q), *row_places(v), omega.ctypes.data, step]
+        if v.shape != (2, n):
+            raise ValueError(f"velocity must have the shape of position, (2, {n}), got {v.shape}")
+        if step and omega.shape != (n,):
+            raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
+        return run_batch("rf_response_batch", [self._address, self._reference], n, given, shape)
+
+
+class JournalKernel(ResponseKernel):
+    """The film force of a journal bearing in SI units.
+
+    Parameters
+    ----------
+    kernel : FilmKernel
+        Its film.
+    clearance : float [m]
+        Radial clearance.
+    force_scale : float [N s]
+        viscosity * length * radius^3 / clearance^2.
+    """
+
+    function: ClassVar[str] = "rf_journal_at"
+
+    def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
+        self._arguments = (kernel, clearance, force_scale)
+        self.film = kernel
+        self.struct = JournalStruct(
+            kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
+        )
+        super().__init__()
+
+
+class LobePlace(NamedTuple):
+    """Where a pad is.
+
+    Attributes
+    ----------
+    middle : float [rad]
+        Angle of the middle of its arc.
+    center : (float, float) [m]
+        Of its curvature.
+    """
+
+    middle: float
+    center: tuple[float, float]
+
+
+class LobesKernel(ResponseKernel):
+    """The film force of fixed pads in SI units.
+
+    Parameters
+    ----------
+    films : sequence of JournalKernel
+        Of each pad, in its own frame.
+    places : sequence of LobePlace
+        As many.
+    """
+
+    function: ClassVar[str] = "rf_lobes_at"
+
+    def __init__(self, films: Sequence[JournalKernel], places: Sequence[LobePlace]) -> None:
+        self._arguments = (films, places)
+        self._kept: list[Any] = [films]
+        self.film = films[0].film
+        lobes = [
+            LobeStruct(film.struct, np.cos(middle), np.sin(middle), *center)
+            for film, (middle, center) in zip(films, places, strict=True)
+        ]
+        rows = (LobeStruct * len(lobes))(*lobes)
+        self._kept.append(rows)
+        self.struct = LobesStruct(len(lobes), addressof(rows))
+        super().__init__()
+
+
+# Dampers with seals and the inertia of their oil, in the C library.
+
+
+class OilParts(NamedTuple):
+    """What a damper with seals or inertia is made of; see native/films/oil_damper.h.
+
+    Attributes
+    ----------
+    zone, closed, tabled : float [1]
+        Shares of the inertia of a ruptured zone, of a short full film, of the table.
+    sealed : float [1]
+        Share of the circumference with pressure at leaking seals of a short film; 0 without.
+    radial : ndarray, shape (terms, 7), or None
+        Table of a full film of finite length.
+    least : float [1]
+        Of its sqrt(1 - eps^2).
+    nodes, weights : ndarray
+        Over the zone.
+    """
+
+    zone: float
+    closed: float
+    tabled: float
+    sealed: float
+    radial: Array | None
+    least: float
+    nodes: Array
+    weights: Array
+
+    def tables(self, mapped: Mapping[str, Array] | None, *, heavy: bool) -> dict[str, Array]:
+        """Return the tables of the kernel "oil_damper"; those of the map, if it has one, among them."""
+        parts = [mapped is not None, self.zone, self.closed, self.tabled, self.sealed, heavy]
+        found = {"parts": np.array(parts, dtype=float), **(mapped or {})}
+        if self.radial is not None:
+            found |= {"radial": self.radial, "least": np.array([self.least])}
+        if self.zone:
+            found |= {"nodes": self.nodes, "weights": self.weights}
+        return found
+
+
+class OilScales(NamedTuple):
+    """Its dimensions.
+
+    Attributes
+    ----------
+    clearance : float [m]
+    viscous : float [N s]
+        viscosity radius length^3/clearance^2.
+    inertial : float [kg m]
+        density radius length^3.
+    seal : float [1]
+        Damping of the seals of a short film per `viscous`.
+    """
+
+    clearance: float
+    viscous: float
+    inertial: float
+    seal: float
+
+
+class OilDamperKernel(ResponseKernel):
+    """Force and added mass of a damper in SI units.
+
+    Parameters
+    ----------
+    parts : OilParts
+    viscous : FilmKernel or None
+        Map of the viscous film; None for the table.
+    scales : OilScales
+    """
+
+    function: ClassVar[str] = "rf_oil_damper_at"
+
+    def __init__(self, parts: OilParts, viscous: FilmKernel | None, scales: OilScales) -> None:
+        self._arguments = (parts, viscous, scales)
+        self.film = viscous or FilmKernel()
+        places = (None, None) if viscous is None else (viscous.film, addressof(viscous.struct))
+        radial = np.zeros((0, 7)) if parts.radial is None else parts.radial
+        self._kept = [np.ascontiguousarray(part) for part in (radial, parts.nodes, parts.weights)]
+        table, nodes, weights = (part.ctypes.data for part in self._kept)
+        self.struct = OilDamperStruct(
+            JournalStruct(*places, scales.clearance, scales.viscous, self.film.error, 0),
+            viscous is not None,
+            len(radial),
+            table,
+            parts.least,
+            *scales[1:],
+            parts.zone,
+            parts.closed,
+            parts.tabled,
+            nodes,
+            weights,
+            len(parts.nodes),
+            0,
+        )
+        super().__init__()
+
+    @property
+    def mass_address(self) -> int:
+        """The address of its rf_mass_response."""
+        return cast(loops()["rf_oil_damper_mass"], c_void_p).value or 0
+
+    def mass(self, x: float, y: float, vx: float, vy: float) -> tuple[Array, Array]:
+        """Return the added mass xx, xy, yy, shape (3,) [kg], and its slopes by x, y, vx, vy, (3, 4)."""
+        mass, slopes = np.empty(3), np.empty((3, 4))
+        state = (c_double * 5)(x, y, vx, vy, 0.0)
+        loops()["rf_oil_damper_mass"](self._reference, state, mass.ctypes.data, slopes.ctypes.data)
+        return mass, slopes

@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ..errors import RotorfilmError
+from ..core.errors import RotorfilmError
 
 FOLDER = Path(__file__).parent
 FILMS, LOOPS, MASTER = "rotorfilm", "rotorfilm_loops", "rotorfilm_master"

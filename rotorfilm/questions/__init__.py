@@ -2,9 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-from ..sources import show
+from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .registry import ask as ask, ladder_of as ladder_of
+    from .walk import ask as ask, ladder_of as ladder_of
 else:
     show(__name__)

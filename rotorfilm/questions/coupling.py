@@ -10,17 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
+from ..analysis import equilibrium
 from ..bearings.journal import ReynoldsFilm, fitted_bearing
+from ..core.answers import ISOTHERMAL, BaseRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.errors import CouplingError, InputError, RotorfilmError
+from ..core.model import Reaction
+from ..core.units import CELSIUS
 from ..cosim import Scheme
-from ..cosim.coupling_case import SCHEMES, CouplingCase, PilotRun
-from ..errors import CouplingError, InputError, RotorfilmError
-from ..ladders import BaseRung, Ladder
-from ..linear import equilibrium
-from ..model import Reaction
+from ..cosim.coupling_error import SCHEMES, CouplingCase, PilotRun
 from ..rotors import RigidRotor
-from ..scenes.journal.packaged_map import has_map
-from ..units import CELSIUS
+from ..scenes.journal_tables import has_map
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

@@ -9,24 +9,37 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..answers import (
+from ..core.answers import (
     SAFETY,
     ErrorEstimate,
     Found,
+    Ladder,
     QuestionAnswer,
+    Rung,
     RungReport,
     Work,
     WorkUnit,
     physics_within,
 )
-from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
-from ..ladders import Ladder, Rung
+from ..core.errors import (
+    AbsentError,
+    FilmContactError,
+    InputError,
+    RotorfilmError,
+    ValidityWarning,
+    require_positive,
+)
+from ..core.readable import Readable
+from ..scenes.families import FAMILIES, family_of
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
 
 STALLED = 0.05
 """Relative change of the error over a refinement, below which another one does not help."""
@@ -276,3 +289,128 @@ def _trusted_error(report: RungReport) -> float:
     """Return the error by which the closest of refused rungs is found: one in doubt comes last."""
     error = report.error_estimate
     return math.inf if error is None or report.doubtful or not math.isfinite(error) else error
+
+
+# Which family answers which quantity: by the records of the families.
+
+
+def ladder_of(scene: Scene) -> Ladder:
+    """Return the ladder of a scene's question.
+
+    Raises
+    ------
+    InputError
+        If the scene asks nothing, or no table of it has the quantity, or several have.
+    """
+    if scene.question is None:
+        raise InputError("question is required for a ladder, got no such table")
+    quantity = scene.question.quantity
+    tables = sorted(name for name in FAMILIES if quantity in family_of(name).ladders)
+    given = [table for table in tables if scene.table(table) is not None]
+    if len(given) > 1:
+        raise InputError(
+            f"question.quantity must be of one table, got {quantity!r} of [{'] and ['.join(given)}]"
+        )
+    if given:
+        return family_of(given[0]).ladders[quantity](scene, quantity)
+    there = (family_of(name).ladders for name in FAMILIES if scene.table(name) is not None)
+    known = sorted({name for ladders in there for name in ladders})
+    needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
+    raise InputError(
+        f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}{needs}"
+    )
+
+
+def ask(scene: Scene) -> QuestionAnswer:
+    """Return the answer to a scene's question; see `rotorfilm.questions.walk.walk`."""
+    ladder = ladder_of(scene)
+    assert scene.question is not None  # checked above
+    return walk(scene.question.quantity, ladder, scene.question.tolerance)
+
+
+# All rungs of a scene's ladder answered, also those that its tolerance does not need.
+
+
+NEVER_MET = 1e-300
+"""A tolerance that no estimate meets, so that every rung is tried."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LadderRow(Readable):
+    """One rung of a whole ladder.
+
+    Attributes
+    ----------
+    name : str
+    error_estimate : float or None [1]
+        None where it has no answer.
+    cost : float or None [s]
+        Of its answer.
+    chosen : bool
+        Whether it is the one that answers the scene.
+    reason : str
+        Why it does not, for those below it.
+    """
+
+    name: str
+    error_estimate: float | None
+    cost: float | None
+    chosen: bool
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class WholeLadder(Readable):
+    """All rungs of a scene's question.
+
+    Attributes
+    ----------
+    quantity : str
+    tolerance : float [1]
+    met : bool
+        Whether a rung meets the tolerance.
+    rungs : tuple of LadderRow
+        The cheapest first.
+    """
+
+    quantity: str
+    tolerance: float
+    met: bool
+    rungs: tuple[LadderRow, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the columns of a table, a row for each rung."""
+        return {
+            "model": [row.name for row in self.rungs],
+            "estimated error": [row.error_estimate for row in self.rungs],
+            "cost [s]": [row.cost for row in self.rungs],
+            "chosen": [row.chosen for row in self.rungs],
+        }
+
+
+def whole_ladder(scene: Scene) -> WholeLadder:
+    """Return every rung of a scene's question with its estimated error and its cost.
+
+    Raises
+    ------
+    InputError
+        If the scene asks nothing, or something that its tables do not have.
+    RotorfilmError
+        If no rung has an answer.
+    """
+    ladder = ladder_of(scene)
+    assert scene.question is not None  # or there is no ladder
+    quantity, tolerance = scene.question.quantity, scene.question.tolerance
+    answer = walk(quantity, ladder, tolerance)
+    every = walk(quantity, ladder, NEVER_MET).rungs
+    rows = [
+        LadderRow(
+            name=report.name,
+            error_estimate=(tried if report.error_estimate is None else report).error_estimate,
+            cost=(tried if report.cost is None else report).cost,
+            chosen=report.verdict == "chosen",
+            reason=report.reason,
+        )
+        for report, tried in zip(answer.rungs, every, strict=True)
+    ]
+    return WholeLadder(quantity=quantity, tolerance=tolerance, met=answer.met, rungs=tuple(rows))

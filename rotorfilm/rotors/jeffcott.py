@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import require_non_negative, require_number, require_positive
-from ..inputs.si_arguments import quantities
-from ..units import STANDARD_GRAVITY
+from ..core.errors import require_non_negative, require_number, require_positive
+from ..core.inputs import quantities
+from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 from .structure import (
     NOMINAL_LENGTH,

@@ -11,9 +11,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..errors import InputError, require_finite, require_positive
-from ..inputs.si_arguments import in_si, quantities
-from ..model import Array
+from ..core.errors import InputError, require_finite, require_positive
+from ..core.inputs import in_si, quantities
+from ..core.model import Array
 
 PROBES = (0.25, 0.5, 0.75)
 """Where `SpeedProfile.from_function` compares the function with a chord, in fractions of the chord."""

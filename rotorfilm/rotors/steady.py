@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
-from ..inputs.si_arguments import quantities
-from ..model import Array, Linearization
+from ..core.errors import InputError
+from ..core.inputs import quantities
+from ..core.model import Array, Linearization
+from ..core.signals import Signal
 from ..native.spec import NativeSpec
-from ..signals import Signal
 from .profile import SpeedProfile
 from .rigid import RigidRotor
 from .structure import FlexibleRotor

@@ -12,20 +12,21 @@ itself transmits it; an angular acceleration then has no moment of its own besid
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy import sparse
 from scipy.linalg import cho_factor, cho_solve
 
-from ..errors import InputError, keep_pair, require_finite, require_kind, require_number
-from ..model import Array, Linearization
-from ..signals import Signal, force_outputs, journal_inputs
-from ..units import STANDARD_GRAVITY
+from ..core.errors import InputError, keep_pair, require_finite, require_kind, require_number
+from ..core.model import Array, Dynamic, Linearization, breakpoints
+from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_outputs, indices, journal_inputs, names
+from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
-from .sparse_chain import dense_matrix, planes
-from .stations import prefixed
 
 NOMINAL_LENGTH = 1e-4
 """Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
@@ -289,3 +290,249 @@ def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readou
         )
         for axis, row in zip("xy", rows, strict=True)
     )
+
+
+# The equations of a rotor that moves in some of its shapes only.
+
+
+DEPENDENT = 1e-6
+"""Part of a shape, as the root of its kinetic energy, below which it adds nothing to those before it."""
+
+
+def projected(full: Structure, shapes: Array) -> Structure:
+    """Return the matrices of a structure that moves in shapes of one plane, the same in both (Galerkin).
+
+    Parameters
+    ----------
+    full : Structure
+        With N coordinates.
+    shapes : ndarray, shape (N / 2, n)
+    """
+    basis = both_planes(shapes)
+    twice = both_planes(basis)
+
+    def project(matrix: Any) -> Array:
+        return np.asarray(basis.T @ dense_matrix(matrix @ basis))
+
+    return Structure(
+        mass=project(full.mass),
+        damping=project(full.damping),
+        gyroscopic=project(full.gyroscopic),
+        stiffness=project(full.stiffness),
+        circulation=project(full.circulation),
+        stations=full.stations,
+        journals=full.journals @ basis,
+        weight=basis.T @ full.weight,
+        unbalance=basis.T @ full.unbalance,
+        coordinates=tuple(Coordinate(f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
+        readouts=tuple(Readout(readout.signal, readout.row @ twice) for readout in full.readouts),
+        housings=None if full.housings is None else full.housings @ basis,
+        hysteresis=None if full.hysteresis is None else shapes.T @ (full.hysteresis @ shapes),
+        tilts=None if full.tilts is None else full.tilts @ basis,
+    )
+
+
+def mean_plane(matrix: Any) -> Any:
+    """Return the mean of what a matrix is in both planes, shape (N / 2, N / 2)."""
+    n = matrix.shape[0] // 2
+    return 0.5 * (matrix[:n, :n] + matrix[n:, n:])
+
+
+def new_shapes(shapes: Array, known: Array, mass: Any, least: float = DEPENDENT) -> Array:
+    """Return what each shape adds, if anything, to known ones of unit mass and to the shapes before it.
+
+    Parameters
+    ----------
+    shapes : ndarray, shape (N / 2, m)
+    known : ndarray, shape (N / 2, n)
+        Of unit mass, and without mass in common.
+    mass : ndarray or sparse array, shape (N / 2, N / 2)
+    least : float [1]
+        Part of a shape that must be new.
+    """
+    count = known.shape[1]
+    for shape in shapes.T:
+        size = np.sqrt(shape @ (mass @ shape))
+        if size == 0.0:
+            continue
+        rest = shape / size
+        for _ in range(2):  # twice is enough (Kahan and Parlett)
+            rest = rest - known @ (known.T @ (mass @ rest))
+        left = np.sqrt(rest @ (mass @ rest))
+        if left > least:
+            known = np.column_stack([known, rest / left])
+    return known[:, count:]
+
+
+# Sparse matrices of a chain of elements: how they are summed, and how they become dense.
+
+
+def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
+    """Return the sparse matrix that small matrices at the given places add up to, shape (size, size)."""
+    rows, columns, values = [], [], []
+    for places, part in parts:
+        row, column = np.meshgrid(places, places, indexing="ij")
+        rows.append(row.ravel())
+        columns.append(column.ravel())
+        values.append(np.ravel(part))
+    if not values:
+        return sparse.csr_array((size, size))
+    where = (np.concatenate(rows), np.concatenate(columns))
+    found = sparse.coo_array((np.concatenate(values), where), shape=(size, size)).tocsr()
+    found.eliminate_zeros()
+    return found
+
+
+def planes(pattern: Array, matrix: Any) -> Any:
+    """Return the Kronecker product of a pattern of two planes and the matrix of one, sparse if that is."""
+    if is_sparse(matrix):
+        return sparse.csr_array(sparse.kron(sparse.csr_array(pattern), matrix))
+    return np.asarray(np.kron(pattern, matrix), dtype=float)
+
+
+def dense_matrix(part: Any) -> Any:
+    """Return a part of a structure, as an ndarray where it is a sparse array."""
+    return part.toarray() if is_sparse(part) else part
+
+
+def is_sparse(part: Any) -> bool:
+    """Return whether a part of a structure is a sparse array."""
+    return bool(sparse.issparse(part))
+
+
+# The signals of a bearing station: their names begin with that of the station, if it has one.
+
+
+AnySignal = TypeVar("AnySignal", bound=Signal)
+
+
+def prefixed(station: str, signal: AnySignal) -> AnySignal:
+    """Return a signal of a station: its name begins with that of the station, if it has one."""
+    place = f" of {station}" if station else ""
+    return replace(signal, name=station_name(station, signal.name), description=signal.description + place)
+
+
+def station_name(station: str, name: str) -> str:
+    """Return the name of a signal of a station: `left_x`, or `x` where the station has no name."""
+    return f"{station}_{name}" if station else name
+
+
+def station_names(station: str) -> tuple[list[str], list[str]]:
+    """Return the names of the motion signals and of the force signals of a station."""
+    motion = [station_name(station, name) for name in MOTION_NAMES]
+    return motion, [station_name(station, name) for name in FORCE_OUTPUTS]
+
+
+def checked_stations(names: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of stations; raise InputError where two are equal."""
+    if len(set(names)) < len(names):
+        raise InputError(f"stations must have different names, got {list(names)}")
+    return tuple(names)
+
+
+class AroundRotor:
+    """What models share that are a rotor and something at its stations: the signals, unless they say others.
+
+    Attributes
+    ----------
+    rotor : Dynamic
+        With inputs force_x, force_y and outputs x, y, vx, vy of each station.
+    stations : tuple of str
+        The empty name is that of a rotor with one journal.
+    """
+
+    rotor: Dynamic
+    stations: tuple[str, ...]
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """The inputs of the rotor."""
+        return self.rotor.inputs
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """The outputs of the rotor."""
+        return self.rotor.outputs
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """The states of the rotor."""
+        return self.rotor.states
+
+    @property
+    def initial_state(self) -> Array:
+        """The state of the rotor at t = 0."""
+        return self.rotor.initial_state
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which the rotor has kinks."""
+        return breakpoints(self.rotor)
+
+    @cached_property
+    def force_places(self) -> list[list[int]]:
+        """Where the forces of each station are among the inputs of the rotor; InputError if it lacks one."""
+        available = names(self.rotor.inputs)
+        return [indices("rotor must have the inputs", available, station_names(s)[1]) for s in self.stations]
+
+    @cached_property
+    def motion_places(self) -> list[list[int]]:
+        """Where the motion of each station is among the outputs of the rotor; InputError if it lacks one."""
+        available = names(self.rotor.outputs)
+        return [indices("rotor must have the outputs", available, station_names(s)[0]) for s in self.stations]
+
+
+# A rigid rotor on an isotropic film as seen in axes that turn with its orbit.
+
+
+def rotating_linearization(
+    mass: float, speed: float, film: Array, added: tuple[Array, Array] | None = None
+) -> Linearization:
+    """Return the motion near a synchronous circular orbit, in radial and tangential axes.
+
+    With q = R(speed t) r the film and the unbalance see a state at rest, and
+
+        m (r'' + 2 w J r' - w^2 r) = F(r, r' + w J r) + unbalance force,    J = z^ x .,
+
+    so the linearization does not depend on time and its eigenvalues are the Floquet exponents of the orbit.
+
+    Parameters
+    ----------
+    mass : float [kg]
+    speed : float [rad/s]
+    film : ndarray, shape (2, 5, ...)
+        Jacobian of the force at (e, 0), (0, speed e): radial and tangential axes.
+    added : tuple of two ndarrays, optional
+        Mass that the film adds, shape (2, 2, ...) [kg], and its slopes by position and velocity times the
+        acceleration -speed^2 (e, 0), shape (2, 4, ...).
+
+    Returns
+    -------
+    Linearization
+        States: small r (radial, tangential) and r'. Inputs: force on the rotor along both. Outputs: the
+        states, and the change of the force on the housing along both, -dF. Trailing batch axes of `film`
+        become leading ones of A and C.
+    """
+    slopes = np.moveaxis(film, (0, 1), (-2, -1))
+    J = np.array([[0.0, -1.0], [1.0, 0.0]])
+    heavy = np.zeros((*slopes.shape[:-2], 2, 2))
+    if added is not None:
+        heavy = np.moveaxis(added[0], (0, 1), (-2, -1))
+        slopes = slopes[..., :4] - np.moveaxis(added[1], (0, 1), (-2, -1))
+    by_velocity = slopes[..., 2:4]
+    by_position = slopes[..., :2] + speed * by_velocity @ J
+    share = np.linalg.inv(mass * np.eye(2) + heavy)
+    A = np.zeros((*slopes.shape[:-2], 4, 4))
+    A[..., :2, 2:] = np.eye(2)
+    A[..., 2:, :2] = share @ by_position + speed**2 * np.eye(2)
+    A[..., 2:, 2:] = share @ by_velocity - 2.0 * speed * J
+    B = np.zeros((*(A.shape[:-2] if added is not None else ()), 4, 2))
+    B[..., 2:, :] = share if added is not None else np.eye(2) / mass
+    C = np.zeros((*slopes.shape[:-2], 6, 4))
+    C[..., :4, :] = np.eye(4)
+    # The film gives the housing -dF + M da, and m da = dF - M da + the force on the rotor.
+    C[..., 4:, :2] = -mass * share @ by_position
+    C[..., 4:, 2:] = -mass * share @ by_velocity
+    D = np.zeros((*B.shape[:-2], 6, 2))
+    D[..., 4:, :] = heavy @ share if added is not None else 0.0
+    return Linearization(A, B, C, D)

@@ -8,6 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis import simulate
+from ..core.errors import ContactError, InputError
+from ..core.model import Array, Stepped
+from ..core.progress import Report, part_of, silent
+from ..core.readable import Readable
+from ..core.results import Trajectory, orbit_distance
 from ..cosim import (
     Adaptive,
     Auto,
@@ -23,15 +29,9 @@ from ..cosim import (
     cosimulate,
     critical_macro_step,
 )
-from ..errors import ContactError, InputError
-from ..model import Stepped
 from ..native.spec import HasKernel
-from ..progress import Report, part_of, silent
-from ..readable.result import Readable
-from ..results import Trajectory, orbit_distance
 from .export_scene import export_scene, resting_rotor
-from .monolithic import monolithic_solution
-from .reading.shared_fields import made_from
+from .reading import made_from
 from .scene import Scene
 from .schema import require_steps
 
@@ -207,3 +207,23 @@ def critical_macro_angle(scene: Scene, scheme: Scheme | None = None) -> float | 
     rotor = resting_rotor(scene)
     limit = critical_macro_step(rotor, scene.bearing, state=rotor.initial_state, scheme=scheme).macro_step
     return None if limit is None else limit * abs(scene.speed)
+
+
+# Rotor and film of a scene integrated as one system, beside which coupled runs are judged.
+
+
+REFERENCE_TOLERANCE = 1e-9
+"""Relative tolerance, far below any coupling error shown."""
+
+
+def monolithic_solution(scene: Scene, times: Array) -> Trajectory:
+    """Return the motion from rest in the static equilibrium at these times, shape (n,) [s].
+
+    Raises
+    ------
+    ContactError
+        If the journal reaches the wall.
+    """
+    return simulate(
+        resting_rotor(scene), scene.bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE
+    )

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..files import written_together
+from ..analysis import equilibrium
+from ..core.files import written_together
 from ..fmu import export_fmu, export_ssp
-from ..linear import equilibrium
-from ..rotors.law_rotor import LawRotor
+from ..rotors.force_law import LawRotor
 from ..rotors.rigid import RigidRotor
 from .families import SceneModels, models_of
 

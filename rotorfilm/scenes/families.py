@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from ..errors import InputError
-from ..ladders import Ladder
-from ..model import Model, Stepped
+from ..core.answers import Ladder, LeftOutRemark
+from ..core.errors import InputError
+from ..core.model import Model, Stepped
 
 FAMILIES = {
-    "journal": "questions.journal.journal_family",
-    "bush": "questions.bush.bush_family",
-    "contact": "questions.contact.contact_family",
-    "shaft": "questions.shaft.shaft_family",
-    "damper": "questions.damper.damper_family",
-    "lobed_journal": "questions.pads.lobed_family",
-    "pressure_dam": "questions.pads.dam_family",
-    "tilting_pad": "questions.pads.tilting_family",
-    "ball_bearing": "questions.rolling.rolling_family",
+    "journal": "questions.journal.FAMILY",
+    "bush": "questions.bush.FAMILY",
+    "contact": "questions.contact.FAMILY",
+    "shaft": "questions.shaft.FAMILY",
+    "damper": "questions.damper.FAMILY",
+    "lobed_journal": "questions.pads.LOBED",
+    "pressure_dam": "questions.pads.PRESSURE_DAM",
+    "tilting_pad": "questions.pads.TILTING",
+    "ball_bearing": "questions.rolling.FAMILY",
 }
-"""By the name of its table in a scene, the module of a family that has its record, `FAMILY`.
+"""By the name of its table in a scene, the module of a family and the name of its record there.
 
 Found late: answers to questions stand above scenes.
 """
@@ -59,7 +59,7 @@ class Family:
     Attributes
     ----------
     table : type
-        The dataclass that its table is read into; see `rotorfilm.scenes.reading.tables`.
+        The dataclass that its table is read into; see `rotorfilm.scenes.reading`.
     ladders : mapping of str to callable
         By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs.
     models : callable or None
@@ -77,7 +77,8 @@ class Family:
 def family_of(name: str) -> Family:
     """Return the record of a family, by the name of its table."""
     home = __package__.rpartition(".")[0]
-    found: Family = import_module(f"{home}.{FAMILIES[name]}").FAMILY
+    module, _, record = FAMILIES[name].rpartition(".")
+    found: Family = getattr(import_module(f"{home}.{module}"), record)
     return found
 
 
@@ -100,3 +101,50 @@ def models_of(scene: Any) -> SceneModels:
     if make is None:
         raise InputError(f"{' or '.join(FAMILIES)} must be a bearing under a rotor for FMUs, got {given}")
     return make(scene)
+
+
+# Remarks on what a physics leaves out: a number, its limit, and what is said beyond it.
+
+
+class Remark(NamedTuple):
+    """What is said where a number passes a limit.
+
+    Attributes
+    ----------
+    number : str
+        Which one.
+    limit : float
+        Of that number.
+    text : str
+        In braces the numbers by their names, with their formats.
+    below : bool
+        Whether it is said below the limit, not above it.
+    moves : str
+        What is left out, if the number tells about how much that moves an answer, relative to it.
+    """
+
+    number: str
+    limit: float
+    text: str
+    below: bool = False
+    moves: str = ""
+
+    def line(self, numbers: Mapping[str, float]) -> str:
+        """Return the text with its numbers; a `LeftOutRemark` where they tell how much it moves an answer."""
+        text = self.text.format_map(numbers)
+        return LeftOutRemark(text, self.moves, float(numbers[self.number])) if self.moves else text
+
+    def applies(self, numbers: Mapping[str, float]) -> bool:
+        """Return whether the limit is passed; not-a-number passes none."""
+        value = numbers[self.number]
+        return value < self.limit if self.below else value > self.limit
+
+
+def said(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:
+    """Return the lines of the remarks whose limits the numbers pass."""
+    return tuple(remark.line(numbers) for remark in remarks if remark.applies(numbers))
+
+
+def prefixed(prefix: str, lines: Iterable[str]) -> list[str]:
+    """Return lines with a text before each; what they say of their size stays."""
+    return [line.prefixed(prefix) if isinstance(line, LeftOutRemark) else f"{prefix}{line}" for line in lines]

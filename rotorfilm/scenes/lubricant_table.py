@@ -6,12 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Protocol, Self
 
 from ..bearings.oil import Cooling, Oil
-from ..bearings.oil.compression import BULK_MODULUS
-from ..bearings.oil.oil import grade_number
-from ..errors import InputError, SceneError, brief, require_non_negative, require_positive
-from ..units import CELSIUS
-from .reading.readers import Count, takes
-from .reading.tables import Quantity, text
+from ..bearings.oil.oil import BULK_MODULUS, grade_number
+from ..core.errors import InputError, SceneError, brief, require_non_negative, require_positive
+from ..core.units import CELSIUS
+from .reading import Count, Quantity, takes, text
 
 WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 """Temperatures of `viscosity_40` and `viscosity_100` [K]."""

@@ -3,32 +3,110 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from importlib import import_module, resources
 from os import PathLike
+from pathlib import Path
 from typing import Annotated, Any
 
-from ..answers import QuestionAnswer
 from ..bearings.journal import JournalBearing
-from ..errors import InputError, warn_user
-from ..model import Reaction
+from ..core.answers import QuestionAnswer
+from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
+from ..core.limits import LINE_DOTS, SCENE_BYTES
+from ..core.model import Reaction
+from ..core.units import STANDARD_GRAVITY
 from ..rotors.rigid import RigidRotor
-from ..units import STANDARD_GRAVITY
-from .bush.bush_table import BushTable
-from .bush.solve_bush import BushAnswer, solve_bush
-from .contact.contact_table import ContactTable
-from .damper.damper_table import DamperTable
-from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
+from .bush_table import BushAnswer, BushTable, solve_bush
+from .contact_table import ContactTable
+from .damper_table import DamperTable
+from .excitation_table import (
+    EXCITATIONS,
+    ExcitationTable,
+    FilmTable,
+    UnbalanceTable,
+    film_table,
+    film_tables,
+    oil_remarks,
+)
 from .families import FAMILIES, table_of
-from .film_table import FilmTable, film_table, film_tables, oil_remarks
-from .journal.solve_journal import Answer, film_answer
 from .lubricant_table import LubricantTable
-from .question_table import QuestionTable
-from .reading.tables import Beside, Table, Variant, read_table, text
-from .scene_file import parsed, read_tables, require_schema
-from .schema import CosimulationTable, JournalTable, OperationTable, RigidRotorTable
-from .shaft.shaft_table import ShaftTable, require_node, require_place
+from .reading import Beside, Quantity, Table, Variant, one_of, read_table, require_no_near_miss, takes, text
+from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
+from .shaft_table import ShaftTable, require_node, require_place
+from .solve_journal import Answer, film_answer
+
+# `[question]`: the quantity that is asked for, and how accurate it must be.
+
+
+QUANTITIES = {
+    "eccentricity_ratio": "static eccentricity / clearance",
+    "minimum_film": "smallest film thickness at rest, or in a contact [m]",
+    "attitude_angle": "from the load line to the journal [rad]",
+    "stiffness": "K of a film or of balls at its equilibrium [N/m]",
+    "damping": "C of a film at its equilibrium [N s/m]",
+    "axial_stiffness": "of a ball bearing along the shaft [N/m]",
+    "contact_load": "largest of a ball on a race [N]",
+    "contact_angle": "of the most loaded ball on the inner race [rad]",
+    "film_parameter": "lambda of a ball bearing: smallest film / roughness",
+    "power_loss": "heat made in a film at its equilibrium [W]",
+    "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
+    "temperature": "of the oil that leaves a film of an oil at its equilibrium, in the mean [K]",
+    "maximum_temperature": "highest in a film of an oil at its equilibrium [K]",
+    "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
+    "critical_speed": "first critical speed of a rotor, or speed at which a bush melts [rad/s]",
+    "unbalance_amplitude": "largest semi-axis of the synchronous orbit [m]",
+    "unbalance_phase": "of the synchronous orbit after the unbalance [rad]",
+    "unbalance_force": "largest force on the bearing in the synchronous orbit [N]",
+    "blade_loss_peak": "largest distance from the center after a lost blade, or over a run-up [m]",
+    "peak_displacement": "largest of a flexible rotor in a run-up, after a lost blade, in an earthquake [m]",
+    "jump_up": "unbalance at which the orbit in a damper jumps to the larger one [kg m]",
+    "jump_down": "unbalance at which the orbit in a damper falls to the smaller one [kg m]",
+    "transmissibility": "force on the housing / centrifugal force of the unbalance",
+    "central_film": "film thickness in the middle of a contact, the smallest over time [m]",
+    "approach": "of a ball towards its plane, the largest over time [m]",
+    "wear": "how much farther a bush settles because it melts, at the end of its run [m]",
+    "cosimulation_error": "largest distance of coupled and monolithic orbit / clearance",
+}
+"""What a scene may ask for; the families that answer are listed in docs/scenes.md."""
+
+
+@takes(Quantity("1"))
+def read_tolerance(where: str, value: Any) -> float:
+    """Read a relative tolerance; above 1 only in percent, as a plain number may be meant to be."""
+    tolerance = Quantity("1")(where, value)
+    if tolerance > 1.0 and "%" not in str(value):
+        meant = brief(f"{value} %")
+        raise SceneError(f"{where} must be at most 1 unless it is in percent, got {brief(value)}: {meant}?")
+    return tolerance
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionTable:
+    """`[question]`: what is asked.
+
+    Parameters
+    ----------
+    quantity : str
+        A key of `QUANTITIES`.
+    tolerance : float [1]
+        Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
+        co-simulation to the clearance, of an angle to 1 rad, of a temperature to its rise above the supply.
+    at : str
+        Of a flexible rotor: bearing or probe that is asked about, the one that moves most unless given.
+    """
+
+    quantity: Annotated[str, one_of(QUANTITIES)]
+    tolerance: Annotated[float, read_tolerance]
+    at: Annotated[str, text] = ""
+
+    def __post_init__(self) -> None:
+        require_positive("tolerance", self.tolerance)
+
+
+# A scene: one TOML file that says what is there and what is asked.
+
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -298,3 +376,53 @@ def bundled_scene() -> Scene:
     """Return the scene that ships with the package: Friswell et al. (2010), example 5.9.6."""
     document = resources.files(__package__).joinpath("data", BUNDLED).read_text(encoding="utf-8")
     return parse_scene(document, BUNDLED)
+
+
+# The text of a scene file: read, parsed, and of the right schema.
+
+
+BYTE_ORDER_MARK = "\ufeff"
+"""What some editors put before the text of a file."""
+
+
+def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return the tables of a scene file as they are; raise SceneError if it cannot be read or is no TOML."""
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(SCENE_BYTES + 1)
+        document = content.decode("utf-8")
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
+    if len(content) > SCENE_BYTES:
+        raise SceneError(f"{path}: scene file must be at most {SCENE_BYTES} bytes long, got more")
+    return parsed(document, str(path))
+
+
+def parsed(document: str, source: str) -> dict[str, Any]:
+    """Return the tables of a TOML text; `source` names it in messages."""
+    if any(line.count(".") > LINE_DOTS for line in document.splitlines()):
+        raise SceneError(f"{source}: lines must not have more than {LINE_DOTS} dots")
+    try:
+        return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
+    except tomllib.TOMLDecodeError as error:
+        where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
+        raise SceneError(f"{source}: not valid TOML: {shortened(where)}") from None
+    except RecursionError:
+        raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
+    except ValueError:  # Python reads no integer of more than 4300 digits
+        raise SceneError(f"{source}: integers must not have thousands of digits") from None
+
+
+def json_schema() -> str:
+    """Return the JSON Schema of scene files, which `tools/scene_schema.py` makes of their tables."""
+    return resources.files(__package__).joinpath("data", "scene.schema.json").read_text(encoding="utf-8")
+
+
+def require_schema(source: str, data: dict[str, Any]) -> None:
+    """Take the version out of the data; raise SceneError if it is not the one that is read here."""
+    value = data.pop("schema", None)
+    if type(value) is not int or value != SCHEMA:
+        require_no_near_miss(f"{source}: ", "schema", data)
+        found = "nothing" if value is None else brief(value)
+        raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")

@@ -15,16 +15,21 @@ from ..bearings.films.geometry import FeedHole, Groove, Pad
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import JFOFilm, JournalBearing
 from ..bearings.oil import Cooling, Oil
-from ..errors import InputError, require_finite, require_positive
-from ..limits import STEPS
-from ..progress import Report
-from .journal.echo import BearingData, bearing_data
-from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD, ConservedOil
-from .journal.journal_remarks import film_remarks
+from ..core.errors import InputError, require_finite, require_positive
+from ..core.limits import STEPS
+from ..core.progress import Report
+from .journal_tables import (
+    FEED_HOLE,
+    FILMS,
+    GROOVE,
+    PAD,
+    BearingData,
+    ConservedOil,
+    bearing_data,
+    film_remarks,
+)
 from .lubricant_table import Lubricant, OiledTable
-from .reading.readers import read_static_load
-from .reading.shared_fields import made_from
-from .reading.tables import Quantity, TableList, Variant, flag
+from .reading import Quantity, TableList, Variant, flag, made_from, read_static_load
 
 if TYPE_CHECKING:
     from ..rotors.rigid import RigidRotor

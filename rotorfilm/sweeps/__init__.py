@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from ..sources import show
+from ..core.sources import show
 
 if TYPE_CHECKING:
     from .sweep_run import sweep as sweep

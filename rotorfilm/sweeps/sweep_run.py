@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import json
+import multiprocessing
 import os
-from collections.abc import Iterator, Mapping
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
-from ..errors import InputError, require_count, warn_user
-from ..inputs.kinds import arguments
-from ..limits import WORKERS, require_at_most
-from ..progress import Report, silent
-from ..scenes.scene_file import read_tables
-from .axes import Axis, Values, check, points, read_axes
-from .dataset import load, save, to_dataset
-from .point import Row
-from .store import Store
-from .workers import Points, solved_by_dask, solved_by_processes, solved_here
+import numpy as np
+
+from ..core.errors import FileWarning, InputError, require_count, warn_user
+from ..core.files import failures_named, read_sealed, sealed_line, unsealed_line, write_sealed, write_whole
+from ..core.inputs import arguments
+from ..core.limits import WORKERS, require_at_most
+from ..core.progress import Report, silent
+from ..scenes.scene import read_tables
+from .point import POINT_UNITS, Axis, Row, Values, check, points, read_axes, sizes, solve_point
 
 if TYPE_CHECKING:
     import xarray
@@ -166,3 +169,203 @@ def _solved(
     return (
         solved_here(tables, todo, source) if count <= 1 else solved_by_processes(tables, todo, source, count)
     )
+
+
+# The rows of a sweep as an xarray.Dataset with units, and on disk as NetCDF.
+
+
+INNER = ("row", "column")
+"""Dimensions of what is a vector or a matrix at each point."""
+
+
+def to_dataset(axes: Sequence[Axis], rows: Sequence[Row], attributes: Mapping[str, str]) -> xarray.Dataset:
+    """Return the dataset of all points; numbers that a point does not have are not-a-number, texts empty."""
+    import xarray
+
+    lengths = sizes(axes)
+    names = sorted({name for row in rows for name in row if name != "unit"} | {"failure"})
+    units = {**POINT_UNITS, "value": next((row["unit"] for row in rows if "unit" in row), "")}
+    return xarray.Dataset(
+        {name: _variable(name, rows, lengths, units.get(name, "")) for name in names},
+        coords={axis.name: _coordinate(axis) for axis in axes},
+        attrs=dict(attributes),
+    )
+
+
+def _variable(name: str, rows: Sequence[Row], lengths: Mapping[str, int], unit: str) -> Any:
+    known = [row[name] for row in rows if name in row]
+    if all(isinstance(value, str) for value in known):
+        texts = np.array([row.get(name, "") for row in rows], dtype=object)
+        return tuple(lengths), texts.reshape(tuple(lengths.values()))
+    if all(isinstance(value, bool) for value in known):
+        flags = np.array([bool(row.get(name, False)) for row in rows])
+        return tuple(lengths), flags.reshape(tuple(lengths.values()))
+    shape = np.shape(known[0])
+    numbers = np.array([row.get(name, np.full(shape, np.nan)) for row in rows], dtype=float)
+    dims = (*lengths, *(f"{name}_{inner}" for inner in INNER[: len(shape)]))
+    return dims, numbers.reshape(*lengths.values(), *shape), {"units": unit}
+
+
+def _coordinate(axis: Axis) -> Any:
+    values, unit = axis.coordinate()
+    return (axis.dimension,), values, {"key": axis.key, **({"units": unit} if unit else {})}
+
+
+def save(dataset: xarray.Dataset, path: Path, name: str) -> None:
+    """Write the dataset of a sweep as NetCDF with a seal (`files.write_sealed`)."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "sweep.nc")
+        dataset.to_netcdf(made, engine="h5netcdf")
+        write_sealed(path, made.read_bytes(), name)
+
+
+def load(path: Path, name: str) -> xarray.Dataset:
+    """Return what `save` wrote.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged, or that of another sweep.
+    """
+    import xarray
+
+    content = read_sealed(path, name, "path must be that of the same sweep, or of none")
+    with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf") as found:
+        return found.load()
+
+
+# The rows of a sweep on disk while it runs: one line each, so that nothing done is lost.
+
+
+HEAD = "rows of a sweep, version 1"
+"""What the first line of a file belongs to."""
+
+
+class Store:
+    """A file of rows, to be added to and read again.
+
+    Parameters
+    ----------
+    path : Path
+        Its first line names the sweep, each other one holds a point and its row, behind its checksum.
+    name : str
+        Of the sweep: another one in the file is refused.
+
+    Raises
+    ------
+    InputError
+        If the file holds another sweep, or none.
+
+    Warns
+    -----
+    FileWarning
+        Of damaged rows, which are left out.
+    """
+
+    def __init__(self, path: Path, name: str) -> None:
+        self.path, self.name = path, name
+        self.rows: dict[int, Row] = {}
+        head = sealed_line(json.dumps({"sweep": name}), HEAD)
+        content = path.read_bytes() if path.is_file() else b""
+        # What was cut off when the sweep was killed is computed again.
+        whole = content[: content.rfind(b"\n") + 1].splitlines(keepends=True)
+        if not head.startswith(content):
+            self._require_same(whole[0] if whole else content)
+        kept = [line for line in whole[1:] if self._read(line)]
+        if lost := len(whole[1:]) - len(kept):
+            warn_user(f"{lost} damaged rows of {str(path)!r} are computed again", FileWarning)
+        if (found := head + b"".join(kept)) != content:
+            write_whole(path, found)
+        self._file: IO[bytes] = path.open("ab")
+
+    def _read(self, line: bytes) -> bool:
+        """Take the row of a line; return whether it is one."""
+        text = unsealed_line(line, self.name)
+        if text is not None:
+            entry = json.loads(text)
+            self.rows[entry["point"]] = entry["row"]
+        return text is not None
+
+    def _require_same(self, line: bytes) -> None:
+        text = unsealed_line(line, HEAD)
+        if text is None:
+            raise InputError(
+                f"path must leave {str(self.path)!r} to the rows of a sweep, got another file there, or a "
+                "damaged one"
+            )
+        if json.loads(text)["sweep"] != self.name:
+            raise InputError(
+                f"path must be that of the same sweep, or of none, got {str(self.path)!r} with the rows of "
+                "another scene or of other values; delete the file or choose another path"
+            )
+
+    def add(self, point: int, row: Row) -> None:
+        """Keep a row; it is on disk when this returns."""
+        self.rows[point] = row
+        with failures_named(self.path):
+            self._file.write(sealed_line(json.dumps({"point": point, "row": row}), self.name))
+            self._file.flush()
+            os.fsync(self._file.fileno())
+
+    def close(self) -> None:
+        """Close the file."""
+        with failures_named(self.path):
+            self._file.close()
+
+
+# Who solves the points of a sweep: this process, processes of this machine, or a Dask cluster.
+
+
+Points = Sequence[tuple[int, dict[str, Any]]]
+"""Numbers of points, and the values of the keys there."""
+
+
+def solved_here(scene: Mapping[str, Any], todo: Points, source: str) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points, one after the other."""
+    for number, values in todo:
+        yield number, solve_point(scene, values, source)
+
+
+def solved_by_processes(
+    scene: Mapping[str, Any], todo: Points, source: str, workers: int
+) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points as processes of this machine complete them."""
+    # Forked processes would inherit threads and locks of libraries that were loaded before.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=context) as pool:
+        futures = {pool.submit(solve_point, scene, values, source): number for number, values in todo}
+        try:
+            for future in as_completed(futures):
+                yield futures[future], future.result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def solved_by_dask(
+    scene: Mapping[str, Any], todo: Points, source: str, address: str
+) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points as a Dask cluster completes them.
+
+    Raises
+    ------
+    InputError
+        If Dask is not installed, or nobody answers at the address.
+    """
+    try:
+        from distributed import Client, as_completed as completed
+    except ImportError:
+        raise InputError(
+            "dask needs the extra `sweep`: python -m pip install '.[sweep]' in its source"
+        ) from None
+    try:
+        client = Client(address, timeout=10)
+    except OSError as error:
+        raise InputError(
+            f"dask must be the address of a scheduler that answers, got {address!r}: {error}"
+        ) from None
+    with client:
+        futures = {
+            client.submit(solve_point, scene, values, source, pure=False): number for number, values in todo
+        }
+        for future in completed(list(futures)):
+            yield futures[future], future.result()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError, RotorfilmError, ValidityWarning
+from rotorfilm.core.errors import InputError, RotorfilmError, ValidityWarning
 
 FILM = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 4e-4}
 SEAL = {**FILM, "pressure_drop": 1e6, "density": 1000.0}

@@ -36,7 +36,7 @@ from rotorfilm import (
     synchronous_orbits,
     whirl_threshold,
 )
-from rotorfilm.bearings.differences import ORDER, differences
+from rotorfilm.bearings.formulas import ORDER, differences
 from rotorfilm.bearings.reaction import Called
 
 SHORT = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())

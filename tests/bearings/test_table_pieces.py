@@ -7,8 +7,8 @@ from threading import Barrier
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.table_pieces import made_pieces, spread_order
-from rotorfilm.progress import silent
+from rotorfilm.bearings.films.map_fit import made_pieces, spread_order
+from rotorfilm.core.progress import silent
 
 
 @pytest.mark.parametrize("count", [1, 7, 200])

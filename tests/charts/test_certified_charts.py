@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.linear import ResonancePeak, SeparationMargins, StabilityCurve, StabilityLevelOne
+from rotorfilm.analysis import ResonancePeak, SeparationMargins, StabilityCurve, StabilityLevelOne
 
 CURVE = StabilityCurve(
     name="minimum",

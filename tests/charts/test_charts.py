@@ -12,7 +12,7 @@ from rotorfilm.charts import (
     plot_orbits,
     save,
 )
-from rotorfilm.results import Trajectory
+from rotorfilm.core.results import Trajectory
 
 
 def orbit():

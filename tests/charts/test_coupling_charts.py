@@ -1,7 +1,7 @@
 import numpy as np
 
 from rotorfilm.charts import plot_coupling_cost, plot_coupling_limits, save
-from rotorfilm.comparisons import coupling_cost, coupling_limits
+from rotorfilm.studies import coupling_cost, coupling_limits
 
 
 def test_limits_are_drawn_and_tabulated(tmp_path):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import BistableMap, OrbitBranch, SynchronousOrbits
 from rotorfilm.charts import (
     new_axes,
     plot_bistable,
@@ -11,7 +12,6 @@ from rotorfilm.charts import (
     plot_transmissibility,
     plot_transmitted,
 )
-from rotorfilm.motion import BistableMap, OrbitBranch, SynchronousOrbits
 
 UNIT = 2e-3
 

@@ -20,8 +20,8 @@ from rotorfilm.charts import (
     plot_temperature_across,
     plot_temperature_field,
 )
-from rotorfilm.comparisons import HEAT_CASES, HeatAccuracy, HeatAnswer, HeatLadder, HeatModel, HeatRung
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
+from rotorfilm.studies import HEAT_CASES, HeatAccuracy, HeatAnswer, HeatLadder, HeatModel, HeatRung
 
 
 def state_of(profile):

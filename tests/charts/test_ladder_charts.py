@@ -10,10 +10,9 @@ from rotorfilm.charts import (
     plot_journal_stability,
     plot_thresholds,
 )
-from rotorfilm.charts.comparisons.whirl_verdicts import verdicts
-from rotorfilm.charts.labels import Label, place_labels
-from rotorfilm.charts.palette import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD
-from rotorfilm.comparisons import (
+from rotorfilm.charts.canvas import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, Label, place_labels
+from rotorfilm.charts.whirl_verdicts import verdicts
+from rotorfilm.studies import (
     LARGE,
     JournalAccuracy,
     JournalStability,
@@ -21,7 +20,7 @@ from rotorfilm.comparisons import (
     RungStability,
     journal_rungs,
 )
-from rotorfilm.comparisons.journal.timing import FilmCost
+from rotorfilm.studies.journal_accuracy import FilmCost
 
 
 def accuracy(family, time, error):

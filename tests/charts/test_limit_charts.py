@@ -5,8 +5,8 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from rotorfilm.charts import plot_limit_summary, plot_limits
-from rotorfilm.charts.comparisons.limit_charts import DEPENDS, FAILS, HOLDS
-from rotorfilm.comparisons.limits.limit_panels import Limit, LimitAtlas, Panel
+from rotorfilm.charts.study_charts import DEPENDS, FAILS, HOLDS
+from rotorfilm.studies.limits_journal import Limit, LimitAtlas, Panel
 
 X = np.array([0.1, 1.0, 10.0])
 

@@ -8,7 +8,7 @@ from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
 from rotorfilm import lobe_set
 from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_pad_accuracy
-from rotorfilm.comparisons import (
+from rotorfilm.studies import (
     BearingCoefficients,
     BearingThresholds,
     PadAccuracy,
@@ -18,7 +18,7 @@ from rotorfilm.comparisons import (
     TypeThresholds,
     WhirlOutcome,
 )
-from rotorfilm.comparisons.journal.timing import FilmCost
+from rotorfilm.studies.journal_accuracy import FilmCost
 
 TURN = 2.0 * math.pi / 60.0
 

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from rotorfilm.charts import write_page
 from rotorfilm.charts.page import EXPLAINED
-from rotorfilm.cli.charts import chart_commands
-from rotorfilm.errors import InputError
+from rotorfilm.cli import chart_commands
+from rotorfilm.core.errors import InputError
 
 BROWSER = next(
     (name for name in ("chromium", "chromium-browser", "google-chrome") if shutil.which(name)), None

@@ -7,7 +7,7 @@ import pytest
 
 from rotorfilm import BallBearing, InputError, back_to_back, variable_compliance
 from rotorfilm.charts import plot_ball_accuracy, plot_ball_curves, plot_compliance
-from rotorfilm.comparisons import ball_accuracy, ball_curves, usual_bearing
+from rotorfilm.studies import ball_accuracy, ball_curves, usual_bearing
 
 CURVES = ball_curves(usual_bearing(), [0.0, 1500.0, 3000.0], thrust=500.0, load=300.0)
 

@@ -6,6 +6,7 @@ import control
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import Campbell, CriticalSpeed, rotor_modes
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.charts import (
     plot_campbell,
@@ -15,8 +16,7 @@ from rotorfilm.charts import (
     plot_unbalance_response,
     save,
 )
-from rotorfilm.errors import InputError
-from rotorfilm.linear import Campbell, CriticalSpeed, rotor_modes
+from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import ElasticMaterial, ShaftElement, ShaftRotor, Station
 
 SPEEDS = np.array([100.0, 200.0, 300.0]) * np.pi / 30.0

@@ -17,12 +17,12 @@ import pytest
 from fmpy import read_model_description
 
 import rotorfilm
-from rotorfilm import comparisons as ladders
+from rotorfilm import studies as ladders
 from rotorfilm.cli import main as cli
-from rotorfilm.comparisons.limits.limits_atlas import PANELS
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
-from rotorfilm.scenes.journal.film_tables import FILMS, RUPTURES
+from rotorfilm.scenes.journal_tables import FILMS, RUPTURES
+from rotorfilm.studies.limits_atlas import PANELS
 
 SCENE = """
 schema = 1
@@ -446,9 +446,7 @@ def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
 
 def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
-    module = import_module(
-        "rotorfilm.comparisons.damper_accuracy"
-    )  # its package shows a function of this name
+    module = import_module("rotorfilm.studies.damper_accuracy")  # its package shows a function of this name
     monkeypatch.setattr(module, "SERIES", (1, 3))
     monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
     monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
@@ -474,7 +472,7 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
 
 
 def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
-    models = import_module("rotorfilm.comparisons.journal.heat_models")
+    models = import_module("rotorfilm.studies.heat_accuracy")
     few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
     monkeypatch.setattr(ladders, "heat_accuracy", partial(ladders.heat_accuracy, **few))
     monkeypatch.setattr(models, "heated_film", partial(models.heated_film, cells=(32, 4), layers=4))

@@ -139,7 +139,7 @@ def test_a_damaged_file_is_named(run, tmp_path):
     assert "run.nc' must end with the seal of rotorfilm: it is cut off, or another file" in err
 
 
-@pytest.mark.filterwarnings("default::rotorfilm.errors.FileWarning")
+@pytest.mark.filterwarnings("default::rotorfilm.core.errors.FileWarning")
 def test_a_spoiled_cache_and_a_run_that_could_not_be_saved_are_told(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     assert "warning" not in run(PLAIN)[2]

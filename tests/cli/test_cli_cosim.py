@@ -7,7 +7,7 @@ import pytest
 
 from rotorfilm.cli.main import main
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 SCENE = str(Path(__file__).parents[2] / "examples" / "friswell.toml")
 

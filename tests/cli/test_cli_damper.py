@@ -16,7 +16,7 @@ from rotorfilm import (
     synchronous_orbits,
 )
 from rotorfilm.cli import damper_command as cli_damper, main as cli
-from rotorfilm.scenes.damper.damper_table import SQUEEZES
+from rotorfilm.scenes.damper_table import SQUEEZES
 
 OPTIONS = {
     "--radius": "50 mm",

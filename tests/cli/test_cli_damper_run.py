@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper.damper_runs import run_damper
+from rotorfilm.scenes.solve_damper import run_damper
 
 SCENE = (Path(__file__).parents[2] / "examples" / "blade_loss.toml").read_text(encoding="utf-8")
 SHORT = SCENE.replace("revolutions = 40", "revolutions = 2").replace('"0.25 deg"', '"2 deg"')

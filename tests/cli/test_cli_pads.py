@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-import rotorfilm.comparisons as ladders
+import rotorfilm.studies as ladders
 from rotorfilm import PadGridFilm, TiltingPadBearing, coefficients, equilibrium, even_pivots
-from rotorfilm.comparisons.pads.pad_samples import compared_bearings
+from rotorfilm.studies.pad_accuracy import compared_bearings
 
 
 def test_chart_of_bearings_writes_pictures_and_tables(run, tmp_path, monkeypatch):
@@ -51,7 +51,7 @@ def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
     grids = [rung for rung in ladders.pad_rungs() if rung.family is ladders.PadFamily.GRID][:2]
     quick = partial(ladders.pad_accuracy, rungs=grids, cells=(64, 8), rounds=1)
     monkeypatch.setattr(ladders, "pad_accuracy", quick)
-    monkeypatch.setattr("rotorfilm.comparisons.pads.pad_accuracy.compared_bearings", without_maps)
+    monkeypatch.setattr("rotorfilm.studies.pad_accuracy.compared_bearings", without_maps)
     options = ("--ld", "0.7", "--states", "3", "--seed", "5", "--out", tmp_path)
     code, out, _ = run("chart", "pads", *options, "--json")
     assert code == 0
@@ -80,7 +80,7 @@ def asked(*flags, **changes):
     return ["pad-coefficients", *(word for pair in options.items() for word in pair), *flags]
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 def test_coefficients_of_tilting_pads_are_those_of_the_bearing_and_name_their_frequency(run):
     known = {"radius": 0.05, "length": 0.05, "assembled_clearance": 7e-5, "viscosity": 0.02}
     pivots = even_pivots(5, between_pads=True)

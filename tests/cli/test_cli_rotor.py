@@ -8,9 +8,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.shaft.shaft_remarks import shaft_remarks
-from rotorfilm.scenes.shaft.solve_compressor import level_one_remarks
-from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
+from rotorfilm.scenes.solve_shaft import level_one_remarks, shaft_remarks, solve_rotor
 
 SCENE = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
 

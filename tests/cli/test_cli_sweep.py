@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.cli.sweep_command import read_variation
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 xarray = pytest.importorskip("xarray")
 pytest.importorskip("h5netcdf")

@@ -5,10 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.bush.shaft_flux import approximate_flux, exact_flux
+from rotorfilm.bearings.bush.melting import approximate_flux, exact_flux
 from rotorfilm.charts import plot_bush_tiers
 from rotorfilm.cli import main as cli
-from rotorfilm.comparisons import bush_tiers
+from rotorfilm.studies import bush_tiers
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_the_chart_has_every_tier_and_every_line(tiers):
 
 
 def test_the_command_writes_chart_and_tables(tiers, monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr("rotorfilm.comparisons.bush_tiers", lambda report: tiers)
+    monkeypatch.setattr("rotorfilm.studies.bush_tiers", lambda report: tiers)
     for more in ([], ["--json"]):
         with pytest.raises(SystemExit) as exit_:
             cli.main(["chart", "bush", "--out", str(tmp_path), *more])

@@ -7,15 +7,23 @@ import numpy as np
 import pytest
 
 from rotorfilm import ContactGrid, FixedSteps, PointContact, SineLoad
-from rotorfilm.bearings.contact.motion.contact_state import ContactRun
+from rotorfilm.bearings.contact.contact_steps import ContactRun
 from rotorfilm.bearings.contact.point_contact import perturbed
 from rotorfilm.charts import plot_contact_cases, plot_contact_limits, plot_contact_precision, save
-from rotorfilm.comparisons import contact_limits, contact_precision
-from rotorfilm.comparisons.contact.contact_statements import Claim, Statement, statements
-from rotorfilm.comparisons.contact.motion_features import amplitude, decay_time, overshoot, unrest, wave_speed
+from rotorfilm.studies import contact_limits, contact_precision
+from rotorfilm.studies.contact_cases import (
+    Claim,
+    Statement,
+    amplitude,
+    decay_time,
+    overshoot,
+    statements,
+    unrest,
+    wave_speed,
+)
 
-cases = importlib.import_module("rotorfilm.comparisons.contact.contact_cases")
-limits = importlib.import_module("rotorfilm.comparisons.contact.contact_limits")
+cases = importlib.import_module("rotorfilm.studies.contact_cases")
+limits = importlib.import_module("rotorfilm.studies.contact_precision")
 
 
 def run_of(time, delta):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.comparisons import HEAT_CASES, HeatModel, heat_accuracy
+from rotorfilm.studies import HEAT_CASES, HeatModel, heat_accuracy
 
 TEXTBOOK = HEAT_CASES[0]
 # eccentricity ratio, attitude [deg], power [W], T or T_max [degC], K_yy [MN/m]

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.cavitation import FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.geometry import Groove
+from rotorfilm.bearings.films.geometry import FullFilm, Groove, HalfSommerfeld
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
@@ -22,7 +21,9 @@ from rotorfilm.bearings.journal import (
     middle_pressure,
     tension,
 )
-from rotorfilm.comparisons import (
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.results import to_plain, write_csv
+from rotorfilm.studies import (
     LARGE,
     SMALL,
     StateRange,
@@ -32,9 +33,7 @@ from rotorfilm.comparisons import (
     pareto_front,
     random_states,
 )
-from rotorfilm.comparisons.journal.journal_states import SPEED, reference_force, relative_error, squeeze_share
-from rotorfilm.errors import InputError
-from rotorfilm.results import to_plain, write_csv
+from rotorfilm.studies.journal_accuracy import SPEED, reference_force, relative_error, squeeze_share
 
 CELLS = (384, 16)
 WANTED = (

@@ -9,11 +9,11 @@ import pytest
 from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsFilm, RotatingArc, SplittingFilm
-from rotorfilm.bearings.journal.splitting.published_film import second_approximation
-from rotorfilm.comparisons import ComparedFilm, journal_rungs, journal_stability
-from rotorfilm.comparisons.journal.averaged_film import AveragedFilm
-from rotorfilm.errors import InputError
-from rotorfilm.results import write_csv
+from rotorfilm.bearings.journal.splitting_film import second_approximation
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.results import write_csv
+from rotorfilm.studies import ComparedFilm, journal_rungs, journal_stability
+from rotorfilm.studies.journal_stability import AveragedFilm
 
 RATIOS = (0.1, 0.3, 0.5, 0.7, 0.85)
 WANTED = (

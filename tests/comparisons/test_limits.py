@@ -5,24 +5,25 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.comparisons import failures, limits_atlas
-from rotorfilm.comparisons.journal.journal_states import SPEED
-from rotorfilm.comparisons.limits import (
-    limits_bush,
-    limits_contact,
-    limits_damper,
-    limits_heat,
+from rotorfilm.core.errors import InputError
+from rotorfilm.studies import (
+    failures,
+    limits_atlas,
+    limits_atlas as limits_bush,
+    limits_atlas as limits_contact,
+    limits_atlas as limits_damper,
+    limits_atlas as limits_heat,
     limits_journal,
-    limits_rotor,
+    limits_journal as limits_rotor,
 )
-from rotorfilm.comparisons.limits.limit_panels import FAILED, Limit, failure
-from rotorfilm.comparisons.limits.limits_atlas import PANELS
-from rotorfilm.errors import InputError
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.studies.journal_accuracy import SPEED
+from rotorfilm.studies.limits_atlas import PANELS
+from rotorfilm.studies.limits_journal import FAILED, Limit, failure
 
 # That a model is used beyond its range is what the atlas shows.
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 
 def curves(family):

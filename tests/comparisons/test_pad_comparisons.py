@@ -15,7 +15,9 @@ from rotorfilm import (
     equilibrium,
     whirl_threshold,
 )
-from rotorfilm.comparisons import (
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.results import write_csv
+from rotorfilm.studies import (
     BearingType,
     ComparedPad,
     PadFamily,
@@ -26,10 +28,8 @@ from rotorfilm.comparisons import (
     pad_accuracy,
     pad_rungs,
 )
-from rotorfilm.comparisons.pads.bearing_types import CLEARANCE, RADIUS, VISCOSITY
-from rotorfilm.comparisons.pads.pad_samples import compared_bearings, lobe_states, way_to_contact
-from rotorfilm.errors import InputError
-from rotorfilm.results import write_csv
+from rotorfilm.studies.bearing_types import CLEARANCE, RADIUS, VISCOSITY
+from rotorfilm.studies.pad_accuracy import compared_bearings, lobe_states, way_to_contact
 
 GRIDS = [rung for rung in pad_rungs() if rung.family is PadFamily.GRID]
 

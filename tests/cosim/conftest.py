@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from studies.master_cases import BEARING, RAMP, ROTOR, rotor_at
 
+from rotorfilm.core.errors import FilmContactError, PartialResultError
+from rotorfilm.core.model import static_linearization
+from rotorfilm.core.signals import force_outputs, journal_inputs
 from rotorfilm.cosim import cosim_run, cosimulate
-from rotorfilm.errors import FilmContactError, PartialResultError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.model import static_linearization
 from rotorfilm.rotors import LawRotor, RigidRotor
-from rotorfilm.signals import force_outputs, journal_inputs
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(120)
 

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from rotorfilm.comparisons.coupling.coupling_cost import cost_case
-from rotorfilm.comparisons.coupling.coupling_limits import limit_case, nudged
+from rotorfilm.analysis import simulate
+from rotorfilm.core.errors import InputError
 from rotorfilm.cosim import Auto, GaussSeidel, Newton, SIExp3, cosimulate
-from rotorfilm.errors import InputError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.motion import simulate
+from rotorfilm.studies.coupling_cost import cost_case, limit_case, nudged
 
 SPEED = 157.0
 

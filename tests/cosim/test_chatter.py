@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.core.errors import CouplingError, InputError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple, critical_macro_step, inspect_coupling
 from rotorfilm.cosim.partners import Partners
-from rotorfilm.errors import CouplingError, InputError
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 STEPS = np.arange(200.0)
 ALTERNATION = (-1.0) ** STEPS

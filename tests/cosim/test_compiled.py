@@ -7,12 +7,12 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from studies.master_cases import BEARING, CLEARANCE, EXPLICIT, IMPLICIT, RAMP, ROTOR, SPEED, STEP, rotor_at
 
+from rotorfilm.bearings.assemblies import Sprung
 from rotorfilm.bearings.damper import MapSqueeze, PorousCage, PorousDamper
-from rotorfilm.bearings.sprung import Sprung
 from rotorfilm.cosim import cosimulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, mount
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 
 def label(pair):

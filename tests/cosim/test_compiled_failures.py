@@ -11,14 +11,14 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from studies.master_cases import BEARING, CLEARANCE, ROTOR, STEP, PythonGaussSeidel, rotor_at
 
+from rotorfilm.core.errors import CouplingError, FmuError, ValidityWarning
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, SIExp3, cosimulate, couple
-from rotorfilm.cosim.loops.compiled_loop import MOST_CHUNK
-from rotorfilm.errors import CouplingError, FmuError, ValidityWarning
+from rotorfilm.cosim.compiled_loop import MOST_CHUNK
 from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.check.calls import Instance
-from rotorfilm.native.layouts.master_structs import Call
+from rotorfilm.fmu.instance import Instance
+from rotorfilm.native.master_structs import Call
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 
 def test_beyond_the_verified_range_is_told_as_in_python(outcome):

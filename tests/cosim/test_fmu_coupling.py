@@ -10,16 +10,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.analysis import equilibrium, simulate
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.core.errors import ContactError, CouplingError, FilmContactError, FmuError, InputError
 from rotorfilm.cosim import InProcessSlave, cosimulate, couple, critical_macro_step, open_fmu
-from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, InputError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.linear import equilibrium
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(

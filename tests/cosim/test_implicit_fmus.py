@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.core.errors import InputError, PartialResultError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Newton, SIExp3, cosimulate, couple
-from rotorfilm.errors import InputError, PartialResultError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import JeffcottRotor, LawRotor, RigidRotor, RigidShaft, SpeedProfile, SteadyRotor
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 SPEED, CLEARANCE = 157.0, 1e-4
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=CLEARANCE, viscosity=0.05, film=MapFilm())

@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
+from rotorfilm.bearings.assemblies import Sprung
 from rotorfilm.bearings.damper import PorousDamper
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.bearings.sprung import Sprung
-from rotorfilm.comparisons.coupling.coupling_limits import limit_case, simulated_limit
+from rotorfilm.bearings.films.geometry import FullFilm
+from rotorfilm.core.errors import PartialResultError
 from rotorfilm.cosim import (
     GaussSeidel,
     InProcessSlave,
@@ -22,10 +22,10 @@ from rotorfilm.cosim import (
     coupling_stability,
     critical_macro_step,
 )
-from rotorfilm.errors import PartialResultError
 from rotorfilm.rotors import RigidRotor
+from rotorfilm.studies.coupling_cost import limit_case, simulated_limit
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 # Critical macro step in degrees of rotation, short bearing, w = 1, to be met within 2 %: figures of an
 # independent study of these schemes; Jacobi 0 to 2, Gauss-Seidel 0 to 2.

@@ -4,13 +4,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.core.errors import (
+    ContactError,
+    CouplingError,
+    FilmContactError,
+    FmuError,
+    FmuRunError,
+    InputError,
+)
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple
-from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, FmuRunError, InputError
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(

@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from studies.coupling_cases import coupling_cases
 
-from rotorfilm.comparisons.coupling.coupling_limits import limit_case
+from rotorfilm.core.errors import CouplingError, CouplingWarning, PartialResultError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Jacobi, SIExp3, cosimulate, couple
-from rotorfilm.errors import CouplingError, CouplingWarning, PartialResultError
 from rotorfilm.rotors import RigidRotor
+from rotorfilm.studies.coupling_cost import limit_case
 
 COUNT = 6  # of each kind here; 100 in benchmarks/coupling_monitor.py
 
@@ -28,7 +28,7 @@ def outcome(case):
         return str(error), error.partial
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 def test_every_bad_run_is_found():
     for case in coupling_cases(COUNT, bad=True):
         stopped, result = outcome(case)
@@ -37,7 +37,7 @@ def test_every_bad_run_is_found():
         assert case.factor > 1.05
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 def test_no_good_run_is_stopped():
     for case in coupling_cases(COUNT - 1, bad=False):
         stopped, result = outcome(case)
@@ -85,7 +85,7 @@ def test_a_swing_without_damping_is_not_said_to_be_stable(make_spring_damper, da
 def test_a_run_past_the_limit_is_warned_of_at_once_and_stopped():
     rotor, bearing, _ = limit_case(0.7)
     step = 1.2 * np.radians(14.75) / 157.0
-    from rotorfilm.comparisons.coupling.coupling_limits import nudged
+    from rotorfilm.studies.coupling_cost import nudged
 
     moved = nudged(rotor, 1e-3 * bearing.clearance)
     with (
@@ -115,7 +115,7 @@ def test_linearly_implicit_schemes_are_not_warned_of_and_tell_their_local_error(
     assert_allclose(np.log2(errors[0] / errors[1]), 2.0, atol=0.3)  # D is of second order
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 def test_local_error_of_a_held_force_is_its_increment(nondimensional):
     case = nondimensional(0.5, unbalance=0.3)
     for scheme in (GaussSeidel(), Jacobi()):
@@ -131,7 +131,7 @@ def test_local_error_of_a_held_force_is_its_increment(nondimensional):
         assert_allclose(run.watch.local_error, expected, rtol=1e-9)
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 def test_a_thrown_journal_without_chatter_is_no_answer(nondimensional):
     """At eps .9 thrown by unbalance: no alternation, but the force changes by half within single steps."""
     case = nondimensional(0.9, unbalance=0.2)

@@ -16,9 +16,9 @@ from rotorfilm import (
     cosimulate,
     simulate,
 )
-from rotorfilm.cosim.stepped_partner import SteppedPartner
-from rotorfilm.errors import InputError
-from rotorfilm.signals import force_outputs, journal_inputs
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.signals import force_outputs, journal_inputs
+from rotorfilm.cosim.master import SteppedPartner
 
 m, k, tau, damping, omega = 3.0, 50.0, 0.6, 4.0, 1.0
 

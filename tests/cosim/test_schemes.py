@@ -7,8 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.core.errors import ConvergenceError, InputError
 from rotorfilm.cosim import (
     Adaptive,
     GaussSeidel,
@@ -21,11 +23,9 @@ from rotorfilm.cosim import (
     couple,
     squeeze_limit,
 )
-from rotorfilm.errors import ConvergenceError, InputError
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, SpeedProfile, mount
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 EXPLICIT = [kind(degree=degree) for kind in (GaussSeidel, Jacobi) for degree in range(3)]
 SCHEMES = [*EXPLICIT, SIExp(), SIExp3(), Newton()]

@@ -7,11 +7,11 @@ from scipy.optimize import brentq
 
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.core.errors import FilmContactError, InputError, PartialResultError
 from rotorfilm.cosim import InProcessSlave, couple, coupling_stability, critical_macro_step
-from rotorfilm.errors import FilmContactError, InputError, PartialResultError
 from rotorfilm.rotors import RigidRotor
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
 # Gauss-Seidel with held force, short bearing, w = 1: critical macro step in degrees of rotation, to be met
 # within 2 %: reference figures of an independent study of this coupling.

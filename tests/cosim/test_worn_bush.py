@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
 from rotorfilm.cosim import cosimulate
 from rotorfilm.fmu import export_fmu
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor
 
 LOAD = 3750.0

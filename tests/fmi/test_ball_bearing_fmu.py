@@ -9,7 +9,7 @@ from fmpy.fmi1 import FMICallException
 
 from rotorfilm import BallBearing, InputError, RaceControl, RunningBalls, back_to_back, export_fmu
 from rotorfilm.fmu import check_fmu
-from rotorfilm.fmu.export_rules import start_values
+from rotorfilm.fmu.export import start_values
 
 ONE = BallBearing(
     balls=11,

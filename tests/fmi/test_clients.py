@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import JFOFilm, MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.oil import Cooling, Oil
+from rotorfilm.core.errors import ValidityWarning
 from rotorfilm.cosim import Jacobi, critical_macro_step
-from rotorfilm.errors import ValidityWarning
 from rotorfilm.fmu import export_fmu
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, mount
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

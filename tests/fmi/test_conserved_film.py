@@ -11,8 +11,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 from rotorfilm import DamperSupply, FeedHole, FmuError, Groove, JFODamper, JFOFilm, JournalBearing, export_fmu
+from rotorfilm.core.errors import FilmContactError
 from rotorfilm.cosim import open_fmu
-from rotorfilm.errors import FilmContactError
 from rotorfilm.fmu import check_fmu
 
 OMEGA, STEP = 314.0, 1e-4

@@ -21,8 +21,8 @@ from rotorfilm import (
     export_fmu,
     simulate,
 )
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.errors import ContactError, FmuError, InputError
+from rotorfilm.bearings.films.geometry import FullFilm
+from rotorfilm.core.errors import ContactError, FmuError, InputError
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 

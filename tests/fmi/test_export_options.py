@@ -12,9 +12,9 @@ from lxml import etree
 
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import FmuError, InputError
+from rotorfilm.core.errors import FmuError, InputError
 from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.description.terminals import terminals
+from rotorfilm.fmu.description import terminals
 from rotorfilm.rotors import RigidRotor
 
 SIZE = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

@@ -24,9 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorfilm.errors import FilmContactError
-from rotorfilm.model import Linearization
-from rotorfilm.signals import Signal
+from rotorfilm.core.errors import FilmContactError
+from rotorfilm.core.model import Linearization
+from rotorfilm.core.signals import Signal
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from rotorfilm import BallBearing, FiveDegreeBalls, Waviness, back_to_back, export_fmu
-from rotorfilm.bearings.rolling.cage.five_degree_balls import INPUTS, OUTPUTS
+from rotorfilm.bearings.rolling.ball_cage import INPUTS, OUTPUTS
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native.library import FOLDER
 

@@ -16,7 +16,7 @@ from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.check.instance import extracted, instantiated
+from rotorfilm.fmu.instance import extracted, instantiated
 
 DIMENSIONS = {"radius": 0.05, "clearance": 1e-4, "viscosity": 0.03}
 COARSE = GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12), largest_eccentricity_ratio=0.9)

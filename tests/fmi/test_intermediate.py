@@ -9,7 +9,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.check.instance import extracted
+from rotorfilm.fmu.instance import extracted
 from rotorfilm.rotors import RigidRotor, mount
 
 MASS, SPEED, UNBALANCE = 50.0, 157.0, 8e-4

@@ -18,12 +18,12 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 from scipy.linalg import expm
 
+from rotorfilm.analysis import equilibrium, linearize
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import FmuError
+from rotorfilm.core.errors import FmuError
 from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.check.instance import extracted, instantiated
-from rotorfilm.linear import equilibrium, linearize
+from rotorfilm.fmu.instance import extracted, instantiated
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

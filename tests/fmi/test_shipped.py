@@ -12,7 +12,7 @@ import pytest
 from fmpy.validation import validate_fmu
 
 from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.narrow import as_exported
+from rotorfilm.fmu.export import as_exported
 from rotorfilm.scenes import bundled_scene
 
 FMUS = Path(__file__).parents[2] / "fmus"

@@ -6,9 +6,9 @@ from importlib.resources import files
 
 import pytest
 
-from rotorfilm.errors import FmuError
+from rotorfilm.core.errors import FmuError
 from rotorfilm.fmu.binaries import require_whole
-from rotorfilm.fmu.native.macho import universal
+from rotorfilm.fmu.native.platforms import universal
 
 SHIPPED = files("pythonfmu").joinpath("resources", "binaries")
 

@@ -12,7 +12,7 @@ from hypothesis import given, strategies as st
 
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import FmuError
+from rotorfilm.core.errors import FmuError
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 from rotorfilm.rotors.rigid import RigidRotor
 

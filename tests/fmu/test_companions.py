@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.fmu.python.bundle import bundle_source
+from rotorfilm.fmu.python.python_backend import bundle_source
 
 ASK = """
 from {package}.bearings.films.map_fit import tabulate_film
 from {package}.bearings.journal.map.map_film import MapFilm
-from {package}.bearings.journal.short_film import ShortFilm
+from {package}.bearings.journal.reynolds_film import ShortFilm
 import numpy as np
 film = MapFilm(tabulate_film(ShortFilm(), slenderness_range=(0.5, 0.5), cells=(6, 6, 0)))
 print(film.force(np.array([0.1, 0.0]), np.array([0.0, 1.0]), 0.5)[1] < 0.0)
@@ -35,7 +35,7 @@ def test_map_film_travels_with_its_library(tmp_path):
     assert ran.stdout.strip() == "True", ran.stderr
 
 
-@pytest.mark.parametrize("name", ["map.map_film", "grooves.grooved_film"])
+@pytest.mark.parametrize("name", ["map.map_film", "grooved_film"])
 def test_every_film_of_the_library_travels_with_it(name):
     carried = {Path(file).name for file in bundle_source({f"rotorfilm.bearings.journal.{name}"}).files}
     assert "journal_map.bin" in carried
@@ -43,12 +43,12 @@ def test_every_film_of_the_library_travels_with_it(name):
 
 
 def test_a_users_film_over_a_map_travels_with_it(write_module):
-    module = write_module("over_a_map", "from rotorfilm.films import GroovedMapFilm\n")
+    module = write_module("over_a_map", "from rotorfilm.bearings import GroovedMapFilm\n")
     assert [name for name in bundle_source({module.__name__}).files if name.endswith("journal_map.bin")]
 
 
 def test_other_films_travel_without_it():
-    files = bundle_source({"rotorfilm.bearings.journal.splitting.splitting_film"}).files
+    files = bundle_source({"rotorfilm.bearings.journal.splitting_film"}).files
     assert not [name for name in files if name.endswith((".so", ".bin"))]
 
 
@@ -56,7 +56,8 @@ def test_fmus_of_other_models_share_no_modules():
     # The second would look for its table in the folder of the first, which may be gone.
     bearing = "rotorfilm.bearings.journal"
     short, mapped = (
-        bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"}) for film in ("short_film", "map.map_film")
+        bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"})
+        for film in ("reynolds_film", "map.map_film")
     )
     assert set(short.modules) == set(mapped.modules)
     assert short.modules["rotorfilm"] != mapped.modules["rotorfilm"]

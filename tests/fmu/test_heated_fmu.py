@@ -11,7 +11,7 @@ from scipy.integrate import DOP853, solve_ivp
 
 from rotorfilm import Cooling, Groove, JournalBearing, Oil, RigidRotor, ShortFilm, export_fmu, simulate
 from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
-from rotorfilm.errors import ValidityWarning
+from rotorfilm.core.errors import ValidityWarning
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native.library import FOLDER
 

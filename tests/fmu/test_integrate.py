@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rotorfilm.errors import ConvergenceError, FilmContactError
-from rotorfilm.fmu.advance import advance
-from rotorfilm.model import Linearization
+from rotorfilm.core.errors import ConvergenceError, FilmContactError
+from rotorfilm.core.model import Linearization
+from rotorfilm.core.signals import Signal
+from rotorfilm.fmu.reference import advance
 from rotorfilm.rotors.rigid import RigidRotor
-from rotorfilm.signals import Signal
 
 STATE = (Signal(name="z", unit="m", nominal=1.0, description=""),)
 

@@ -4,8 +4,8 @@ import struct
 
 import pytest
 
-from rotorfilm.errors import FmuError
-from rotorfilm.fmu.native.macho import universal
+from rotorfilm.core.errors import FmuError
+from rotorfilm.fmu.native.platforms import universal
 
 X86_64, ARM64 = 0x01000007, 0x0100000C
 

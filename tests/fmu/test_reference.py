@@ -6,9 +6,8 @@ import pytest
 
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import FmuError
-from rotorfilm.fmu.linear_system import from_state_space
-from rotorfilm.fmu.reference import reference_table, to_csv
+from rotorfilm.core.errors import FmuError
+from rotorfilm.fmu.reference import from_state_space, reference_table, to_csv
 from rotorfilm.rotors import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

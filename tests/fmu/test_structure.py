@@ -6,11 +6,11 @@ import numpy as np
 
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import UndefinedDerivativeError
-from rotorfilm.fmu.description.dependencies import dependencies
-from rotorfilm.model import static_linearization
+from rotorfilm.core.errors import UndefinedDerivativeError
+from rotorfilm.core.model import static_linearization
+from rotorfilm.core.signals import Signal
+from rotorfilm.fmu.description import dependencies
 from rotorfilm.rotors.rigid import RigidRotor
-from rotorfilm.signals import Signal
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 

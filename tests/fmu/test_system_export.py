@@ -13,11 +13,11 @@ from fmpy.ssp import ssd
 from fmpy.ssp.simulation import simulate_ssp
 from scipy.integrate import solve_ivp
 
+from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 from rotorfilm.fmu import export_ssp
-from rotorfilm.linear import equilibrium
 from rotorfilm.rotors import LawRotor, RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 from rotorfilm.identification import Measurements, fit_bearing
-from rotorfilm.identification.rest_slopes import rest_slopes
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.identification.bearing_fit import rest_slopes
 
 LOAD = [0.0, -525.0]
 SPEEDS = np.linspace(60.0, 300.0, 8)

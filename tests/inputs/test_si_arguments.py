@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError, ValidityWarning
-from rotorfilm.inputs.dimensions import BUILT
-from rotorfilm.inputs.si_arguments import units_of
-from rotorfilm.units import UNITS, si_name
+from rotorfilm.core.errors import InputError, ValidityWarning
+from rotorfilm.core.inputs import BUILT, units_of
+from rotorfilm.core.units import UNITS, si_name
 
 from .public_objects import BALL, BEARING, MADE
 

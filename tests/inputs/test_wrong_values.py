@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError
-from rotorfilm.inputs.allowed import kinds_of
-from rotorfilm.readable.result import Readable
+from rotorfilm.core.allowed import kinds_of
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.readable import Readable
 
 from .public_objects import MADE
 

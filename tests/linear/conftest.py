@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.bearings.journal.short_film import ShortFilm
-from rotorfilm.model import static_linearization
-from rotorfilm.signals import force_outputs, journal_inputs
+from rotorfilm.bearings.journal.reynolds_film import ShortFilm
+from rotorfilm.core.model import static_linearization
+from rotorfilm.core.signals import force_outputs, journal_inputs
 
 
 @dataclass(frozen=True)

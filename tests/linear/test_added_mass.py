@@ -9,8 +9,8 @@ from scipy.linalg import eig
 from scipy.optimize import brentq
 
 import rotorfilm as rf
-from rotorfilm.linear.large.defects import WholeRotor
-from rotorfilm.linear.large.second_order import second_order
+from rotorfilm.analysis.rotor_matrices import second_order
+from rotorfilm.analysis.truncation_error import WholeRotor
 
 SPEED = 300.0
 SEAL = rf.AnnularSeal(

@@ -10,13 +10,12 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 
 from rotorfilm import ConvergenceError, InputError
-from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.bearings.tabulated import TabulatedBearing
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     campbell,
     critical_speed_map,
     critical_speeds,
+    critical_speeds as crossings,
+    modal_reduction as banded,
     rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
@@ -24,13 +23,19 @@ from rotorfilm.linear import (
     stability_changes,
     unbalance_response,
 )
-from rotorfilm.linear.critical import crossings
-from rotorfilm.linear.large import banded
-from rotorfilm.linear.large.banded import BandedCholesky, BandedFactor
-from rotorfilm.linear.large.condensed import TOLERANCE, WHOLE, models, usual_frequency
-from rotorfilm.linear.large.defects import WholeRotor, seen_rows, whirl_errors
-from rotorfilm.linear.large.second_order import second_order
-from rotorfilm.linear.rotor_rest import rest
+from rotorfilm.analysis.modal_reduction import (
+    TOLERANCE,
+    WHOLE,
+    BandedCholesky,
+    BandedFactor,
+    models,
+    usual_frequency,
+)
+from rotorfilm.analysis.rotor_equilibrium import rest
+from rotorfilm.analysis.rotor_matrices import second_order
+from rotorfilm.analysis.truncation_error import WholeRotor, seen_rows, whirl_errors
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.rotors import (
     Coupling,
     Disk,

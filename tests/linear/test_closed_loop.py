@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm.analysis import closed_loop, coefficients, equilibrium, transmissibility, whirl_threshold
 from rotorfilm.bearings.damper import PorousDamper
 from rotorfilm.bearings.journal import RotatingArc, ShortFilm, SplittingFilm
-from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.linear import closed_loop, coefficients, equilibrium, transmissibility, whirl_threshold
+from rotorfilm.core.errors import EquilibriumError, InputError
 from rotorfilm.rotors.rigid import RigidRotor
 
 LOAD = np.array([0.0, -525.0])

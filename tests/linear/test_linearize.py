@@ -4,8 +4,8 @@ import control
 import numpy as np
 import pytest
 
-from rotorfilm.errors import InputError
-from rotorfilm.linear import OperatingPoint, coefficients, equilibrium, linearize
+from rotorfilm.analysis import OperatingPoint, coefficients, equilibrium, linearize
+from rotorfilm.core.errors import InputError
 from rotorfilm.rotors.rigid import RigidRotor
 
 SPEED = 1500 * math.pi / 30

@@ -22,9 +22,9 @@ from rotorfilm import (
     synchronous_orbits,
     transmitted_ratio,
 )
-from rotorfilm.bearings.damper.porous_layer import mean_permeability
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError
+from rotorfilm.bearings.damper.squeeze_films import mean_permeability
+from rotorfilm.bearings.films.geometry import FullFilm
+from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError
 
 MASS, SPEED, K = 10.0, 400.0, 2.56e5
 DIMENSIONS = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 4e-3}

@@ -11,12 +11,11 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from rotorfilm import ConvergenceError, TiltingPadBearing, UnloadedPadWarning, even_pivots
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.bearings.tabulated import TabulatedBearing
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     base_system,
     critical_speed_map,
     critical_speeds,
+    critical_speeds as searching,
     rotor_equilibrium,
     rotor_modes,
     rotor_system,
@@ -24,15 +23,12 @@ from rotorfilm.linear import (
     stability_changes,
     unbalance_response,
 )
-from rotorfilm.linear.critical import crossings as searching
-from rotorfilm.linear.critical.sylvester import require_all_undamped
-from rotorfilm.linear.critical.whirl_bounds import Changing, branches_on_line
-from rotorfilm.linear.large.condensed import models
-from rotorfilm.linear.large.defects import WholeRotor, seen_rows
-from rotorfilm.linear.large.inertia_count import negative_count
-from rotorfilm.linear.large.left_out import LeftOut
-from rotorfilm.linear.large.second_order import small_motion
-from rotorfilm.linear.rotor_rest import rest
+from rotorfilm.analysis.critical_speeds import Changing, branches_on_line, require_all_undamped
+from rotorfilm.analysis.modal_reduction import models, negative_count
+from rotorfilm.analysis.rotor_equilibrium import rest
+from rotorfilm.analysis.rotor_matrices import small_motion
+from rotorfilm.analysis.truncation_error import LeftOut, WholeRotor, seen_rows
+from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,

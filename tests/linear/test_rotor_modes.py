@@ -9,12 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import eig
 
-from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.bearings.tabulated import TabulatedBearing
-from rotorfilm.cosim import critical_macro_step
-from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     campbell,
     closed_loop,
     critical_speed_map,
@@ -29,8 +24,13 @@ from rotorfilm.linear import (
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.linear.large.defects import roundoff
-from rotorfilm.linear.rotor_modes import log_decrement
+from rotorfilm.analysis.rotor_modes import log_decrement
+from rotorfilm.analysis.truncation_error import roundoff
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
+from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning
+from rotorfilm.core.signals import names
+from rotorfilm.cosim import critical_macro_step
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
@@ -47,7 +47,6 @@ from rotorfilm.rotors import (
     mount,
     reduce_rotor,
 )
-from rotorfilm.signals import names
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
@@ -140,7 +139,7 @@ def test_rigid_rotor_by_both_routes():
 
 def rotor_equilibrium_of_one(rotor):
     """A shaft on one film would tilt: its own equilibrium, with a station that holds the tilt."""
-    from rotorfilm.linear import RotorEquilibrium, coefficients
+    from rotorfilm.analysis import RotorEquilibrium, coefficients
 
     at = equilibrium(FILM, [0.0, -20.0 * 9.80665], 150.0)
     return RotorEquilibrium(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 SINGLE = rf.BallBearing(
     balls=16, ball_diameter="7.938 mm", pitch_diameter="46.5 mm", contact_angle="25 deg", axial_load=400.0

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
+from rotorfilm.analysis import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
 from rotorfilm.bearings.journal import SplittingFilm
 from rotorfilm.bearings.pads import PadGridFilm, TiltingPadBearing
-from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning, warn_user
-from rotorfilm.linear import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
+from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning, warn_user
 
 SPEED = 1500 * math.pi / 30
 LOAD = [0.0, -525.0]
@@ -207,7 +207,7 @@ def test_a_search_says_what_is_doubtful_of_the_threshold_alone(bearing, monkeypa
         warn_user(f"{speed!r}")
         return equilibrium(reaction, load, speed)
 
-    monkeypatch.setattr(sys.modules["rotorfilm.linear.whirl"], "equilibrium", doubted)
+    monkeypatch.setattr(sys.modules["rotorfilm.analysis.whirl"], "equilibrium", doubted)
     unit = PADS.force_scale * 300.0
     case = (PADS, [0.0, -0.05 * unit], unit / 9.0, (200.0, 600.0)) if pads else (bearing, LOAD, MASS)
     with pytest.warns(ValidityWarning) as said:

@@ -14,9 +14,8 @@ import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from rotorfilm.fmu.native.native_backend import Export, native_model_variables
-from rotorfilm.native.kernel_table import carried_library
 from rotorfilm.native.library import library_path
-from rotorfilm.native.resource import FILE_NAME, pack
+from rotorfilm.native.resource import FILE_NAME, carried_library, pack
 
 TOKEN = "{8c4e810f-3df3-4a00-8276-176fa3c9f000}"
 NATIVE = Path(__file__).parents[2] / "rotorfilm" / "native"

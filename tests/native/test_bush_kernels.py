@@ -12,13 +12,13 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush.heat import ContactBalance, GlobalBalance
-from rotorfilm.bearings.bush.materials import Friction
+from rotorfilm.bearings.bush.bearing import Friction
+from rotorfilm.bearings.bush.melting import ContactBalance, GlobalBalance
 from rotorfilm.bearings.bush.worn_profile import LocalMelting, SharedMelting
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"
-    ":rotorfilm.errors.ValidityWarning"
+    ":rotorfilm.core.errors.ValidityWarning"
 )
 
 BUSH = f4k20_bush()

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.errors import InputError
-from rotorfilm.native import kernel_table
+from rotorfilm.core.errors import InputError
+from rotorfilm.native import resource as kernel_table
 from rotorfilm.native.library import FOLDER, LOOPS, MASTER, SUFFIXES
 
 PACKAGE = Path(kernel_table.__file__).parents[1]
@@ -76,10 +76,10 @@ from zipfile import ZipFile
 import numpy as np
 from fmpy import simulate_fmu
 from rotorfilm.fmu import export_fmu
-from rotorfilm.model import Linearization
+from rotorfilm.core.model import Linearization
 from rotorfilm.native import NativeParameter, NativeSpec
-from rotorfilm.native.kernel_table import kernel_row, kernel_table
-from rotorfilm.signals import Signal
+from rotorfilm.native.resource import kernel_row, kernel_table
+from rotorfilm.core.signals import Signal
 
 class Toy:
     inputs = (Signal(name="x", unit="m", nominal=1.0, description=""),)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.native import NativeLibraryError, library
-from rotorfilm.native.kernel_table import libraries
+from rotorfilm.native.resource import libraries
 
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]

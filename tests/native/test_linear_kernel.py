@@ -9,8 +9,8 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from scipy.linalg import expm
 
+from rotorfilm.core.signals import Signal
 from rotorfilm.native import NativeSpec
-from rotorfilm.signals import Signal
 
 
 def signals(prefix, count):

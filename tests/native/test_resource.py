@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.signals import Variable
 from rotorfilm.native import NativeParameter, NativeSpec
 from rotorfilm.native.resource import pack
-from rotorfilm.signals import Variable
 
 TIME = Variable(name="time", causality="independent")
 MASS = NativeParameter(name="mass", unit="kg", value=2.0, tunable=True, minimum=0.0)

@@ -6,10 +6,17 @@ from fmpy import simulate_fmu
 from scipy.optimize import nnls
 
 from rotorfilm import ExtrapolatedFilm, FeedHole, Groove, JournalBearing, ReynoldsFilm, export_fmu
-from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.film_start import FreeStart, HeldLine, WidestGap
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
-from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
+from rotorfilm.bearings.films.finite_volumes import RingKernel
+from rotorfilm.bearings.films.geometry import (
+    Complementarity,
+    FilmGeometry,
+    FreeStart,
+    FullFilm,
+    HalfSommerfeld,
+    HeldLine,
+    Pocket,
+    WidestGap,
+)
 
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.0))
 POCKETS = (Pocket(center=0.3, width=0.35, share=0.7), Pocket(center=2.4, width=0.0, share=0.3))

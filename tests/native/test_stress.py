@@ -25,7 +25,7 @@ from rotorfilm import (
     pressure_dam_pads,
 )
 from rotorfilm.bearings.bush.worn_profile import LocalMelting
-from rotorfilm.fmu.linear_system import LinearSystem
+from rotorfilm.fmu.reference import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
 from rotorfilm.rotors import mount

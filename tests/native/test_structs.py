@@ -7,19 +7,19 @@ import subprocess
 
 import pytest
 
-from rotorfilm.native import pad_kernels
-from rotorfilm.native.layouts import (
-    ball_structs,
-    conserved_structs,
-    damper_structs,
-    heat_structs,
+from rotorfilm.native import (
     master_structs,
-    pad_structs,
-    run_structs,
+    pad_kernels,
+    pad_kernels as tilting_kernel,
     structs,
+    structs as ball_structs,
+    structs as conserved_structs,
+    structs as damper_structs,
+    structs as heat_structs,
+    structs as pad_structs,
+    structs as run_structs,
 )
 from rotorfilm.native.library import FOLDER
-from rotorfilm.native.pads import tilting_kernel
 
 KINDS = {
     name: kind

@@ -24,7 +24,7 @@ from rotorfilm import (
     equilibrium,
     simulate,
 )
-from rotorfilm.native.kernel_table import carried_library
+from rotorfilm.native.resource import carried_library
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,

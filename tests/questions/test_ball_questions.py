@@ -7,11 +7,11 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.errors import InputError, SceneError
+from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes.scene import parse_scene, read_scene
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SEEDS = [1, 9]
 """Seeds of the battery's scenes that run here; benchmarks/scene_battery.py runs thirty."""

@@ -10,15 +10,14 @@ import scene_battery
 from families import FAMILIES
 from families.bush_truth import wear_by_nodes
 
-from rotorfilm.errors import FilmContactError, InputError, RotorfilmError, SceneError
+from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.bush.bush_remarks import bush_numbers, bush_remarks
-from rotorfilm.scenes.bush.bush_run import bush_run
+from rotorfilm.scenes.bush_run import bush_numbers, bush_remarks, bush_run
 
 ROOT = Path(__file__).parents[2]
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SUBSET = [
     ("bush speed", 3),

@@ -10,24 +10,27 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.answers import WorkUnit
 from rotorfilm.bearings.contact import FixedSteps, RollingBall, SineLoad
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
-from rotorfilm.errors import InputError
+from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion
+from rotorfilm.core.answers import WorkUnit
+from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.contact.contact_law_rung import LawRung
-from rotorfilm.questions.contact.contact_motion_rungs import FollowedFilm, lowest
-from rotorfilm.questions.contact.contact_slow import SlowRung
-from rotorfilm.questions.contact.contacts import GridRung
+from rotorfilm.questions.contact import FollowedFilm, GridRung, LawRung, SlowRung, lowest
 from rotorfilm.scenes import Scene, parse_scene
-from rotorfilm.scenes.contact.contact_motions import contact_motion, natural_frequency
-from rotorfilm.scenes.contact.contact_remarks import contact_numbers
-from rotorfilm.scenes.contact.contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms
+from rotorfilm.scenes.contact_motions import (
+    INLETS,
+    OUTLET,
+    REACH,
+    SPACINGS,
+    RestingFilms,
+    contact_motion,
+    contact_numbers,
+    natural_frequency,
+)
 from rotorfilm.scenes.lubricant_table import Lubricant
-from rotorfilm.scenes.question_table import QuestionTable
+from rotorfilm.scenes.scene import QuestionTable
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 TEXT = """schema = 1
 [contact]

@@ -25,21 +25,25 @@ from rotorfilm import (
     synchronous_orbits,
 )
 from rotorfilm.cli.question_printing import print_question
-from rotorfilm.errors import AbsentError, FilmContactError, InputError, ValidityWarning
-from rotorfilm.model import prepared_tangent
+from rotorfilm.core.errors import AbsentError, FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.model import prepared_tangent
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.damper.dampers import _endless, damper_ladder
+from rotorfilm.questions.damper import _endless, damper_ladder
 from rotorfilm.scenes import parse_scene, read_scene
-from rotorfilm.scenes.damper.damper_films import damper_films
-from rotorfilm.scenes.damper.damper_models import damper_models
-from rotorfilm.scenes.damper.damper_ranges import damper_numbers, damper_remarks, largest_pressure
-from rotorfilm.scenes.damper.damper_runs import run_damper
+from rotorfilm.scenes.damper_films import (
+    damper_films,
+    damper_models,
+    damper_numbers,
+    damper_remarks,
+    largest_pressure,
+)
 from rotorfilm.scenes.lubricant_table import Lubricant
-from rotorfilm.scenes.question_table import QuestionTable
+from rotorfilm.scenes.scene import QuestionTable
+from rotorfilm.scenes.solve_damper import run_damper
 
 ROOT = Path(__file__).parents[2]
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SCENE = """
 schema = 1
@@ -176,7 +180,7 @@ def test_a_lost_blade_is_answered_as_it_runs():
 
 
 def simulate_peak(models, support):
-    from rotorfilm.motion import simulate
+    from rotorfilm.analysis import simulate
 
     run = simulate(models.rotor, support, duration=models.duration, samples=4001, rtol=1e-8)
     return float(np.hypot(*run.position).max())

@@ -18,16 +18,15 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.films.geometry import Groove
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.journal.statics import relative_distance, rest_value
-from rotorfilm.questions.journal.warm_whirl import moving_heat
-from rotorfilm.scenes.journal.heat_steps import HeatSteps, heat_error
-from rotorfilm.scenes.journal.warm_rest import bush_of, field_rest, uniform_rest
+from rotorfilm.questions.journal_statics import relative_distance, rest_value
+from rotorfilm.questions.journal_whirl import moving_heat
+from rotorfilm.scenes.film_heat import HeatSteps, bush_of, field_rest, heat_error, uniform_rest
 from rotorfilm.scenes.scene import parse_scene
 
 CELSIUS = 273.15
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 PLAIN = """
 schema = 1

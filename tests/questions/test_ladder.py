@@ -5,9 +5,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from rotorfilm.answers import ErrorEstimate, Found, WorkUnit, beside_bound
-from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
-from rotorfilm.ladders import Ladder
+from rotorfilm.core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound
+from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.questions.walk import Meter, walk
 
 CALLS, MAPS, GRIDS = WorkUnit("calls"), WorkUnit("maps", nominal=7.0), WorkUnit("grids")

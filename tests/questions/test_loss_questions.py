@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
+from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm
-from rotorfilm.errors import InputError
-from rotorfilm.linear import equilibrium
+from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import parse_scene
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SCENE = """schema = 1
 [journal]

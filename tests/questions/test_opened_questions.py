@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import GroovedMapFilm, fitted_bearing
-from rotorfilm.questions.registry import ladder_of
-from rotorfilm.questions.walk import Meter
-from rotorfilm.scenes.journal.film_rungs import COARSE_MAP
+from rotorfilm.questions.walk import Meter, ladder_of
+from rotorfilm.scenes.film_rungs import COARSE_MAP
 from rotorfilm.scenes.scene import parse_scene
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 OPENED = """schema = 1
 [journal]

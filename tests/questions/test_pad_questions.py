@@ -6,20 +6,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.contact_place import minimum_film
+from rotorfilm.analysis import coefficients, equilibrium, whirl_threshold
+from rotorfilm.analysis.simulate import simulate
 from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
-from rotorfilm.errors import AbsentError, InputError
-from rotorfilm.linear import coefficients, equilibrium, whirl_threshold
-from rotorfilm.motion.transient.simulate import simulate
+from rotorfilm.bearings.reaction import minimum_film
+from rotorfilm.core.errors import AbsentError, InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.journal.statics import LOSSES, MATRIX, attitude, relative_distance
-from rotorfilm.questions.journal.unbalance_orbits import rotor_of
-from rotorfilm.scenes.journal.film_defects import tangent
-from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP, lobed_candidates
-from rotorfilm.scenes.pads.tilting_candidates import smooth_slopes
+from rotorfilm.questions.journal_orbits import rotor_of
+from rotorfilm.questions.journal_statics import LOSSES, MATRIX, attitude, relative_distance
+from rotorfilm.scenes.film_rungs import tangent
+from rotorfilm.scenes.pad_candidates import COARSE_MAP, lobed_candidates, smooth_slopes
 from rotorfilm.scenes.scene import parse_scene, read_scene
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SETS = {"elliptical": 160, "three_lobe": 100, "four_lobe": 75, "offset_halves": 160, "tapered_land": 100}
 QUANTITIES = ("eccentricity_ratio", "minimum_film", "attitude_angle", "stiffness", "damping")

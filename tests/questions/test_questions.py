@@ -10,24 +10,23 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm.analysis import equilibrium
+from rotorfilm.analysis.equal_steps import ORDER, linear_march, march, peak
+from rotorfilm.analysis.harmonic_balance import basis, constant, solve
+from rotorfilm.analysis.periodic_orbit import rest_on_film, rest_position, rotor_answers
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.errors import InputError, ValidityWarning
-from rotorfilm.linear import equilibrium
-from rotorfilm.motion.periodic.driven_rotor import rest_on_film, rest_position, rotor_answers
-from rotorfilm.motion.periodic.harmonics import basis, constant
-from rotorfilm.motion.periodic.orbit_newton import solve
-from rotorfilm.motion.transient.equal_steps import ORDER, linear_march, march, peak
+from rotorfilm.core.errors import InputError, ValidityWarning
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.walk import NoAnswerError
 from rotorfilm.scenes import Scene, bundled_scene, families, parse_scene
-from rotorfilm.scenes.damper.damper_table import DamperTable
+from rotorfilm.scenes.damper_table import DamperTable
 from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
-from rotorfilm.scenes.journal.film_rungs import extrapolated
-from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
+from rotorfilm.scenes.film_rungs import extrapolated
+from rotorfilm.scenes.scene import QUANTITIES, QuestionTable
 
 ROOT = Path(__file__).parents[2]
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SUBSET = [
     ("named film", 3),
@@ -227,7 +226,7 @@ def test_samples_of_an_odd_number_differentiate_a_series_exactly():
 
 
 def test_nonlinear_orbit_is_a_solution_of_the_time_integration():
-    from rotorfilm.motion import simulate
+    from rotorfilm.analysis import simulate
 
     scene = bundled_scene()
     bearing = scene.bearing
@@ -314,7 +313,7 @@ tolerance = {tolerance}
 """
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 @pytest.mark.parametrize("family", ["fed", "pads"])
 def test_bearings_with_openings_of_every_kind_are_answered(family):
     for seed in (1, 2):
@@ -324,7 +323,7 @@ def test_bearings_with_openings_of_every_kind_are_answered(family):
         assert first.verdict != "chosen" or first.met, first
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 @pytest.mark.parametrize(
     ("openings", "quantity"),
     [

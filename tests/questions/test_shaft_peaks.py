@@ -10,12 +10,12 @@ import pytest
 from scipy.signal import lsim
 
 from rotorfilm import AnnularSeal, ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
-from rotorfilm.questions.registry import ladder_of
-from rotorfilm.questions.shaft import shaft_peaks
-from rotorfilm.rotors.shaft.shaft_models import split
+from rotorfilm.questions import shaft_orbits as shaft_peaks
+from rotorfilm.questions.walk import ladder_of
+from rotorfilm.rotors.shaft_rotor import split
 from rotorfilm.scenes import read_scene
-from rotorfilm.scenes.shaft.rotor_runs import largest_distance
-from rotorfilm.scenes.shaft.shaft_parts import BearingTable
+from rotorfilm.scenes.rotor_runs import largest_distance
+from rotorfilm.scenes.shaft_table import BearingTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPRING = {"stiffness": 2e7, "damping": 4e3}

@@ -11,39 +11,39 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.bearings.journal.map.potential import potential
-from rotorfilm.bearings.tabulated import TabulatedBearing
-from rotorfilm.errors import AbsentError, InputError, SceneError
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     critical_speeds,
+    periodic_orbit,
     rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
     unbalance_response,
 )
-from rotorfilm.linear.rotor_whirl import (
+from rotorfilm.analysis.periodic_orbit import rest_position, rotor_answers
+from rotorfilm.analysis.speed_events import (
+    Critical,
     Start,
+    Threshold,
     on_films,
     value_rate,
     whirl_near,
     whirl_of,
 )
-from rotorfilm.linear.speed_events import Critical, Threshold
-from rotorfilm.motion import periodic_orbit
-from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
+from rotorfilm.bearings.journal import JournalBearing, MapFilm
+from rotorfilm.bearings.journal.map.map_potential import potential
+from rotorfilm.bearings.linear import TabulatedBearing
+from rotorfilm.core.errors import AbsentError, InputError, SceneError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.shaft.shaft_fields import field_rests
-from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
+from rotorfilm.questions.shaft_films import REST_BOUNDS, coefficient_bounds, field_rests, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
-from rotorfilm.rotors.shaft.shaft_models import ShaftModel, shaft_models, split
+from rotorfilm.rotors.shaft_rotor import ShaftModel, shaft_models, split
 from rotorfilm.scenes import Scene, parse_scene, read_scene
-from rotorfilm.scenes.question_table import QuestionTable
-from rotorfilm.scenes.shaft.shaft_remarks import beam_remarks
+from rotorfilm.scenes.scene import QuestionTable
+from rotorfilm.scenes.solve_shaft import beam_remarks
 
 ROOT = Path(__file__).parents[2]
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 SCENE = Scene.load(ROOT / "examples" / "rotor_questions.toml")
 UNIFORM = """schema = 1

@@ -7,12 +7,12 @@ import pytest
 from scipy.optimize import brentq
 
 from rotorfilm import JFODamper, damper_turn, simulate
-from rotorfilm.errors import InputError, SceneError
-from rotorfilm.questions.damper.conserved_peaks import _of_turn
-from rotorfilm.questions.registry import ladder_of
+from rotorfilm.core.errors import InputError, SceneError
+from rotorfilm.questions.damper import _of_turn
+from rotorfilm.questions.walk import ladder_of
 from rotorfilm.scenes import read_scene
-from rotorfilm.scenes.damper.damper_models import damper_models
-from rotorfilm.scenes.damper.damper_runs import run_damper
+from rotorfilm.scenes.damper_films import damper_models
+from rotorfilm.scenes.solve_damper import run_damper
 
 SUPPLY = {
     "supply_pressure": "0.5 bar",

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from rotorfilm import HeatedJFOFilm, JFOFilm, equilibrium, heated_equilibrium
+from rotorfilm.core.errors import InputError, SceneError, ValidityWarning
+from rotorfilm.core.units import CELSIUS
 from rotorfilm.cosim import SIExp3
-from rotorfilm.errors import InputError, SceneError, ValidityWarning
-from rotorfilm.questions.registry import ladder_of
+from rotorfilm.questions.walk import ladder_of
 from rotorfilm.scenes.cosimulate_scene import run_scene
-from rotorfilm.scenes.journal.warm_rest import bush_of
+from rotorfilm.scenes.film_heat import bush_of
 from rotorfilm.scenes.scene import parse_scene
-from rotorfilm.units import CELSIUS
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 R, c, mu, omega, L = 0.05, 1e-4, 0.02, 314.0, 0.05
 WEIGHT = 2.0 * 0.5 * omega * mu * L * R**3 / c**2

@@ -4,7 +4,7 @@ import csv
 import json
 from pathlib import Path
 
-from rotorfilm.questions.whole import whole_ladder
+from rotorfilm.questions.walk import whole_ladder
 from rotorfilm.scenes import Scene
 
 QUESTION = Path(__file__).parents[2] / "examples" / "question.toml"

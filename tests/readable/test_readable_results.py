@@ -14,15 +14,13 @@ import pytest
 from scipy.integrate import BDF
 
 import rotorfilm
+from rotorfilm.analysis.continuation import Bifurcation
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.charts.result_charts import PICTURES
-from rotorfilm.errors import AbsentError
-from rotorfilm.motion.periodic.continuation import Bifurcation
-from rotorfilm.readable.docstrings import explained
-from rotorfilm.readable.quantities import quantity, texts
-from rotorfilm.readable.result import Drawable, Readable
-from rotorfilm.results import Coefficients, Equilibrium, Trajectory, WhirlThreshold
-from rotorfilm.units import DISPLAY_UNITS, parse_quantity
+from rotorfilm.core.errors import AbsentError
+from rotorfilm.core.readable import Drawable, Readable, explained, quantity, texts
+from rotorfilm.core.results import Coefficients, Equilibrium, Trajectory, WhirlThreshold
+from rotorfilm.core.units import DISPLAY_UNITS, parse_quantity
 
 pytest.importorskip("pandas")
 pytest.importorskip("xarray")
@@ -59,7 +57,7 @@ NO_RESULTS = {
 }
 """Classes with attributes that nobody is answered with, by the reason."""
 
-READERS = ("scenes.reading.", "questions.", "ladders.")
+READERS = ("scenes.reading", "questions.", "core.answers.Ladder", "core.answers.CandidateRung")
 """Where classes hold what they were made from: readers of files, and rungs."""
 
 BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
@@ -70,7 +68,7 @@ NUMBERS = iter(range(1, 100000))
 def results():
     for path in glossary.modules():
         text = path.read_text(encoding="utf-8")
-        if "readable.result import" in text or "(HeatedState)" in text:
+        if "core.readable import" in text or "(HeatedState)" in text:
             importlib.import_module(glossary.dotted(path))
     waiting, found = [Readable], {}
     while waiting:

@@ -8,9 +8,9 @@ from numpy.testing import assert_allclose
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import ClassicalBeam, FourthOrderBeam, ShaftElement, cowper_coefficient
-from rotorfilm.rotors.shaft.beam import Section, beam_matrices
+from rotorfilm.rotors.shaft_elements import Section, beam_matrices
 
 BEAMS = [ClassicalBeam(), FourthOrderBeam()]
 

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 SIZE = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 5e-3}
 STIFFNESS, MASS, SPEED = 2e6, 3.0, 600.0
@@ -81,7 +81,7 @@ def test_orbits_are_the_explicit_balance(name):
 
 def test_folds_feel_the_inertia_of_the_film():
     # The slope of u^2 along the orbits, exact, against differences: folds are its zeros.
-    from rotorfilm.motion.circular.orbit_points import orbit_points, orbit_rotor, orbit_slope
+    from rotorfilm.analysis.circular_orbits import orbit_points, orbit_rotor, orbit_slope
 
     for damper in DAMPERS.values():
         system = orbit_rotor(rotor(), sprung(damper))

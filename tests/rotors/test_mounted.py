@@ -9,15 +9,15 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from rotorfilm.analysis import simulate
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.model import Dynamic, Reaction
+from rotorfilm.core.signals import names
 from rotorfilm.fmu import export_fmu
-from rotorfilm.model import Dynamic, Reaction
-from rotorfilm.motion import simulate
 from rotorfilm.rotors import ClassicalBeam, RigidShaft, SpeedProfile, mount
-from rotorfilm.signals import names
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 SPRING = LinearBearing(stiffness=((2e6, 3e5), (-1e5, 1e6)), damping=((900.0, 10.0), (20.0, 700.0)))

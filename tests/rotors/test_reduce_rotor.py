@@ -7,8 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.errors import InputError
-from rotorfilm.model import Dynamic
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.model import Dynamic
+from rotorfilm.core.signals import names
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -23,8 +24,7 @@ from rotorfilm.rotors import (
     mount,
     reduce_rotor,
 )
-from rotorfilm.rotors.shaft.reduce_rotor import POINTS, _felt
-from rotorfilm.signals import names
+from rotorfilm.rotors.reduced_rotor import POINTS, _felt
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 FREQUENCY = 800.0
@@ -93,7 +93,7 @@ def test_it_counts_its_work(reduced, monkeypatch):
     """Beside the calls themselves: the whole rotor is solved once at each frequency."""
     calls = []
     own = _felt
-    monkeypatch.setattr("rotorfilm.rotors.shaft.reduce_rotor._felt", lambda *a: calls.append(a[0]) or own(*a))
+    monkeypatch.setattr("rotorfilm.rotors.reduced_rotor._felt", lambda *a: calls.append(a[0]) or own(*a))
     found = reduce_rotor(shaft(), frequency=FREQUENCY)
     assert found.work == {"eigenproblems": found.rotor.modes + 1, "solutions": len(calls)}
     assert sum(len(one.weight) == len(shaft().structure.weight) for one in calls) == 2 * POINTS

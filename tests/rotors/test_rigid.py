@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.errors import InputError
-from rotorfilm.model import Dynamic
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.model import Dynamic
+from rotorfilm.core.signals import names
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.signals import names
 
 RAMP = SpeedProfile(times=(0.0, 2.0), speeds=(30.0, -90.0))
 ROTOR = RigidRotor(

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.model import Dynamic
+from rotorfilm.core.signals import names
 from rotorfilm.fmu.python.codec import decode, encode
-from rotorfilm.model import Dynamic
 from rotorfilm.rotors import (
     ClassicalBeam,
     Coupling,
@@ -21,7 +22,6 @@ from rotorfilm.rotors import (
     Support,
     Unbalance,
 )
-from rotorfilm.signals import names
 
 
 def uniform(steel, pieces, speed, **changes):

@@ -5,9 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
+from rotorfilm.analysis import critical_speed_map, rotor_modes
 from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.errors import InputError
-from rotorfilm.linear import critical_speed_map, rotor_modes
+from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import (
     ClassicalBeam,
     FourthOrderBeam,

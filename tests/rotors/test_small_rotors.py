@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
+from rotorfilm.core.signals import names
 from rotorfilm.rotors import JeffcottRotor, RigidRotor, RigidShaft, mount
-from rotorfilm.signals import names
 
 
 def jeffcott(speed, **changes):

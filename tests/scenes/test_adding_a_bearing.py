@@ -16,8 +16,8 @@ PACKAGE = Path(rotorfilm.__file__).parent
 FOLDER = Path(__file__).parent / "sleeve"
 MOST_LINES = 3
 
-LINE = '    "sleeve": "scenes.sleeve.sleeve_family",\n'
-AFTER = '    "damper": "questions.damper.damper_family",\n'
+LINE = '    "sleeve": "scenes.sleeve.sleeve_family.FAMILY",\n'
+AFTER = '    "damper": "questions.damper.FAMILY",\n'
 
 SCENE = """schema = 1
 [sleeve]
@@ -48,7 +48,7 @@ warnings.simplefilter("ignore")
 from fmpy import simulate_fmu
 import rotorfilm
 assert Path(rotorfilm.__file__).is_relative_to(home)
-from rotorfilm.errors import SceneError
+from rotorfilm.core.errors import SceneError
 from rotorfilm.fmu import check_fmu
 from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.export_scene import export_scene

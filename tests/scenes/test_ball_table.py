@@ -21,11 +21,10 @@ from rotorfilm import (
     equilibrium,
     tandem,
 )
-from rotorfilm.errors import InputError, SceneError
+from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.rolling.ball_remarks import ball_numbers
-from rotorfilm.scenes.rolling.ball_rest import rest_under, single_of
+from rotorfilm.scenes.rolling import ball_numbers, rest_under, single_of
 from rotorfilm.scenes.scene import Scene, parse_scene, read_scene
 from rotorfilm.sweeps.point import solve_point
 

@@ -11,17 +11,16 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import EndSeal, FiniteSqueeze, FullFilm, RigidRotor, SqueezeFilmDamper, synchronous_orbits
-from rotorfilm.bearings.damper.built.judged_damper import JudgedDamper
-from rotorfilm.bearings.damper.built.neglected import Neglected
-from rotorfilm.bearings.sprung import Sprung
-from rotorfilm.errors import InputError, SceneError
-from rotorfilm.motion import simulate
+from rotorfilm.analysis import simulate
+from rotorfilm.bearings.assemblies import Sprung
+from rotorfilm.bearings.damper.neglected_effects import JudgedDamper, Neglected
+from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene
-from rotorfilm.scenes.damper.damper_models import damper_fmus, damper_models
-from rotorfilm.scenes.damper.export_damper import export_damped_rotor
+from rotorfilm.scenes.damper_films import damper_fmus, damper_models
+from rotorfilm.scenes.solve_damper import export_damped_rotor
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 EXACT = str(Path(__file__).parents[2] / "benchmarks" / "squeeze_inertia.py")
 SCENE = """

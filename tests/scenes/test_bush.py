@@ -8,8 +8,8 @@ import pytest
 
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.cli import main as cli
-from rotorfilm.errors import InputError
-from rotorfilm.scenes.bush.solve_bush import SETTINGS, bush_from_settings, solve_bush
+from rotorfilm.core.errors import InputError
+from rotorfilm.scenes.bush_table import SETTINGS, bush_from_settings, solve_bush
 
 
 def test_without_settings_it_is_the_example():

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush.heat import ApproximateShaft, GlobalBalance
-from rotorfilm.bearings.bush.materials import Friction
+from rotorfilm.bearings.bush.bearing import Friction
+from rotorfilm.bearings.bush.melting import ApproximateShaft, GlobalBalance
 from rotorfilm.bearings.bush.worn_profile import LocalMelting
-from rotorfilm.errors import SceneError
+from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import parse_scene
 
 HEAD = 'schema = 1\n[bush]\nmelting_heat = "1e8 J/m3"\n'

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from rotorfilm import ContactGrid, PointContact, SceneError, StepLoad, ValidityWarning, reduce_contact, ride
-from rotorfilm.scenes.contact import solve_contact
-from rotorfilm.scenes.contact.solve_contact import ContactCase, respond
+from rotorfilm.scenes import solve_contact
 from rotorfilm.scenes.scene import parse_scene
+from rotorfilm.scenes.solve_contact import ContactCase, respond
 
 TEXT = """
 schema = 1

@@ -21,13 +21,13 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.errors import FmuError, InputError, SceneError
+from rotorfilm.bearings.films.geometry import FullFilm
+from rotorfilm.core.errors import FmuError, InputError, SceneError
 from rotorfilm.scenes import bundled_scene, parse_scene
-from rotorfilm.scenes.damper.damper_models import damper_models
-from rotorfilm.scenes.damper.damper_runs import couple_damper, run_damper
+from rotorfilm.scenes.damper_films import damper_models
 from rotorfilm.scenes.excitation_table import StepLoadTable
 from rotorfilm.scenes.export_scene import export_scene
+from rotorfilm.scenes.solve_damper import couple_damper, run_damper
 
 DAMPER = """
 schema = 1

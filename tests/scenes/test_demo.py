@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from rotorfilm import scenes
+from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
 from rotorfilm.bearings.oil import Oil
 from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.main import main
-from rotorfilm.errors import InputError
-from rotorfilm.linear import equilibrium
+from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import demo as demo_module
 from rotorfilm.scenes.demo import plain_results, run_demo
-from rotorfilm.scenes.journal.running import running_bearing
+from rotorfilm.scenes.solve_journal import running_bearing
 
 FILES = {
     "film.fmu",

@@ -10,11 +10,12 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from rotorfilm.analysis import rotor_equilibrium, unbalance_response
 from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.core.errors import ConvergenceError, InputError
+from rotorfilm.core.signals import names
 from rotorfilm.cosim import open_fmu
-from rotorfilm.errors import ConvergenceError, InputError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.linear import rotor_equilibrium, unbalance_response
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -29,8 +30,7 @@ from rotorfilm.rotors import (
     reduce_rotor,
 )
 from rotorfilm.scenes import bundled_scene, export_rotor_fmu, parse_scene
-from rotorfilm.scenes.shaft.export_rotor import export_system
-from rotorfilm.signals import names
+from rotorfilm.scenes.rotor_runs import export_system
 
 SPEED = 1500.0 * np.pi / 30.0
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)

@@ -9,12 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.errors import SceneError
-from rotorfilm.inputs.si_arguments import units_of
-from rotorfilm.scenes.reading import tables
-from rotorfilm.scenes.scene import Scene, read_scene
-from rotorfilm.scenes.scene_file import json_schema
-from rotorfilm.units import si_name
+from rotorfilm.core.errors import SceneError
+from rotorfilm.core.inputs import units_of
+from rotorfilm.core.units import si_name
+from rotorfilm.scenes import reading as tables
+from rotorfilm.scenes.scene import Scene, json_schema, read_scene
 
 from .conftest import SCHEMA, obeys
 

@@ -4,9 +4,16 @@ import math
 
 import pytest
 
-from rotorfilm.bearings.films.cavitation import FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.film_start import FreeStart, HeldLine, WidestGap
-from rotorfilm.bearings.films.geometry import FeedHole, Groove, Pad
+from rotorfilm.bearings.films.geometry import (
+    FeedHole,
+    FreeStart,
+    FullFilm,
+    Groove,
+    HalfSommerfeld,
+    HeldLine,
+    Pad,
+    WidestGap,
+)
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
@@ -18,7 +25,7 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
-from rotorfilm.errors import SceneError
+from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.excitation_table import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
 

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm, ShortFilm
-from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.demo import RUNGS, demo_rungs
-from rotorfilm.scenes.journal.locus import attitude_angle, attitude_angles
+from rotorfilm.scenes.solve_journal import attitude_angle, attitude_angles
 
 BEARING = bundled_scene().bearing
 RATIOS = np.array([0.1, 0.3, 0.5, 0.74, 0.76])

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.pads import (
     Lobe,
     LobedBearing,
@@ -17,16 +18,15 @@ from rotorfilm.bearings.pads import (
     lobe_set,
     pressure_dam_pads,
 )
-from rotorfilm.errors import SceneError
+from rotorfilm.core.errors import SceneError
 from rotorfilm.fmu import describe_fmu
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.scenes import pad_tables as lobed_table, pad_tables as tilting_table
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.pads import lobed_table, tilting_table
-from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP
-from rotorfilm.scenes.pads.pad_remarks import pad_numbers
+from rotorfilm.scenes.pad_candidates import COARSE_MAP
+from rotorfilm.scenes.pad_tables import pad_numbers
 from rotorfilm.scenes.scene import parse_scene
 
-pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
 DIMENSIONS = 'diameter = "100 mm"\nlength = "50 mm"\n'
 OIL = "viscosity = 0.02\n"

@@ -5,14 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.bush import bush_remarks
-from rotorfilm.scenes.bush.bush_run import bush_run
-from rotorfilm.scenes.contact import contact_remarks
-from rotorfilm.scenes.damper import damper_ranges
-from rotorfilm.scenes.journal import journal_remarks
-from rotorfilm.scenes.remarks import Remark, said
-from rotorfilm.scenes.shaft import shaft_remarks
+from rotorfilm.scenes import (
+    Scene,
+    bundled_scene,
+    bush_run as bush_remarks,
+    contact_motions as contact_remarks,
+    damper_films as damper_ranges,
+    journal_tables as journal_remarks,
+    solve_shaft as shaft_remarks,
+)
+from rotorfilm.scenes.bush_run import bush_run
+from rotorfilm.scenes.families import Remark, said
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

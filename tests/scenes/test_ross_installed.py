@@ -9,20 +9,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.bearings.tabulated import TabulatedBearing
-from rotorfilm.errors import InputError
-from rotorfilm.linear import (
+from rotorfilm.analysis import (
     coefficient_table,
     critical_speed_map,
     critical_speeds,
     rotor_equilibrium,
     rotor_modes,
+    simulate,
     unbalance_response,
 )
-from rotorfilm.linear.rotor_system import second_order
-from rotorfilm.motion import simulate
+from rotorfilm.analysis.closed_loop import second_order
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
+from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import Probe, Unbalance, mount, reduce_rotor
 from rotorfilm.scenes import read_ross, to_ross, to_ross_force
 

@@ -20,11 +20,10 @@ from rotorfilm import (
     rotor_equilibrium,
     simulate_rotor,
 )
-from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.damper.damper_runs import run_damper
+from rotorfilm.scenes import Scene, read_scene, rotor_runs
 from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
-from rotorfilm.scenes.shaft import rotor_runs
-from rotorfilm.scenes.shaft.rotor_runs import run_rotor
+from rotorfilm.scenes.rotor_runs import run_rotor
+from rotorfilm.scenes.solve_damper import run_damper
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.analysis import critical_speeds, rotor_threshold, unbalance_response
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.errors import InputError, SceneError
-from rotorfilm.linear import critical_speeds, rotor_threshold, unbalance_response
+from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.rotors import (
     ClassicalBeam,
     Coupling,
@@ -27,8 +27,7 @@ from rotorfilm.rotors import (
     Unbalance,
 )
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
-from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
-from rotorfilm.scenes.shaft.solve_shaft import campbell_columns, response_columns, solve_rotor
+from rotorfilm.scenes.solve_shaft import campbell_columns, response_columns, solve_level_one, solve_rotor
 
 RPM = math.pi / 30.0
 HEAD = """schema = 1

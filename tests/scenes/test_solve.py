@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.results import to_plain
+from rotorfilm.core.errors import EquilibriumError, InputError
+from rotorfilm.core.results import to_plain
 from rotorfilm.scenes import bundled_scene, parse_scene
 
 SCENE = """

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.errors import SceneError
+from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import Scene, parse_scene, read_scene
-from rotorfilm.scenes.reading.tables import Quantity, Table, TableList, Variant, keyed, nearest
+from rotorfilm.scenes.reading import Quantity, Table, TableList, Variant, keyed, nearest
 
 DATA = Path(str(resources.files("rotorfilm.scenes"))) / "data"
 SHIPPED = sorted([*(Path(__file__).parents[2] / "examples").glob("**/*.toml"), *DATA.glob("*.toml")])

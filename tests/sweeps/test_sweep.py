@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
-from rotorfilm.errors import InputError, SceneError
+from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.reading.key_paths import quantity_of
-from rotorfilm.sweeps.store import Store
+from rotorfilm.scenes.reading import quantity_of
+from rotorfilm.sweeps.sweep_run import Store
 
 xarray = pytest.importorskip("xarray")
 pytest.importorskip("h5netcdf")
@@ -121,7 +121,7 @@ def test_a_dask_cluster_of_two_workers_changes_nothing():
 
 SLOW = """
 import json, sys, time
-import rotorfilm.sweeps.workers as workers
+import rotorfilm.sweeps.sweep_run as workers
 from rotorfilm import sweep
 solve = workers.solve_point
 def slow(*arguments):

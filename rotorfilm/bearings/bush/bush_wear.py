@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import (
+from ...core.errors import (
     FilmContactError,
     InputError,
     require_finite,
@@ -18,14 +18,13 @@ from ...errors import (
     require_positive,
     warn_user,
 )
-from ...inputs.si_arguments import quantities
-from ...model import Array, Linearization
+from ...core.inputs import quantities
+from ...core.model import Array, Linearization
+from ...core.signals import Signal
 from ...native.spec import NativeSpec
-from ...signals import Signal
 from . import contact_arc as arc
 from .bearing import MeltingBush
-from .bush_kernel import bush_parameters, bush_table, has_kernel
-from .bush_signals import load_inputs, moment_outputs
+from .bush_kernel import bush_parameters, bush_table, has_kernel, load_inputs, moment_outputs
 from .melting import MeltingContact, MeltingLaw
 
 COOLED = 0.02

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...model import Array
+from ...core.model import Array
 
 SERIES_LIMIT = 0.5
 """Angle [rad] below which differences of nearly equal terms are summed as power series."""

@@ -12,12 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, InputError, require_finite, require_number, require_positive
-from ...inputs.kinds import arguments
-from ...model import Array
-from .bearing import MeltingBush
+from ...core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
+from ...core.inputs import arguments
+from ...core.model import Array
+from .bearing import BushGeometry, Friction, LinerMaterial, MeltingBush, ShaftMaterial
 from .contact_arc import arc_angle, sinc
-from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 
 
 @dataclass(frozen=True, kw_only=True)

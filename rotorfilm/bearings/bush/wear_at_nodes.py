@@ -7,16 +7,19 @@ it is left out, as in the source. The nodes are those of `bush_profile`, to both
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from ...errors import ConvergenceError
-from ...model import Array
-from .moments import WIDEST, Stage, Wearing, wear_by_one_moment
-from .settle import ACCEPTED
+from ...core.errors import ConvergenceError
+from ...core.model import Array
+from . import contact_arc as arc
+from .bush_reaction import ACCEPTED
+from .melting import MeltingLaw
 from .worn_profile import (
     HeatState,
     LocalMelting,
@@ -283,3 +286,289 @@ def arc_of_wear(bush: Wearing, rule: MeltingRule, stages: tuple[Stage, ...], cou
         if fits > 0.7 * reach:
             return min(fits, WIDEST_ARC), calls
         reach = 0.5 * (fits + reach)
+
+
+# Wear of a melting bush by one or two moments of its profile, under a load that does not fall.
+#
+# While the contact grows its edge is unworn. The integrals of the contact condition against cos(phi)
+# and 1 then close whatever the shape of the pressure, if the liner melts in proportion to it:
+#
+# c F(alpha) = a_1 N + W, 2 c (tan(alpha) - alpha) = a_1 Q + V, W' = g N, V' = g Q
+#
+# with W, V the integrals of the wear against cos(phi) and 1 over the radius, N and Q those of the
+# pressure in shear moduli, and g = max(0, work - 2 alpha losses/Q)/heat. One moment is enough where
+# the pressure is taken to have the shape (2.14) of Evtushenko & Kovalenko (1993), Q = 2 alpha N
+# w(alpha). The contact is at the melting point.
+
+
+RTOL = 1e-10
+"""Of the steps in time."""
+
+SHAPED_RTOL = 1e-8
+"""Of the steps in time with the assumed shape of the pressure, whose own error is larger."""
+
+ATOL = 1e-2
+"""Error that is always accepted, over the relative one, of what changes at the first rate, 1 rad at most."""
+
+WIDEST = 1.55
+"""Half the contact angle [rad] beyond which no end of the wear is looked for."""
+
+
+class Stage(NamedTuple):
+    """A time in which the load is constant.
+
+    Attributes
+    ----------
+    duration : float [s]
+    load_ratio : float
+        N.
+    """
+
+    duration: float
+    load_ratio: float
+
+
+class Path(NamedTuple):
+    """A run of a bush, the stages one after the other; a change of load is two samples at one time.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,) [s]
+    load_ratio : ndarray, shape (n,)
+    moment : ndarray, shape (n,)
+        W.
+    first : ndarray, shape (n,)
+        V; that of the assumed shape where only W is marched.
+    calls : int
+        Rates evaluated.
+    """
+
+    time: Array
+    load_ratio: Array
+    moment: Array
+    first: Array
+    calls: int
+
+
+class _Steps(NamedTuple):
+    """Samples of one stage: times, changes of alpha and V itself at them, and the rates evaluated."""
+
+    time: Array
+    change: Array
+    first: Array
+    calls: int
+
+
+class Wearing(NamedTuple):
+    """A bush at its melting point, turning at one speed.
+
+    Attributes
+    ----------
+    law : MeltingLaw
+    speed : float [rad/s]
+    heat : float [J/m2]
+        Melting heat of a volume, times the radius of the liner.
+    """
+
+    law: MeltingLaw
+    speed: float
+    heat: float
+
+    @property
+    def work(self) -> float:
+        """Friction heat per contact area at a pressure of one shear modulus [W/m2]."""
+        return self.law.pressure_work * abs(self.speed) * self.law.coefficient(self.law.melting)
+
+    @property
+    def gap(self) -> float:
+        """c(T_*)."""
+        return self.law.gap(self.law.melting)
+
+    def angle(self, moment: Array | float, load_ratio: Array | float) -> Array:
+        """Return half the contact angle [rad]."""
+        lifted = self.law.compliance * np.asarray(load_ratio) + np.maximum(moment, 0.0)
+        return arc.arc_angle(lifted / self.gap)
+
+    def losses(self, alpha: Array) -> Array:
+        """Return the heat per contact area that shaft and liner take [W/m2]."""
+        outer = self.law.outer[0] + self.law.outer[1] * arc.sinc(alpha)
+        shaft = self.law.balance.share(alpha) * self.law.shaft * self.law.melting
+        return np.asarray(shaft + self.law.liner * (self.law.melting - outer))
+
+    def losses_slope(self, alpha: Array) -> Array:
+        """Return d(losses)/d(alpha) [W/(m2 rad)]."""
+        shaft = self.law.balance.share_slope(alpha) * self.law.shaft * self.law.melting
+        return np.asarray(shaft - self.law.liner * self.law.outer[1] * arc.sinc_slope(alpha))
+
+    def shaped_total(self, alpha: Array, load_ratio: Array | float) -> Array:
+        """Return Q for the assumed shape of the pressure."""
+        return np.asarray(2.0 * alpha * load_ratio * arc.mean_weight(alpha))
+
+    def total(self, alpha: Array, first: Array | float) -> Array:
+        """Return Q for the moment V; tan(alpha) - alpha = (sin(alpha) - alpha cos(alpha))/cos(alpha)."""
+        return np.asarray((2.0 * self.gap * arc.moment(alpha) / np.cos(alpha) - first) / self.law.compliance)
+
+    def surplus(self, alpha: Array, total: Array | float) -> Array:
+        """Return g before it is clamped [1/s]: negative where friction heat does not suffice to melt."""
+        return np.asarray((self.work - 2.0 * alpha * self.losses(alpha) / total) / self.heat)
+
+    def angle_slope(self, alpha: Array) -> Array:
+        """Return d(alpha)/dW."""
+        return 1.0 / (self.gap * arc.arc_slope(alpha))
+
+    def shaped_slope(self, alpha: Array, load_ratio: Array) -> Array:
+        """Return dW'/dW with the assumed shape [1/s], where the liner melts."""
+        weight, slope = arc.mean_weight(alpha), arc.mean_weight_slope(alpha)
+        by_angle = (self.losses_slope(alpha) - self.losses(alpha) * slope / weight) / weight
+        return -by_angle * self.angle_slope(alpha) / self.heat
+
+    def slope(self, alpha: Array, total: Array, load_ratio: Array) -> Array:
+        """Return dW'/dW along the way of both moments, dV = Q/N dW [1/s], where the liner melts."""
+        by_moment = self.angle_slope(alpha)
+        tan = np.tan(alpha)
+        rise = (2.0 * self.gap * tan**2 * by_moment - total / load_ratio) / self.law.compliance
+        lost = 2.0 * alpha * self.losses(alpha)
+        lost_slope = 2.0 * (self.losses(alpha) + alpha * self.losses_slope(alpha)) * by_moment
+        return -load_ratio * (lost_slope - lost * rise / total) / (total * self.heat)
+
+    def settlement(self, moment: float, load_ratio: float) -> float:
+        """Return by how much farther than unworn the shaft settles, per radius of the liner."""
+        alpha, fresh = self.angle(np.array([moment, 0.0]), load_ratio)
+        # 1/cos a - 1/cos b without cancellation
+        apart = 2.0 * np.sin(0.5 * (alpha + fresh)) * np.sin(0.5 * (alpha - fresh))
+        return float(self.gap * apart / (np.cos(alpha) * np.cos(fresh)))
+
+    def settlement_slope(self, moment: float, load_ratio: float) -> float:
+        """Return d(settlement)/dW."""
+        alpha = self.angle(np.array(moment), load_ratio)
+        return float(self.gap * np.sin(alpha) / np.cos(alpha) ** 2 * self.angle_slope(alpha))
+
+    def first_along(self, moment: Array, load_ratio: Array) -> Array:
+        """Return V along given W, which needs no time: dV/dW = Q/N.
+
+        Each step takes 2 c (tan(alpha) - alpha) as linear in W and the rest as it is.
+        """
+        alpha = self.angle(moment, load_ratio)
+        elastic = self.law.compliance * load_ratio
+        full = 2.0 * self.gap * arc.moment(alpha) / np.cos(alpha)
+        first = np.zeros_like(full)
+        for k in range(1, len(full)):
+            z = (moment[k] - moment[k - 1]) / elastic[k]
+            decay, mean = np.exp(-z), -np.expm1(-z) / z if z > 0.0 else 1.0
+            # full = a + b s over the step: V = V_0 decay + a (1 - decay) + b (1 - mean)
+            rise = full[k] - full[k - 1]
+            first[k] = first[k - 1] * decay - full[k - 1] * np.expm1(-z) + rise * (1.0 - mean)
+        return first
+
+
+def end_of_wear(bush: Wearing, load_ratio: float) -> tuple[float, int]:
+    """Return the moment W at which the wear under a constant load ends, by the assumed shape, and the calls.
+
+    There the critical speed has grown to the speed. Zero where the liner does not melt, infinite where
+    it melts at any angle.
+    """
+    calls = 0
+
+    def surplus(alpha: float) -> float:
+        nonlocal calls
+        calls += 1
+        at = np.asarray(alpha)
+        return float(bush.surplus(at, bush.shaped_total(at, load_ratio)))
+
+    begin = float(bush.angle(0.0, load_ratio))
+    if surplus(begin) <= 0.0:
+        return 0.0, calls
+    if surplus(WIDEST) >= 0.0:
+        return math.inf, calls
+    alpha = brentq(surplus, begin, WIDEST, xtol=1e-12)
+    return bush.gap * float(_rise(np.asarray(begin), np.asarray(alpha - begin))), calls
+
+
+def wear_by_one_moment(bush: Wearing, stages: tuple[Stage, ...]) -> Path:
+    """Return the run with the assumed shape of the pressure.
+
+    Parameters
+    ----------
+    bush : Wearing
+    stages : tuple of Stage
+        Their loads must not fall.
+
+    Raises
+    ------
+    ConvergenceError
+        If the steps in time fail.
+    """
+
+    def rate(alpha: Array, first: float, load_ratio: float) -> tuple[float, float]:
+        grown = float(bush.surplus(alpha, bush.shaped_total(alpha, load_ratio)))
+        return load_ratio * grown * float(bush.angle_slope(alpha)), 0.0
+
+    return _march(bush, stages, rate, SHAPED_RTOL)
+
+
+def wear_by_two_moments(bush: Wearing, stages: tuple[Stage, ...]) -> Path:
+    """Return the run with the pressure that follows from both moments; parameters as of one moment."""
+
+    def rate(alpha: Array, first: float, load_ratio: float) -> tuple[float, float]:
+        total = float(bush.total(alpha, first))
+        grown = float(bush.surplus(alpha, total))
+        return load_ratio * grown * float(bush.angle_slope(alpha)), total * grown
+
+    return _march(bush, stages, rate, RTOL)
+
+
+Rate = Callable[[Array, float, float], tuple[float, float]]
+"""d(alpha)/dt and dV/dt for alpha, V and N: not clamped, since the wear comes to its end from below."""
+
+
+def _shifted(rate: Rate, alpha: Array, load: float, t: float, state: Array) -> tuple[float, float]:
+    # Trial steps go astray; a contact neither shrinks nor is wider than half a turn.
+    return rate(np.clip(alpha + state[0], alpha, WIDEST + 0.02), float(state[1]), load)
+
+
+def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) -> Path:
+    time, moment, first, calls = 0.0, 0.0, 0.0, 0
+    parts: list[Array] = []
+    for stage in stages:
+        load = stage.load_ratio
+        # The angle grows by very little near the critical speed: its change is the state, not itself.
+        alpha = bush.angle(moment, load)
+        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, WIDEST - float(alpha), rtol)
+        grown = moment + bush.gap * _rise(alpha, run.change)
+        parts.append(np.stack([time + run.time, np.full(run.time.size, load), grown, run.first]))
+        moment, first = float(grown[-1]), float(run.first[-1])
+        time, calls = time + stage.duration, calls + run.calls
+    times, loads, moments, firsts = np.concatenate(parts, axis=1)
+    return Path(times, loads, moments, firsts, calls)
+
+
+def _stage(
+    rate: Callable[[float, Array], tuple[float, float]],
+    duration: float,
+    first: float,
+    room: float,
+    rtol: float,
+) -> _Steps:
+    """Return the steps of one stage; two where nothing melts at its begin and so ever."""
+    state = np.array([0.0, first])
+    scale = rate(0.0, state)
+    if scale[0] <= 0.0:
+        return _Steps(np.array([0.0, duration]), np.zeros(2), np.array([first, first]), 1)
+    atol = [ATOL * rtol * min(scale[0] * duration, 1.0), ATOL * rtol * scale[1] * duration or 1.0]
+
+    def widest(t: float, state: Array) -> float:
+        return float(state[0]) - room
+
+    widest.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(rate, (0.0, duration), state, method="LSODA", rtol=rtol, atol=atol, events=widest)
+    if run.status != 0:
+        why = f"half the contact must stay below {WIDEST} rad, got a wider one after {run.t[-1]:.3g} s"
+        raise ConvergenceError(why if run.status == 1 else f"steps of the wear of a bush end: {run.message}")
+    return _Steps(run.t, run.y[0], run.y[1], run.nfev)
+
+
+def _rise(alpha: Array, change: Array) -> Array:
+    """Return F(alpha + change) - F(alpha), for small changes by the slope in the middle."""
+    exact = arc.arc_function(alpha + change) - arc.arc_function(alpha)
+    near = change * arc.arc_slope(alpha + 0.5 * change)
+    return np.where(change < 1e-4 * alpha, near, exact)

@@ -15,7 +15,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from ...model import Array
+from ...core.model import Array
 
 FULL_TURN = 2.0 * math.pi
 

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import hashlib
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.linalg import block_diag
+from scipy.optimize import minimize_scalar
 
-from ...errors import InputError, require_each, require_finite, require_positive
-from ...inputs.si_arguments import quantities
-from ...model import Array, Linearization
-from ...native.spec import NativeSpec
-from ...signals import Signal
-from .contact_kernel import LawNumbers, contact_spec
-from .operating_points import FREQUENCIES, LOADS
-from .static_law import StaticLaw
+from ...core.errors import FileWarning, InputError, require_each, require_finite, require_positive, warn_user
+from ...core.inputs import quantities
+from ...core.model import Array, Linearization
+from ...core.signals import Signal
+from ...core.sources import source_digest
+from ...native.spec import NativeParameter, NativeSpec
+from ..films.map_table import cache_folder, cached, read_kept
+from .contact_grid import checkerboard
+from .film_equations import BarusViscosity, ContactEquations, DowsonHigginsonDensity, RoelandsViscosity
+from .film_newton import Contact
+from .stationary import SmallMotion, follow, stationary
 
 
 @quantities
@@ -215,3 +225,269 @@ def require_state_space(A: Array, B: Array, C: Array, D: Array) -> None:
             raise InputError(f"{name} must have shape {shape}, got {np.shape(matrix)}")
     if size and np.linalg.eigvals(A).real.max() >= 0.0:
         raise InputError(f"A must be stable, got eigenvalues {np.linalg.eigvals(A)}")
+
+
+# The load of a stationary contact over its approach, as a power law.
+
+
+class StaticLaw(NamedTuple):
+    """f = ((offset - delta)/span)^exponent in Hertzian loads; the dry contact has 0, 2 and 3/2.
+
+    Attributes
+    ----------
+    offset, span, exponent : float [1]
+    error : float [1]
+        Largest relative deviation of the load.
+    """
+
+    offset: float
+    span: float
+    exponent: float
+    error: float
+
+    def load(self, delta: float) -> float:
+        """Return f, 0 where the ball has left."""
+        return float(max(self.offset - delta, 0.0) / self.span) ** self.exponent
+
+    def slope(self, delta: float) -> float:
+        """Return df/ddelta."""
+        depth = max(self.offset - delta, 0.0) / self.span
+        return float(-self.exponent / self.span * depth ** (self.exponent - 1.0))
+
+
+def fit_static_law(delta: Array, load: Array) -> StaticLaw:
+    """Return the law through stationary contacts: approaches (n,) and loads f (n,), n >= 4."""
+    highest = float(np.max(delta))
+
+    def fitted(lead: float) -> tuple[Array, Array]:
+        rows = np.stack([np.log(highest + lead - delta), np.ones(len(delta))], axis=1)
+        solution = np.linalg.lstsq(rows, np.log(load), rcond=None)[0]
+        return solution, rows @ solution - np.log(load)
+
+    lead = np.exp(minimize_scalar(lambda x: float(np.sum(fitted(np.exp(x))[1] ** 2)), bounds=(-7.0, 2.0)).x)
+    (exponent, shift), missed = fitted(float(lead))
+    return StaticLaw(
+        highest + float(lead),
+        float(np.exp(-shift / exponent)),
+        float(exponent),
+        float(np.max(abs(np.expm1(missed)))),
+    )
+
+
+# What the C library is told of contacts under their reduced law.
+
+
+MOST_CONTACTS = 64
+"""Contacts that the kernel takes (`native/kernels/kernel_contact.c`)."""
+
+
+class LawNumbers(NamedTuple):
+    """A reduced law as the kernel takes it, in SI.
+
+    Attributes
+    ----------
+    matrices : dict of str to ndarray
+        A, B, C and D of the law.
+    static : tuple of float
+        Offset, span, exponent, force, operating approach and the range of loads.
+    film : float [m]
+        Unit of film thickness.
+    """
+
+    matrices: dict[str, Array]
+    static: tuple[float, ...]
+    film: float
+
+
+def contact_spec(law: LawNumbers, motion: Array, push: Array, gap: float) -> NativeSpec:
+    """Return the kernel `contact` for contacts of one law.
+
+    Parameters
+    ----------
+    law : LawNumbers
+    motion : ndarray, shape (n_contacts, n_inputs)
+        Approach of each contact per input.
+    push : ndarray, shape (n_outputs, n_contacts)
+        Output per force of each contact.
+    gap : float [m]
+        Approach of every contact where all inputs vanish.
+    """
+    tables = {name: block_diag(*[matrix] * len(motion)) for name, matrix in law.matrices.items()}
+    return NativeSpec(
+        kernel="contact",
+        parameters=(
+            NativeParameter(
+                name="gap",
+                unit="m",
+                value=float(gap),
+                tunable=True,
+                nominal=2.0 * law.film,
+                description="approach of the contact where the displacement vanishes",
+            ),
+        ),
+        tables={**tables, "motion": motion, "push": push, "law": np.array(law.static)},
+    )
+
+
+# Operating points of a contact: what its reduced law is made of, computed once and kept on disk.
+#
+# A contact under another load is one under the unit load with other V and Q0 and other Hertzian
+# units, so an operating point (V, Q0, load) is kept as the (V, Q0) that it has in its own units.
+
+
+LOADS = (0.2, 0.35, 0.6, 1.0, 1.5, 2.2, 3.0)
+"""Loads f of the stationary contacts of a point."""
+
+FREQUENCIES = np.geomspace(0.05, 6.0, 32)
+"""Angular frequencies of its dynamic stiffness."""
+
+SLOW = 1e-6
+"""Frequency that stands for 0, where the linearized equations have their static stiffness."""
+
+_FIELDS = ("V", "Q0", "delta", "central_film", "stiffness", "checkerboard")
+
+
+class ContactPoint(NamedTuple):
+    """Stationary contacts about an operating point, and the dynamic stiffness there.
+
+    Attributes
+    ----------
+    V, Q0 : float [1]
+    delta, central_film : ndarray, shape (7,) [1]
+        Approach and central film thickness under the loads `LOADS`.
+    stiffness : ndarray of complex, shape (33,) [1]
+        Z = -d(integral of p)/d(delta) under the unit load, first at rest, then at `FREQUENCIES`.
+    checkerboard : float [1]
+        Share of the pressure that alternates from cell to cell under the unit load.
+    """
+
+    V: float
+    Q0: float
+    delta: Array
+    central_film: Array
+    stiffness: np.ndarray
+    checkerboard: float
+
+
+def under_load(equations: ContactEquations, load: float) -> ContactEquations:
+    """Return the equations, on the same grid, in the Hertzian units of `load` times their unit load.
+
+    Hertzian radius and pressure grow with the cube root of the load: V = 24 mu0 u R^2/(p_H a^3) falls with
+    its power 4/3, Q0 and the pressure ratios of the lubricant grow with its cube root.
+    """
+    growth = load ** (1.0 / 3.0)
+    viscosity, density = equations.viscosity, equations.density
+    if isinstance(viscosity, RoelandsViscosity):
+        viscosity = replace(viscosity, pressure_ratio=growth * viscosity.pressure_ratio)
+    if isinstance(density, DowsonHigginsonDensity):
+        density = replace(density, pressure_ratio=growth * density.pressure_ratio)
+    return replace(
+        equations, V=equations.V / growth**4, Q0=equations.Q0 * growth, viscosity=viscosity, density=density
+    )
+
+
+def operating_point(equations: ContactEquations) -> ContactPoint:
+    """Return the point of some equations under the unit load; from disk if it was computed before.
+
+    Seven stationary and 33 dense linear solutions: some seconds on 40 x 40 cells, a minute on 64 x 64.
+
+    Raises
+    ------
+    ConvergenceError
+        If a stationary contact is not found.
+
+    Warns
+    -----
+    FileWarning
+        If the point on disk is damaged, or cannot be written: it will be computed again next time.
+    """
+    return cached(
+        _path(equations),
+        from_bytes=_point,
+        build=lambda: _computed(equations),
+        to_bytes=_bytes,
+        what="the operating point",
+    )
+
+
+def kept_points(equations: ContactEquations) -> list[ContactPoint]:
+    """Return the points on disk that differ from some equations in V and Q0 at most, sorted by these.
+
+    Warns
+    -----
+    FileWarning
+        Of a damaged point, which is left out.
+    """
+    found = []
+    for path in sorted(cache_folder().glob(f"contact-{_family(equations)}-*.npz")):
+        try:
+            found.append(_point(read_kept(path)))
+        except (OSError, InputError) as error:
+            warn_user(f"an operating point is left out: {error}", FileWarning)
+    return sorted(found, key=lambda point: (point.V, point.Q0))
+
+
+def _computed(equations: ContactEquations) -> ContactPoint:
+    contacts = list(_stationary(equations))
+    at = contacts[LOADS.index(1.0)]
+    small = SmallMotion(equations, at.pressure, at.delta)
+    return ContactPoint(
+        float(equations.V),
+        float(equations.Q0),
+        np.array([contact.delta for contact in contacts]),
+        np.array([equations.central_film(contact.pressure, contact.delta) for contact in contacts]),
+        np.array([small.stiffness(1j * w) for w in (SLOW, *FREQUENCIES)]),
+        checkerboard(at.pressure.reshape(equations.grid.shape), equations.grid, 1.0),
+    )
+
+
+def _stationary(equations: ContactEquations) -> Iterator[Contact]:
+    contact = stationary(equations, LOADS[0])
+    yield contact
+    for load in LOADS[1:]:
+        contact = follow(equations, contact, load)
+        yield contact
+
+
+def _path(equations: ContactEquations) -> Path:
+    place = _digest(repr((f"{equations.V:.12g}", f"{equations.Q0:.12g}")))
+    return cache_folder() / f"contact-{_family(equations)}-{place}.npz"
+
+
+def _family(equations: ContactEquations) -> str:
+    """Return a digest of all that decides a point but V and Q0.
+
+    The pressure ratios of one lubricant go with its Q0: of Roelands' law and of the density what counts is
+    their quotient.
+    """
+    fluid: list[Any] = [type(equations.viscosity).__name__]
+    if not isinstance(equations.viscosity, BarusViscosity | RoelandsViscosity):
+        fluid.append(repr(equations.viscosity))
+    if isinstance(equations.viscosity, RoelandsViscosity):
+        fluid += [
+            f"{equations.viscosity.exponent:.9g}",
+            f"{equations.viscosity.pressure_ratio / equations.Q0:.9g}",
+        ]
+    if equations.density is not None:
+        fluid.append(f"{equations.density.pressure_ratio / equations.Q0:.9g}")
+    return _digest(
+        repr((source_digest(__name__), equations.grid, equations.scheme, equations.ellipse, fluid))
+    )
+
+
+def _digest(key: str) -> str:
+    return hashlib.sha256(key.encode()).hexdigest()[:16]
+
+
+def _bytes(point: ContactPoint) -> bytes:
+    buffer = io.BytesIO()
+    values: Any = {name: np.asarray(getattr(point, name)) for name in _FIELDS}
+    np.savez(buffer, **values)
+    return buffer.getvalue()
+
+
+def _point(content: bytes) -> ContactPoint:
+    with np.load(io.BytesIO(content), allow_pickle=False) as file:
+        values = {name: file[name] for name in _FIELDS}
+    scalars = {name: float(values[name]) for name in ("V", "Q0", "checkerboard")}
+    return ContactPoint(**{**values, **scalars})

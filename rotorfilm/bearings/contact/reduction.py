@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from scipy.interpolate import RBFInterpolator
+from scipy.spatial import ConvexHull, QhullError
 
-from ...errors import InputError, ValidityWarning, require_positive
-from ...inputs.kinds import arguments
-from ...model import Array, Linearization
-from .between_points import point_between
-from .contact_law import ContactLaw, transfer
-from .operating_points import FREQUENCIES, LOADS, ContactPoint, kept_points, operating_point, under_load
+from ...core.errors import InputError, ValidityWarning, require_positive
+from ...core.inputs import arguments
+from ...core.model import Array, Linearization
+from .contact_law import (
+    FREQUENCIES,
+    LOADS,
+    ContactLaw,
+    ContactPoint,
+    fit_static_law,
+    kept_points,
+    operating_point,
+    transfer,
+    under_load,
+)
 from .point_contact import ALTERNATING, PointContact
-from .rational_fit import fit_transfer
-from .static_law import fit_static_law
 
 if TYPE_CHECKING:
-    from .rolling_ball import RollingBall
+    from .point_contact import RollingBall
 
 SLOWEST = 0.3
 """Frequency below which a misfit of the damping counts less."""
@@ -177,3 +186,216 @@ def _require_damping(law: ContactLaw) -> None:
             ValidityWarning,
             stacklevel=5,
         )
+
+
+# An operating point of a contact between those on disk, with the error of the interpolation.
+
+
+FEWEST = 4
+"""Points that an interpolation takes at least: three span a plane, and one must be left out."""
+
+CURVED = 8
+"""Points from which on the interpolation reproduces quadratic functions, not only linear ones."""
+
+ASKED = 4
+"""Nearest points that are left out, one after the other, to measure the error."""
+
+MARGIN = 2.0
+"""Stated error / the largest of those measured: the end of the film moves cell by cell, which adds noise."""
+
+
+class Between(NamedTuple):
+    """An interpolated point and its errors.
+
+    Attributes
+    ----------
+    point : ContactPoint
+    load_error : float [1]
+        Error of the load at an approach, relative to the load.
+    damping_error : float [1]
+        Error of Im Z/omega relative to the largest.
+    """
+
+    point: ContactPoint
+    load_error: float
+    damping_error: float
+
+
+def point_between(points: Sequence[ContactPoint], V: float, Q0: float) -> Between:
+    """Return the point at (V, Q0) from points around it, smooth in ln V and ln Q0.
+
+    Approaches, films and stiffnesses are interpolated by cubic radial functions. The error is twice the
+    largest made when one of the nearest points is left out and interpolated from the others.
+
+    Raises
+    ------
+    InputError
+        If (V, Q0) is not among the points, or there are too few.
+    """
+    places = np.log([(point.V, point.Q0) for point in points]).reshape(-1, 2)
+    target = np.log((V, Q0))
+    if len(points) < FEWEST or not _inside(places, target):
+        raise InputError(
+            f"V and Q0 must lie among at least {FEWEST} operating points on disk, got {V:.6g} and {Q0:.6g} "
+            f"with {len(points)} of this grid and lubricant: compute the point itself, or more around it"
+        )
+    values = np.array([_flat(point) for point in points])
+    nearest = np.argsort(np.linalg.norm(places - target, axis=1))[:ASKED]
+    errors = [_error(points[k], _left_out(places, values, k)) for k in nearest]
+    load_error, damping_error = MARGIN * np.max(errors, axis=0)
+    found = _unflat(_smooth(places, values, target), V, Q0, max(point.checkerboard for point in points))
+    return Between(found, float(load_error), float(damping_error))
+
+
+def _left_out(places: Array, values: Array, k: int) -> Array:
+    others = np.arange(len(places)) != k
+    return _smooth(places[others], values[others], places[k])
+
+
+def _smooth(places: Array, values: Array, target: Array) -> Array:
+    degree = 2 if len(places) >= CURVED else 1
+    try:
+        smooth = RBFInterpolator(places, values, kernel="cubic", degree=degree)
+    except np.linalg.LinAlgError:
+        # On a line there is no second direction; that the target lies on it has been checked.
+        smooth = RBFInterpolator(places, values, kernel="linear", degree=0)
+    return np.asarray(smooth(target[None])[0], dtype=float)
+
+
+def _inside(places: Array, target: Array) -> bool:
+    try:
+        hull = ConvexHull(places)
+    except (QhullError, ValueError):
+        return False
+    return bool(np.all(hull.equations[:, :2] @ target + hull.equations[:, 2] <= 1e-9))
+
+
+def _flat(point: ContactPoint) -> Array:
+    # Re Z changes with the film as a whole, Im Z by orders of magnitude over the frequency.
+    damping = point.stiffness[1:].imag / FREQUENCIES
+    return np.concatenate([point.delta, np.log(point.central_film), point.stiffness.real, damping])
+
+
+def _unflat(values: Array, V: float, Q0: float, checkerboard: float) -> ContactPoint:
+    delta, film, real, damping = np.split(values, np.cumsum([len(LOADS), len(LOADS), len(FREQUENCIES) + 1]))
+    stiffness = real + 1j * np.append(0.0, damping * FREQUENCIES)
+    return ContactPoint(float(V), float(Q0), delta, np.exp(film), stiffness, checkerboard)
+
+
+def _error(point: ContactPoint, values: Array) -> tuple[float, float]:
+    guess = _unflat(values, point.V, point.Q0, 0.0)
+    slope = np.gradient(np.log(LOADS), point.delta)
+    load = float(np.max(abs(slope * (guess.delta - point.delta))))
+    true, found = (p.stiffness[1:].imag / FREQUENCIES for p in (point, guess))
+    return load, float(np.max(abs(found - true)) / np.max(abs(true)))
+
+
+# Vector fitting: a stable state space of given order through samples of a transfer function.
+#
+# After Gustavsen and Semlyen (1999), for functions that vanish at s = 0: f(s) = s sum of r_k/(s - p_k). The
+# poles are moved to the zeros of a fitted denominator, and those that land in the right half-plane are
+# mirrored, so the result is stable by construction; its static gain is exactly zero.
+
+
+ROUNDS = 40
+"""Relocations of the poles."""
+
+
+class RationalFit(NamedTuple):
+    """A state space dx' = A x + B u, y = C x + D u with D = C A^-1 B, and its error.
+
+    Attributes
+    ----------
+    system : Linearization
+    error : float
+        Largest weighted deviation from the samples.
+    """
+
+    system: Linearization
+    error: float
+
+
+def fit_transfer(frequency: Array, value: np.ndarray, order: int, weight: Array) -> RationalFit:
+    """Return the fit of samples f(i omega).
+
+    Parameters
+    ----------
+    frequency : ndarray, shape (n,) [1]
+        omega > 0, rising.
+    value : ndarray of complex, shape (n,)
+    order : int
+        Number of states, at least 1.
+    weight : ndarray, shape (n,)
+        By which deviations count.
+
+    Raises
+    ------
+    InputError
+        If there are fewer samples than the fit has unknowns.
+    """
+    if order < 1 or 2 * len(frequency) < 2 * order + 1:
+        raise InputError(f"order must be from 1 to {len(frequency) - 1}, got {order!r}")
+    s = 1j * frequency
+    A, B = _start(frequency, order)
+    best: RationalFit | None = None
+    for _ in range(ROUNDS):
+        A, B = _canonical(_relocated(A, B, s, value, weight))
+        fit = _fitted(A, B, s, value, weight)
+        best = fit if best is None or fit.error < best.error else best
+    assert best is not None
+    return best
+
+
+def _start(frequency: Array, order: int) -> tuple[Array, Array]:
+    """Return weakly damped pole pairs spread over the frequencies, and one real pole if the order is odd."""
+    pairs = np.geomspace(max(frequency[0], 1e-2 * frequency[-1]), frequency[-1], max(order // 2, 1))[
+        : order // 2
+    ]
+    poles = [-0.3 * w + 1j * w for w in pairs]
+    return _canonical(np.array([*poles, *np.conj(poles), *([-frequency[-1] / 3.0] * (order % 2))]))
+
+
+def _canonical(poles: np.ndarray) -> tuple[Array, Array]:
+    """Return the real matrices A and B of stable poles: a 2 x 2 block for each pair."""
+    stable = -abs(poles.real) + 1j * poles.imag
+    size = len(stable)
+    A, B, k = np.zeros((size, size)), np.zeros(size), 0
+    for pole in stable[stable.imag > 0.0]:
+        A[k : k + 2, k : k + 2] = [[pole.real, pole.imag], [-pole.imag, pole.real]]
+        B[k] = 2.0
+        k += 2
+    for pole in stable[stable.imag == 0.0]:
+        A[k, k], B[k] = pole.real, 1.0
+        k += 1
+    return A, B
+
+
+def _basis(A: Array, B: Array, s: np.ndarray) -> np.ndarray:
+    """Return (s - A)^-1 B at each s, shape (n, order)."""
+    return np.stack([np.linalg.solve(value * np.eye(len(A)) - A, B.astype(complex)) for value in s])
+
+
+def _relocated(A: Array, B: Array, s: np.ndarray, value: np.ndarray, weight: Array) -> np.ndarray:
+    """Return the zeros of the denominator 1 + c (s - A)^-1 B fitted together with the numerator."""
+    basis = _basis(A, B, s)
+    rows = np.hstack([s[:, None] * basis, -value[:, None] * basis])
+    solution = _least_squares(rows, value, weight)
+    return np.linalg.eigvals(A - np.outer(B, solution[len(A) :]))
+
+
+def _fitted(A: Array, B: Array, s: np.ndarray, value: np.ndarray, weight: Array) -> RationalFit:
+    basis = s[:, None] * _basis(A, B, s)
+    residues = _least_squares(basis, value, weight)
+    error = float(np.max(weight * abs(basis @ residues - value)))
+    # s (s - A)^-1 B = B + A (s - A)^-1 B
+    system = Linearization(A, B[:, None], (residues @ A)[None], np.array([[residues @ B]]))
+    return RationalFit(system, error)
+
+
+def _least_squares(rows: np.ndarray, value: np.ndarray, weight: Array) -> Array:
+    """Return the real solution; columns are scaled to one size first."""
+    weighted = weight[:, None] * rows
+    real = np.vstack([weighted.real, weighted.imag])
+    scale = np.maximum(np.linalg.norm(real, axis=0), 1e-300)
+    wanted = np.concatenate([(weight * value).real, (weight * value).imag])
+    return np.linalg.lstsq(real / scale, wanted, rcond=None)[0] / scale

@@ -2,44 +2,51 @@
 
 from typing import TYPE_CHECKING
 
-from ...sources import show
+from ...core.sources import show
 
 if TYPE_CHECKING:
-    from .bearing import PorousDamper as PorousDamper, SqueezeFilmDamper as SqueezeFilmDamper
-    from .built.air import aerated_damper as aerated_damper, feed_squeeze_number as feed_squeeze_number
-    from .built.end_seals import (
-        EndSeal as EndSeal,
-        gap_seal as gap_seal,
-        leak_test_seal as leak_test_seal,
+    from .bearing import (
+        AxialFeed as AxialFeed,
+        DamperGroups as DamperGroups,
+        PorousCage as PorousCage,
+        PorousDamper as PorousDamper,
+        RadialFeed as RadialFeed,
+        SqueezeFilmDamper as SqueezeFilmDamper,
+        damper_groups as damper_groups,
     )
-    from .built.film_range import FULL_LIMITS, RUPTURED_LIMITS
-    from .built.hole_impedance import (
+    from .feed_holes import (
         SqueezeMatrices as SqueezeMatrices,
+        aerated_damper as aerated_damper,
+        feed_squeeze_number as feed_squeeze_number,
         hole_small_motion as hole_small_motion,
     )
-    from .built.judged_damper import JudgedDamper
-    from .built.squeeze_impedance import (
+    from .jfo_damper import (
+        DamperSupply as DamperSupply,
+        ExtrapolatedDamper,
+        JFODamper as JFODamper,
+        JFOOrbit as JFOOrbit,
+    )
+    from .jfo_turn import DamperTurn as DamperTurn, damper_turn as damper_turn
+    from .neglected_effects import JudgedDamper
+    from .squeeze_films import SqueezeFilm, layer_modes
+    from .squeeze_inertia import (
+        FULL_LIMITS,
+        RUPTURED_LIMITS,
         FilmSegment as FilmSegment,
         SegmentedDamper as SegmentedDamper,
         SqueezeImpedance as SqueezeImpedance,
         land_share,
     )
-    from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
-    from .conserved.damper_supply import DamperSupply as DamperSupply
-    from .conserved.damper_turn import DamperTurn as DamperTurn, damper_turn as damper_turn
-    from .conserved.extrapolated_damper import ExtrapolatedDamper
-    from .conserved.jfo_damper import JFODamper as JFODamper
-    from .conserved.jfo_orbit import JFOOrbit as JFOOrbit
-    from .damper_groups import DamperGroups as DamperGroups, damper_groups as damper_groups
-    from .full_squeeze import SqueezeFilm
-    from .mapped_squeeze import FiniteMapSqueeze as FiniteMapSqueeze, MapSqueeze as MapSqueeze
-    from .porous_layer import layer_modes
     from .squeeze_laws import (
+        EndSeal as EndSeal,
         FiniteSqueeze as FiniteSqueeze,
         PublishedSqueeze as PublishedSqueeze,
         ShortSqueeze as ShortSqueeze,
         SqueezeCase,
         SqueezeLaw,
+        gap_seal as gap_seal,
+        leak_test_seal as leak_test_seal,
     )
+    from .squeeze_map import FiniteMapSqueeze as FiniteMapSqueeze, MapSqueeze as MapSqueeze
 else:
     show(__name__)

@@ -3,33 +3,158 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 
-from ...errors import InputError, require_kind, require_non_negative, warn_user
-from ...inputs.si_arguments import quantities
-from ...model import Array, Tangent, tangent_of
-from ...native.spec import NativeSpec
-from ..film_units import require_size
-from ..films.cavitation import FullFilm, HalfSommerfeld
+from ...core.errors import (
+    InputError,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+    warn_user,
+)
+from ...core.inputs import arguments, quantities
+from ...core.model import Array, Tangent, tangent_of
+from ...core.signals import MOTION_NAMES
+from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
+from ...native.spec import NativeParameter, NativeSpec
+from ..films.geometry import FullFilm, HalfSommerfeld
 from ..films.kernel_film import BoundKernel
 from ..films.law import options
-from ..reaction import NOMINAL_SPEED
-from .built.built_kernel import oil_bound, oil_spec
-from .built.end_seals import EndSeal
-from .built.film_range import warn_of_length, warn_of_short_seals
-from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm
-from .built.squeeze_inertia import SqueezeInertia
-from .cage import AxialFeed, PorousCage, RadialFeed
-from .damper_kernel import DIMENSIONS, damper_spec
-from .full_squeeze import SqueezeFilm
-from .mapped_squeeze import MappedSqueezeFilm
-from .porous_layer import LayerModes, PorousLayer, layer_modes
-from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, SqueezeOptions
+from ..reaction import NOMINAL_SPEED, Size, require_size
+from .squeeze_films import LayerModes, PorousLayer, SqueezeFilm, layer_modes
+from .squeeze_inertia import SqueezeInertia, warn_of_length, warn_of_short_seals
+from .squeeze_laws import (
+    LARGEST_TABULATED,
+    NODES,
+    EndSeal,
+    FilmInertia,
+    FullInertia,
+    SealedShortFilm,
+    ShortSqueeze,
+    SqueezeCase,
+    SqueezeLaw,
+    SqueezeOptions,
+    TabulatedSqueezeFilm,
+    ZoneInertia,
+    least_root,
+    radial_table,
+    short_inertia,
+)
+from .squeeze_map import MappedSqueezeFilm
+
+# The cage of a damper, and what feeds lubricant to its film.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class PorousCage:
+    """A porous ring around the film, Darcy's law in it: k(y) = permeability exp(grading y/thickness), y <= 0.
+
+    Parameters
+    ----------
+    thickness : float [m]
+        H, radial thickness of the layer.
+    permeability : float [m2]
+        A, through the layer, at its face to the film.
+    grading : float [1]
+        lambda; positive where the layer is tighter at its back.
+    anisotropy : float [1]
+        k_z/k_y: permeability along the layer, per that through it.
+    vented : bool
+        Whether the back of the layer is open to `supply_pressure`; otherwise it is sealed.
+    supply_pressure : float [Pa]
+        Gauge pressure at a vented back.
+    thin : bool
+        Morgan & Cameron's layer in place of Darcy's: no pressure drop through a sealed layer, no flow along a
+        vented one.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule, or there is a supply pressure behind a sealed back.
+    """
+
+    thickness: float
+    permeability: float
+    grading: float = 0.0
+    anisotropy: float = 1.0
+    vented: bool = False
+    supply_pressure: float = 0.0
+    thin: bool = False
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "thickness", "permeability", "anisotropy")
+        require_each(self, require_number, "grading", "supply_pressure")
+        if self.supply_pressure and not self.vented:
+            raise InputError(f"supply_pressure must be 0 behind a sealed back, got {self.supply_pressure!r}")
+
+    def layer(self, length: float, clearance: float) -> PorousLayer:
+        """Return this cage in the units of a film of a length and a clearance [m]."""
+        return PorousLayer(
+            permeability_number=self.permeability * self.thickness / clearance**3,
+            grading=self.grading,
+            thickness_ratio=self.thickness / length,
+            anisotropy=self.anisotropy,
+            vented=self.vented,
+            thin=self.thin,
+        )
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class RadialFeed:
+    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
+
+    What the layer passes from its back to the film, the rest leaving by the layer's ends, follows from
+    Darcy's law (95 % at H/L = 0.1); through a thin layer or a solid cage (jets) it is all.
+
+    Parameters
+    ----------
+    inflow : float [m/s]
+        Velocity towards the film, its largest along the axis; negative for suction.
+    cosine : bool
+        Whether the velocity falls as cos(pi z/length) from the middle to the ends; otherwise it is uniform.
+    at_film : bool
+        Whether it is what enters a film without pressure; otherwise what enters the back of the layer, as in
+        Akhverdiev et al. (11).
+    """
+
+    inflow: float
+    cosine: bool = False
+    at_film: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("inflow", self.inflow)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class AxialFeed:
+    """Lubricant fed at the ends of film and layer.
+
+    Parameters
+    ----------
+    start_pressure, end_pressure : float [Pa]
+        Gauge pressure at z = -length/2 and z = length/2. Zero is the pressure at which the film ruptures.
+    """
+
+    start_pressure: float
+    end_pressure: float
+
+    def __post_init__(self) -> None:
+        require_number("start_pressure", self.start_pressure)
+        require_number("end_pressure", self.end_pressure)
+
+
+# The squeeze-film damper with a solid or porous cage, in SI units.
+
 
 LARGEST_RATIO = 0.5
 """Largest thickness / radius of a layer that may be unrolled to a plane."""
@@ -289,3 +414,285 @@ class PorousDamper(SqueezeFilmDamper):
 
 KERNELS = (SqueezeFilmDamper, PorousDamper)
 """Classes of dampers that have a kernel in C."""
+
+
+# The kernel of the C library that is a squeeze-film damper over a map, with or without retainer springs.
+
+
+KERNEL = "damper"
+
+DIMENSIONS = (
+    ("radius", "m", "radius of the film"),
+    ("length", "m", "axial length of the film"),
+    ("clearance", "m", "radial clearance"),
+    ("viscosity", "Pa.s", "dynamic viscosity of the lubricant"),
+)
+
+
+def damper_spec(
+    film: SqueezeFilm, dimensions: Mapping[str, float], *, caged: bool, nominal_force: float
+) -> NativeSpec | None:
+    """Return the kernel of a damper; None if its film is no map.
+
+    What the map holds for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a cage.
+
+    Parameters
+    ----------
+    film : SqueezeFilm
+    dimensions : mapping of str to float
+        Radius, length, clearance [m] and viscosity [Pa s].
+    caged : bool
+        Whether it has a porous cage.
+    nominal_force : float [N]
+    """
+    if not isinstance(film, MappedSqueezeFilm):
+        return None
+    held = {"radius", "length"} if film.one_slenderness else set()
+    if caged:
+        held |= {"length", "clearance"}
+    parameters = [
+        dimension(name, unit, text, float(dimensions[name]), fixed=name in held)
+        for name, unit, text in DIMENSIONS
+    ]
+    spring = spring_parameter(nominal_force / dimensions["clearance"])
+    return NativeSpec(
+        kernel=KERNEL,
+        parameters=(*parameters, spring),
+        tables=film.native_tables(),
+        inputs=MOTION_NAMES,
+        spring="stiffness",
+    )
+
+
+def spring_parameter(nominal: float) -> NativeParameter:
+    """Return the stiffness of springs, none yet, of a nominal value [N/m]."""
+    return NativeParameter(
+        name="stiffness",
+        unit="N/m",
+        value=0.0,
+        tunable=True,
+        minimum=0.0,
+        nominal=nominal,
+        description="of the retainer springs along either axis, whose force is part of the output",
+    )
+
+
+def dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
+    """Return a dimension, which the map of the film may hold for only."""
+    reason = ", as the map of the film holds for it"
+    return bounded(name, unit, text, value, fixed=fixed, reason=reason)
+
+
+def bounded(
+    name: str, unit: str, text: str, value: float, *, fixed: bool, reason: str = ""
+) -> NativeParameter:
+    """Return a number that is not negative, or fixed for a reason."""
+    return NativeParameter(
+        name=name,
+        unit=unit,
+        value=value,
+        tunable=not fixed,
+        minimum=value if fixed else 0.0,
+        maximum=value if fixed else math.inf,
+        nominal=math.nextafter(0.0, 1.0) if value == 0.0 else value,
+        description=f"{text}; fixed{reason}" if fixed else text,
+    )
+
+
+# Dampers with seals or inertia as kernels of the C library.
+
+
+SEALED_KERNEL = "oil_damper"
+
+
+class _OilDamper(Size, Protocol):
+    """What a damper says of itself."""
+
+    @property
+    def viscosity(self) -> float: ...
+    @property
+    def density(self) -> float: ...
+    @property
+    def seals(self) -> EndSeal | None: ...
+    @property
+    def slenderness(self) -> float: ...
+    @property
+    def force_scale(self) -> float: ...
+    @property
+    def nominal_force(self) -> float: ...
+    @property
+    def bound_film(self) -> SqueezeFilm: ...
+    @property
+    def film_inertia(self) -> FilmInertia: ...
+
+
+def oil_bound(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> BoundKernel | None:
+    """Return the force in C; None where the film has none.
+
+    Parameters
+    ----------
+    damper : SqueezeFilmDamper
+        With seals or inertia.
+    end_leak : float [1]
+        As of a `SqueezeCase`.
+    cavitated : bool
+    """
+    parts, mapped = _parts(damper, end_leak, cavitated=cavitated), _mapped(damper.bound_film)
+    if parts is None:
+        return None
+    film = damper.bound_film
+    seal = film.damping if isinstance(film, SealedShortFilm) else 0.0
+    inertial = damper.density * damper.radius * damper.length**3
+    scales = OilScales(damper.clearance, damper.force_scale, inertial, seal)
+    map_kernel = None
+    if mapped is not None:
+        bound = mapped.bound(clearance=damper.clearance, force_scale=damper.force_scale)
+        map_kernel = bound.kernel.film
+    return BoundKernel(OilDamperKernel(parts, map_kernel, scales), damper.clearance)
+
+
+def oil_spec(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> NativeSpec | None:
+    """Return the kernel of the damper for an FMU; see `oil_bound`."""
+    parts, mapped = _parts(damper, end_leak, cavitated=cavitated), _mapped(damper.bound_film)
+    if parts is None:
+        return None
+    held: set[str] = set()
+    if parts.radial is not None or (mapped is not None and mapped.one_slenderness):
+        held = {"radius", "length"}
+    if parts.radial is not None and damper.seals is not None:
+        held |= {"clearance", "viscosity"}
+    own = [
+        dimension(name, unit, text, float(getattr(damper, name)), fixed=name in held)
+        for name, unit, text in DIMENSIONS
+    ]
+    heavy, leakage = damper.density > 0.0, 0.0 if damper.seals is None else damper.seals.leakage
+    return NativeSpec(
+        kernel=SEALED_KERNEL,
+        parameters=(
+            *own,
+            spring_parameter(damper.nominal_force / damper.clearance),
+            bounded("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
+            bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
+        ),
+        tables=parts.tables(None if mapped is None else mapped.native_tables(), heavy=heavy),
+        inputs=MOTION_NAMES,
+        spring="stiffness",
+    )
+
+
+def _mapped(film: SqueezeFilm) -> MappedSqueezeFilm | None:
+    inner = film.film if isinstance(film, SealedShortFilm) else film
+    return inner if isinstance(inner, MappedSqueezeFilm) else None
+
+
+def _parts(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> OilParts | None:
+    film, mapped = damper.bound_film, _mapped(damper.bound_film)
+    if mapped is None and not isinstance(film, TabulatedSqueezeFilm):
+        return None
+    inertia = damper.film_inertia if damper.density > 0.0 else None
+    full = isinstance(inertia, FullInertia)
+    closed = full and isinstance(inertia, FullInertia) and inertia.radial is short_inertia
+    tabled = mapped is None or (full and not closed)
+    sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if cavitated else 1.0
+    return OilParts(
+        zone=inertia.share if isinstance(inertia, ZoneInertia) else 0.0,
+        closed=float(closed),
+        tabled=float(full and not closed),
+        sealed=sealed,
+        radial=radial_table(damper.slenderness, end_leak).table if tabled else None,
+        least=least_root() if tabled else 1.0,
+        nodes=NODES[0],
+        weights=NODES[1],
+    )
+
+
+# The dimensionless groups of a rotor on a damper.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class DamperGroups:
+    """The dimensionless groups of a rotor on a damper, w_r being any reference speed.
+
+    Attributes
+    ----------
+    squeeze_number : float [1]
+        Bs = mu R L^3/(m w_r C^3).
+    damper_number : float [1]
+        B = mu R^3 L/(2 m w_r C^3) = Bs/(8 (L/D)^2).
+    permeability_number : float [1]
+        Phi = A H/C^3; 0 for a solid cage.
+    grading : float [1]
+        lambda.
+    thickness_ratio : float [1]
+        H/L.
+    slenderness : float [1]
+        L/D.
+    speed_ratio : float [1]
+        Omega = omega/w_r.
+    spring_ratio : float [1]
+        Omega_s = sqrt(K/m)/w_r, K the stiffness of the retainer springs.
+    unbalance_ratio : float [1]
+        U = u/(m C).
+    """
+
+    squeeze_number: float
+    damper_number: float
+    permeability_number: float
+    grading: float
+    thickness_ratio: float
+    slenderness: float
+    speed_ratio: float
+    spring_ratio: float
+    unbalance_ratio: float
+
+
+@arguments
+def damper_groups(
+    damper: PorousDamper,
+    *,
+    mass: float,
+    speed: float,
+    stiffness: float = 0.0,
+    unbalance: float = 0.0,
+    reference_speed: float | None = None,
+) -> DamperGroups:
+    """Return the dimensionless groups of a rigid rotor on a damper.
+
+    Parameters
+    ----------
+    damper : PorousDamper
+    mass : float [kg]
+        Carried by this damper.
+    speed : float [rad/s]
+        Of the rotor.
+    stiffness : float [N/m]
+        Of the retainer springs.
+    unbalance : float [kg m]
+    reference_speed : float [rad/s], optional
+        w_r; the speed itself by default.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule.
+    """
+    reference = abs(speed) if reference_speed is None else reference_speed
+    require_positive("mass", mass)
+    require_number("speed", speed)
+    require_positive("reference_speed", reference)
+    require_non_negative("stiffness", stiffness)
+    require_non_negative("unbalance", unbalance)
+    layer = damper.layer
+    squeeze = damper.force_scale / (damper.clearance * mass * reference)
+    return DamperGroups(
+        squeeze_number=squeeze,
+        damper_number=squeeze / (8.0 * damper.slenderness**2),
+        permeability_number=0.0 if layer is None else layer.permeability_number,
+        grading=0.0 if layer is None else layer.grading,
+        thickness_ratio=0.0 if layer is None else layer.thickness_ratio,
+        slenderness=damper.slenderness,
+        speed_ratio=speed / reference,
+        spring_ratio=math.sqrt(stiffness / mass) / reference,
+        unbalance_ratio=unbalance / (mass * damper.clearance),
+    )

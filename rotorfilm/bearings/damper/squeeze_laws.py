@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 
-from ...errors import InputError
-from ...model import Array
-from .built.end_seals import SealedShortFilm
-from .built.film_inertia import FilmInertia, FullInertia, short_inertia
-from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm, radial_table
-from .built.zone_inertia import ZoneInertia
-from .cavitated_squeeze import CavitatedSqueezeFilm
-from .clipped_squeeze import ClippedSqueezeFilm
-from .finite_squeeze import LARGEST, FiniteSqueezeFilm
-from .full_squeeze import FullSqueezeFilm, SqueezeFilm
-from .porous_layer import LayerModes, PorousLayer
+from ...core.errors import InputError, require_non_negative, require_positive, warn_user
+from ...core.inputs import arguments, quantities
+from ...core.model import Array
+from .squeeze_films import (
+    LARGEST,
+    CavitatedSqueezeFilm,
+    ClippedSqueezeFilm,
+    FiniteSqueezeFilm,
+    FullSqueezeFilm,
+    LayerModes,
+    PorousLayer,
+    SqueezeFilm,
+    arc_nodes,
+)
 
 
 class SqueezeCase(NamedTuple):
@@ -207,3 +213,662 @@ class _LinearSqueezeFilm:
         constant = np.concatenate([-self.stiffness * np.eye(2), -self.damping * np.eye(2)], axis=1)
         axes = (1,) * (eccentricity.ndim - 1)
         return np.broadcast_to(constant.reshape(2, 4, *axes), (2, 4, *eccentricity.shape[1:])).copy()
+
+
+# The inertia of the oil in a cavitated film: that of the zone which the viscous film fills.
+
+
+NODES = np.polynomial.legendre.leggauss(40)
+"""Of Gauss and Legendre over the zone, and their weights."""
+
+
+class _Zone(NamedTuple):
+    """Direction of the film (2, M, B), thickness and weights (M, B), rate along the direction (M, B)."""
+
+    u: Array
+    h: Array
+    weight: Array
+    toward: Array
+
+
+@dataclass(frozen=True, eq=False)
+class ZoneInertia:
+    """Pressure of the inertia on the half circle towards which the rotor moves, as if the zone stayed so.
+
+    In truth the pressure of the inertia moves the edge of the film. On a circular orbit the rule errs by 0,
+    0.5, 2.6, 8 % of the force at eccentricity ratio 0.2 and by 0, 0.7, 4.6, 18 % at 0.5, for squeeze Reynolds
+    numbers of 0.5, 2, 5, 10.
+
+    Parameters
+    ----------
+    share : float [1]
+        Of the short film's inertia: 1, or that of a film of finite length in small motion about the center,
+        where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5 the mass
+        along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
+    """
+
+    share: float = 1.0
+
+    @property
+    def reach(self) -> float:
+        """Up to the wall."""
+        return 1.0
+
+    def mass(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""
+        zone = _zone(eccentricity, rate)
+        found = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, 0.1 * self.share * zone.weight / zone.h)
+        return found.reshape(2, 2, *eccentricity.shape[1:])
+
+    def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return its derivatives, shape (2, 2, 4, ...); see `FilmInertia.mass_slopes`."""
+        zone, e, w = _zone(eccentricity, rate), eccentricity.reshape(2, -1), rate.reshape(2, -1)
+        weight = 0.1 * self.share * zone.weight
+        by_e = np.einsum("imb,jmb,kmb,mb->ijkb", zone.u, zone.u, zone.u, weight / zone.h**2)
+        size = np.hypot(*w)
+        turn = np.stack([-w[1], w[0]]) / np.where(size > 0.0, size, 1.0)
+        across = np.sum(e * turn, axis=0)
+        ends = 1.0 / (1.0 - across) - 1.0 / (1.0 + across)
+        ends *= 0.1 * self.share / np.where(size > 0.0, size, np.inf)
+        by_w = ends * turn[:, None, None] * turn[:, None] * turn
+        return np.concatenate([by_e, by_w], axis=2).reshape(2, 2, 4, *eccentricity.shape[1:])
+
+    def convection(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force of convection, shape (2, ...); see `FilmInertia.convection`."""
+        zone = _zone(eccentricity, rate)
+        push = CONVECTION * self.share * zone.weight * (zone.toward / zone.h) ** 2
+        found = -np.einsum("imb,mb->ib", zone.u, push)
+        return found.reshape(eccentricity.shape)
+
+    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return its derivatives, shape (2, 4, ...); see `FilmInertia.convection_slopes`."""
+        zone = _zone(eccentricity, rate)
+        push = -2.0 * CONVECTION * self.share * zone.weight * zone.toward / zone.h**2
+        by_w = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, push)
+        by_e = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, push * zone.toward / zone.h)
+        return np.concatenate([by_e, by_w], axis=1).reshape(2, 4, *eccentricity.shape[1:])
+
+
+def _zone(eccentricity: Array, rate: Array) -> _Zone:
+    """Return the nodes of the half circles in which w.u > 0."""
+    e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
+    minimum = np.arctan2(e[1], e[0])
+    ahead = np.arctan2(w[1], w[0]) - minimum
+    arc = arc_nodes(np.hypot(*e), ahead - 0.5 * np.pi, ahead + 0.5 * np.pi, 0.0, *NODES)
+    cos, sin = np.cos(minimum), np.sin(minimum)
+    u = np.stack([cos * arc.cos - sin * arc.sin, sin * arc.cos + cos * arc.sin])
+    return _Zone(u, arc.h, arc.weight, np.einsum("ib,imb->mb", w, u))
+
+
+# Functions of the radius for full films of finite length, between ends of any leakage, in a short table.
+
+
+LARGEST_TABULATED = 0.95
+"""Eccentricity ratio to which the pressures are resolved; beyond, all goes on as powers of 1 - eps^2."""
+
+INERTIA_NODES = 20
+"""Of the table, over sqrt(1 - eps^2)."""
+
+POWERS = np.array([1.0, 1.0, 1.0, 1.0, 3.0, 3.0, 5.0])
+"""Of 1/sqrt(1 - eps^2) in the `InertiaFunctions` and the two of the damping: those of the short film."""
+
+
+@dataclass(frozen=True, eq=False)
+class RadialTable:
+    """Seven functions of the squared eccentricity ratio, as polynomials in s = sqrt(1 - E).
+
+    Parameters
+    ----------
+    table : ndarray, shape (NODES, 7)
+        Chebyshev coefficients of the functions times s to the `POWERS`.
+    """
+
+    table: Array
+
+    def inertia(self, E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
+        """Return the functions of mass and convection, and their slopes; see `film_inertia.Radial`."""
+        values, slopes = self._at(E)
+        return InertiaFunctions(*values[:5]), InertiaFunctions(*slopes[:5])
+
+    def damping(self, E: Array) -> tuple[Array, Array]:
+        """Return the damping C w = c w + d (e.w) e as (c, d), shape (2, ...), and its slopes by E."""
+        values, slopes = self._at(E)
+        return values[5:], slopes[5:]
+
+    def _at(self, E: Array) -> tuple[Array, Array]:
+        s = np.sqrt(1.0 - E)
+        least = least_root()
+        if np.any(s < least * (1.0 - 1e-9)):
+            warn_user(
+                f"eccentricity ratio must not exceed {LARGEST_TABULATED} for a film of finite length with "
+                f"seals or inertia, got {math.sqrt(float(np.max(E))):.6g}: it goes on as a power"
+            )
+        x = np.clip((2.0 * s - 1.0 - least) / (1.0 - least), -1.0, 1.0)
+        powers = POWERS.reshape(-1, *(1,) * E.ndim)
+        scale = s**-powers
+        chebyshev = np.polynomial.chebyshev
+        value = chebyshev.chebval(x, self.table)
+        slope = chebyshev.chebval(x, chebyshev.chebder(self.table)) * np.where(s < least, 0.0, 2.0)
+        by_s = slope / (1.0 - least) - powers * value / s
+        return value * scale, by_s * scale * (-0.5 / s)
+
+
+@lru_cache(maxsize=32)
+def radial_table(slenderness: float, end_leak: float) -> RadialTable:
+    """Return the functions of a film of one length / diameter and one leakage of its ends [1], in a second.
+
+    See `squeeze_motions`.
+    """
+    chebyshev, least = np.polynomial.chebyshev, least_root()
+    x = chebyshev.chebpts1(INERTIA_NODES)
+    s = 0.5 * ((1.0 - least) * x + 1.0 + least)
+    rows = [_functions(float(eps), slenderness, end_leak) for eps in np.sqrt((1.0 - s) * (1.0 + s))]
+    return RadialTable(chebyshev.chebfit(x, np.array(rows) * s[:, None] ** POWERS, INERTIA_NODES - 1))
+
+
+def least_root() -> float:
+    """Return the smallest sqrt(1 - eps^2) of a table."""
+    return math.sqrt(1.0 - LARGEST_TABULATED**2)
+
+
+def _functions(eps: float, slenderness: float, end_leak: float) -> tuple[float, ...]:
+    """Return m, n, a, b, c of the inertia and c, d of the damping at one eccentricity ratio."""
+    (c_r, c_t), (m_r, m_t), (radial, across, along) = squeeze_motions(eps, slenderness, end_leak)
+    a, b = across / eps, along / eps
+    return m_t, (m_r - m_t) / eps**2, a, b, (radial / eps - a - b) / eps**2, c_t, (c_r - c_t) / eps**2
+
+
+@dataclass(frozen=True, eq=False)
+class TabulatedSqueezeFilm:
+    """Full film of finite length between ends of any leakage: F = -c w - d (e.w) e.
+
+    Parameters
+    ----------
+    table : RadialTable
+    """
+
+    table: RadialTable
+
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
+        (c, d), _ = self.table.damping(np.asarray(np.sum(eccentricity**2, axis=0)))
+        return -c * rate - d * np.sum(eccentricity * rate, axis=0) * eccentricity
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
+        e, w = eccentricity, rate
+        (c, d), (c_E, d_E) = self.table.damping(np.asarray(np.sum(e**2, axis=0)))
+        ew = np.sum(e * w, axis=0)
+        unit = np.eye(2).reshape(2, 2, *(1,) * ew.ndim)
+        by_rate = -c * unit - d * e[:, None] * e
+        grown = c_E * w + d_E * ew * e
+        by_position = -2.0 * grown[:, None] * e - d * (ew * unit + e[:, None] * w)
+        return np.concatenate([by_position, by_rate], axis=1)
+
+
+# The inertia of the oil in a full squeeze film: the mass that it adds and the force of its
+# convection.
+#
+# The first order in the Reynolds number: with the acceleration a of the rotor the film answers
+#
+# F = F_viscous(x, v) - M(x) a + q(x, v, v)
+#
+# M without q would be wrong by half at eccentricity ratio 0.5. In units: x = clearance e, v =
+# clearance w; M in density radius length^3 / clearance, q in density radius length^3 per 1/s^2.
+
+
+CONVECTION = 17.0 / 70.0
+"""Force of convection in a short film per integral of (w.m)^2 m/h^2: (102/35)/12 of its pressure."""
+
+
+class FilmInertia(Protocol):
+    """The inertia of a film in its units."""
+
+    @property
+    def reach(self) -> float:
+        """Eccentricity ratio to which it is meant; 1 where that is the wall."""
+
+    def mass(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the added mass, shape (2, 2, ...), symmetric.
+
+        Parameters
+        ----------
+        eccentricity : ndarray, shape (2, ...) [1]
+            Position / clearance.
+        rate : ndarray, shape (2, ...) [1/s]
+            Velocity / clearance; of a ruptured film only its direction matters, of a full one nothing.
+        """
+
+    def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d mass / d (eccentricity, rate), shape (2, 2, 4, ...)."""
+
+    def convection(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force of convection on the rotor, shape (2, ...)."""
+
+    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d convection / d (eccentricity, rate), shape (2, 4, ...)."""
+
+
+class InertiaFunctions(NamedTuple):
+    """Mass m I + n e e and convection a |w|^2 e + b (e.w) w + c (e.w)^2 e of a full film, each (...).
+
+    Attributes
+    ----------
+    m, n, a, b, c : ndarray
+        Functions of the squared eccentricity ratio.
+    """
+
+    m: Array
+    n: Array
+    a: Array
+    b: Array
+    c: Array
+
+
+Radial = Callable[[Array], tuple[InertiaFunctions, InertiaFunctions]]
+"""Values and slopes of the functions at squared eccentricity ratios."""
+
+
+@dataclass(frozen=True, eq=False)
+class FullInertia:
+    """Inertia of a film all round, which does not depend on direction: five functions of the radius.
+
+    Parameters
+    ----------
+    radial : callable
+        Returns the `InertiaFunctions` and their slopes at squared eccentricity ratios (...).
+    reach : float [1]
+        Eccentricity ratio to which they are meant.
+    """
+
+    radial: Radial
+    reach: float = 1.0
+
+    def mass(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""
+        e, at = eccentricity, self.radial(_squared(eccentricity))[0]
+        return at.m * _unit(e) + at.n * e[:, None] * e
+
+    def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return its derivatives, shape (2, 2, 4, ...); see `FilmInertia.mass_slopes`."""
+        e, unit = eccentricity, _unit(eccentricity)
+        at, slope = self.radial(_squared(e))
+        by_e = 2.0 * (slope.m * unit + slope.n * e[:, None] * e)[:, :, None] * e
+        by_e += at.n * (unit[:, None] * e[:, None] + e[:, None, None] * unit)
+        return np.concatenate([by_e, np.zeros_like(by_e)], axis=2)
+
+    def convection(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force of convection, shape (2, ...); see `FilmInertia.convection`."""
+        e, w, at = eccentricity, rate, self.radial(_squared(eccentricity))[0]
+        ew = np.sum(e * w, axis=0)
+        return (at.a * _squared(w) + at.c * ew**2) * e + at.b * ew * w
+
+    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
+        """Return its derivatives, shape (2, 4, ...); see `FilmInertia.convection_slopes`."""
+        e, w, unit = eccentricity, rate, _unit(eccentricity)
+        at, slope = self.radial(_squared(e))
+        ew, ww = np.sum(e * w, axis=0), _squared(w)
+        grown = (slope.a * ww + slope.c * ew**2) * e + slope.b * ew * w
+        by_e = 2.0 * grown[:, None] * e + (at.a * ww + at.c * ew**2) * unit
+        by_e += (2.0 * at.c * ew * e + at.b * w)[:, None] * w
+        by_w = 2.0 * at.a * e[:, None] * w + (2.0 * at.c * ew * e + at.b * w)[:, None] * e
+        return np.concatenate([by_e, by_w + at.b * ew * unit], axis=1)
+
+
+def short_inertia(E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
+    """Return the functions of a short film, open or sealed, and their slopes; exact for 0 <= E < 1.
+
+    Parameters
+    ----------
+    E : ndarray, shape (...) [1]
+        Squared eccentricity ratio.
+
+    Notes
+    -----
+    The inertia of the film's mean flow z h_t/h (first order, parabolic profile) gives the pressure
+
+        integral of p dz = -(density L^3/12) [(6/5) h_tt/h - (102/35) h_t^2/h^2],
+
+    M = (1/10) integral of m m/h, q = (17/70) integral of (w.m)^2 m/h^2 over the circumference, here in closed
+    form with s = sqrt(1 - E). Seals change the viscous pressure only: what leaves a short film is its volume.
+    """
+    s = np.sqrt(1.0 - E)
+    near, tenth, share = 1.0 + s, 0.1 * np.pi, 2.0 * np.pi * CONVECTION
+    n = 2.0 * tenth / (s * near**2)
+    t = -share / (s * near**2)
+    c = -share * (3.0 * s + 1.0) / (s * near) ** 3
+    by_s = -0.5 / s  # ds/dE
+    n_log = -(1.0 / s + 2.0 / near) * by_s
+    c_log = (3.0 / (3.0 * s + 1.0) - 3.0 / s - 3.0 / near) * by_s
+    values = InertiaFunctions(2.0 * tenth / near, n, t, 2.0 * t, c)
+    slopes = InertiaFunctions(-2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log)
+    return values, slopes
+
+
+def _squared(vector: Array) -> Array:
+    return np.asarray(np.sum(vector * vector, axis=0))
+
+
+def _unit(vector: Array) -> Array:
+    return np.eye(2).reshape(2, 2, *(1,) * (vector.ndim - 1))
+
+
+# Full squeeze film of finite length between ends of any leakage: pressure, added mass and convection.
+#
+# Laminar flow -grad p = 12 viscosity v/h^2, div(h v) = -h_t, flow out of either end G_s p. By Ritz's
+# method: harmonics around the circumference; along the axis Legendre polynomials that vanish at the
+# ends, and a constant, which the ends leave free. The inertia of that flow adds a pressure p1 of
+# first order in the Reynolds number, whose force needs no second solution: with the velocity field
+# v_k of a unit velocity of the rotor along k, and v that of its whole motion,
+#
+# F1_k = -density * integral of h v_k.[(6/5) dv/dt + (54/35) (v.grad) v - (6/35) (h_t/h) v] dA,
+#
+# because leakage is linear and symmetric. (6/5, 54/35 and 6/35 belong to the parabolic profile.)
+
+
+AXIAL = 8
+"""Functions along half the axis."""
+
+MOST_HARMONICS = 90
+TOLERANCE = 1e-9
+
+
+class SqueezeMotions(NamedTuple):
+    """Damping, mass and convection of a full film at one eccentricity ratio, the rotor on the x axis.
+
+    Attributes
+    ----------
+    damping, mass : tuple of two floats
+        Along the radius and across it; [viscosity radius length^3/clearance^3], [density radius
+        length^3/clearance].
+    convection : tuple of three floats
+        Radial force of w_r^2, radial of w_t^2, tangential of w_r w_t; [density radius length^3].
+    """
+
+    damping: tuple[float, float]
+    mass: tuple[float, float]
+    convection: tuple[float, float, float]
+
+
+class _Axis(NamedTuple):
+    """Functions along the axis at Gauss nodes, (functions, nodes), and their values at an end."""
+
+    weight: Array
+    value: Array
+    slope: Array
+    bend: Array
+    end: Array
+
+
+class _Slopes(NamedTuple):
+    """Derivatives of a pressure over the angle and over the axis in half lengths, each (theta, z)."""
+
+    t: Array
+    z: Array
+    tt: Array
+    tz: Array
+    zz: Array
+
+
+class _Flow(NamedTuple):
+    """Mean velocity around and along, and its derivatives over both in radii, each (theta, z)."""
+
+    around: Array
+    along: Array
+    around_t: Array
+    around_z: Array
+    along_t: Array
+    along_z: Array
+
+
+def squeeze_motions(eps: float, slenderness: float, end_leak: float) -> SqueezeMotions:
+    """Return what a film does in unit motions.
+
+    Parameters
+    ----------
+    eps : float [1]
+        Eccentricity ratio, above 0.
+    slenderness : float [1]
+        Length / diameter.
+    end_leak : float [1]
+        12 viscosity radius G_s/clearance^3 of either end, infinite for an open one.
+    """
+    film = _Film(eps, slenderness, end_leak)
+    pressures = [film.pressure(k) for k in range(2)]
+    slopes = [film.slopes(k, P) for k, P in enumerate(pressures)]
+    flows = [film.flow(p) for p in slopes]
+    mass = [0.15 / slenderness**2 * film.over(film.h * (v.around**2 + v.along**2)) for v in flows]
+    damping = [film.damping(k, P) for k, P in enumerate(pressures)]
+    moved = [[film.moved(k, p, way) for way in range(2)] for k, p in enumerate(slopes)]
+    pushes = [film.convection(k, rate, flows, moved) for k, rate in ((0, (1, 0)), (0, (0, 1)), (1, (1, 1)))]
+    return SqueezeMotions((damping[0], damping[1]), (mass[0], mass[1]), (pushes[0], pushes[1], pushes[2]))
+
+
+class _Film:
+    """One film: its grid, and pressures even (0) and odd (1) in the angle."""
+
+    def __init__(self, eps: float, slenderness: float, end_leak: float) -> None:
+        count = _harmonics(eps)
+        theta = 2.0 * np.pi / (4 * count) * np.arange(4 * count)
+        self.s, self.leak, self.axis = slenderness, end_leak, _axis(free_ends=math.isfinite(end_leak))
+        self.m = (np.cos(theta)[:, None], np.sin(theta)[:, None])
+        self.h, self.h_t = 1.0 + eps * self.m[0], -eps * self.m[1]
+        self.step = 2.0 * np.pi / theta.size
+        n = np.arange(count + 1.0)[:, None]
+        cos, sin = np.cos(n * theta), np.sin(n * theta)
+        even, odd = (cos, -n * sin, -n * n * cos), (sin, n * cos, -n * n * sin)
+        self.ring = (even, tuple(rows[1:] for rows in odd))
+        self.factor = [cho_factor(self._matrix(parity)) for parity in range(2)]
+
+    def over(self, values: Array) -> float:
+        """Return the integral over the angle and over the axis in half lengths."""
+        return float(self.step * np.sum(values @ self.axis.weight))
+
+    def pressure(self, k: int) -> Array:
+        """Return the pressure of a unit rate along x (0) or y (1): coefficients (harmonics, functions)."""
+        source = (self.ring[k][0] * self.step) @ self.m[k] * (self.axis.value @ self.axis.weight)
+        return self._solved(k, -self.s * source)
+
+    def slopes(self, parity: int, P: Array) -> _Slopes:
+        """Return the derivatives of a pressure on the grid."""
+        (value, slope, bend), axis = self.ring[parity], self.axis
+        pairs = ((slope, axis.value), (value, axis.slope), (bend, axis.value), (slope, axis.slope))
+        return _Slopes(*(ring.T @ P @ line for ring, line in (*pairs, (value, axis.bend))))
+
+    def damping(self, k: int, P: Array) -> float:
+        """Return minus the force on the rotor along k."""
+        return -1.5 / self.s**2 * self.over(self.m[k] * (self.ring[k][0].T @ P @ self.axis.value))
+
+    def flow(self, p: _Slopes) -> _Flow:
+        """Return the velocity -h^2 grad p and its derivatives."""
+        h, s, grown = self.h**2, self.s, 2.0 * self.h * self.h_t
+        return _Flow(
+            -h * p.t,
+            -h * p.z / s,
+            -(grown * p.t + h * p.tt),
+            -h * p.tz / s,
+            -(grown * p.z + h * p.tz) / s,
+            -h * p.zz / s**2,
+        )
+
+    def moved(self, k: int, p: _Slopes, way: int) -> tuple[Array, Array]:
+        """Return how the velocity of a unit rate along k changes as the rotor moves along x (0) or y (1)."""
+        parity, by_h = (k + way) % 2, 2.0 * self.h * self.m[way]
+        bent = 3.0 * self.h**2 * self.m[way] * self.step
+        value, slope = self.ring[parity][:2]
+        axis, weight = self.axis, self.axis.weight
+        load = self.s * (slope @ (bent * p.t)) @ (weight * axis.value).T
+        load += (value @ (bent * p.z)) @ (weight * axis.slope).T / self.s
+        change = self.slopes(parity, self._solved(parity, -load))
+        h = self.h**2
+        return -(by_h * p.t + h * change.t), -(by_h * p.z + h * change.z) / self.s
+
+    def convection(
+        self, k: int, rate: tuple[float, float], flows: list[_Flow], moved: list[list[tuple[Array, Array]]]
+    ) -> float:
+        """Return the force of convection along k for a rate of the rotor that stays the same."""
+        v = _Flow(*(rate[0] * a + rate[1] * b for a, b in zip(*flows, strict=True)))
+        squeezed = 6.0 / 35.0 * (rate[0] * self.m[0] + rate[1] * self.m[1]) / self.h
+        carried = (v.around * v.around_t + v.along * v.around_z, v.around * v.along_t + v.along * v.along_z)
+        power = np.zeros_like(v.around)
+        for axis, (own, along) in enumerate(zip(flows[k][:2], carried, strict=True)):
+            changing = sum(rate[i] * rate[j] * moved[i][j][axis] for i in range(2) for j in range(2))
+            power += own * (1.2 * changing + 54.0 / 35.0 * along - squeezed * v[axis])
+        return -0.125 / self.s**2 * self.over(self.h * power)
+
+    def _matrix(self, parity: int) -> Array:
+        """Return the quadratic form of the pressure: its flow in the film, and out of both ends."""
+        value, slope, _ = self.ring[parity]
+        axis, cube = self.axis, self.step * self.h[:, 0] ** 3
+        lines = [(rows * axis.weight) @ rows.T for rows in (axis.value, axis.slope)]
+        matrix = self.s * np.kron((slope * cube) @ slope.T, lines[0])
+        matrix += np.kron((value * cube) @ value.T, lines[1]) / self.s
+        if math.isfinite(self.leak):
+            ends = 2.0 * self.leak * np.outer(axis.end, axis.end)
+            matrix += np.kron(self.step * value @ value.T, ends)
+            if parity == 0 and self.leak == 0.0:
+                matrix[0, 0] = 1.0  # of a sealed film the mean pressure is free, and has no force
+        return np.asarray(matrix)
+
+    def _solved(self, parity: int, load: Array) -> Array:
+        return np.asarray(cho_solve(self.factor[parity], load.ravel()).reshape(load.shape))
+
+
+def _axis(*, free_ends: bool) -> _Axis:
+    """Return differences of even Legendre polynomials, and the constant of ends with a pressure."""
+    x, weight = np.polynomial.legendre.leggauss(2 * AXIAL + 4)
+    rows = np.zeros((AXIAL, 2 * AXIAL + 1))
+    for j in range(AXIAL):
+        rows[j, [2 * j, 2 * j + 2]] = np.array([-1.0, 1.0]) / math.sqrt(4.0 * j + 3.0)
+    if free_ends:
+        rows = np.vstack([np.eye(1, rows.shape[1]), rows])
+    value, slope, bend = (
+        np.asarray(
+            np.polynomial.legendre.legval(x, np.polynomial.legendre.legder(rows.T, order)), dtype=float
+        )
+        for order in range(3)
+    )
+    return _Axis(weight, value, slope, bend, np.sum(rows, axis=1))
+
+
+def _harmonics(eps: float) -> int:
+    """Return how many harmonics a pressure ~ 1/h^3 takes: they fall as (eps/(1 + sqrt(1 - eps^2)))^m."""
+    ratio = eps / (1.0 + math.sqrt((1.0 - eps) * (1.0 + eps)))
+    return int(min(MOST_HARMONICS, 10 + 1.3 * math.log(TOLERANCE) / math.log(max(ratio, 1e-3))))
+
+
+# Seals at the ends of a squeeze film, by their leakage.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class EndSeal:
+    """Equal seals at both ends of a squeeze film: flow out of an end = leakage * pressure * circumference.
+
+    Damping and added mass of a sealed damper are set by its seals, not by its film, and no seal is known to
+    better than some tenths: its uncertainty belongs to every answer. An O-ring is tight (leakage 0), with a
+    stiffness of its own that `Sprung` adds.
+
+    Parameters
+    ----------
+    leakage : float [m2/(Pa.s)]
+        G_s, volume per time, circumference and pressure; 0 for a tight seal.
+    uncertainty : float [1]
+        Of the leakage, relative: it may be that much larger or smaller. Below 1.
+
+    Raises
+    ------
+    InputError
+        If the leakage is negative or not finite, or the uncertainty not from 0 to below 1.
+    """
+
+    leakage: float
+    uncertainty: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_non_negative("leakage", self.leakage)
+        require_non_negative("uncertainty", self.uncertainty)
+        if self.uncertainty >= 1.0:
+            raise InputError(f"uncertainty must be below 1, got {self.uncertainty!r}")
+
+    @property
+    def bounds(self) -> tuple[EndSeal, EndSeal]:
+        """The tightest and the most leaking seal within the uncertainty."""
+        low, high = (self.leakage * (1.0 + sign * self.uncertainty) for sign in (-1.0, 1.0))
+        return EndSeal(leakage=low), EndSeal(leakage=high)
+
+
+@arguments
+def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
+    """Return the seal that is a narrow gap: leakage height^3/(12 viscosity length).
+
+    Parameters
+    ----------
+    height, length : float [m]
+        Of the gap, along the radius and along the axis.
+    viscosity : float [Pa s]
+
+    Raises
+    ------
+    InputError
+        If a value is not positive.
+    """
+    for name, value in (("height", height), ("length", length), ("viscosity", viscosity)):
+        require_positive(name, value)
+    return EndSeal(leakage=height**3 / (12.0 * viscosity * length))
+
+
+@arguments
+def leak_test_seal(*, flow: float, pressure: float, radius: float, uncertainty: float = 0.0) -> EndSeal:
+    """Return the seal of a leak test: leakage flow/(2 pi radius pressure).
+
+    A slit at the butt of one piston ring counts as spread over the circumference.
+
+    Parameters
+    ----------
+    flow : float [m3/s]
+        Out of one end.
+    pressure : float [Pa]
+        Inside, above that outside.
+    radius : float [m]
+        Of the film.
+    uncertainty : float [1]
+        As of an `EndSeal`.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule.
+    """
+    require_non_negative("flow", flow)
+    require_positive("pressure", pressure)
+    require_positive("radius", radius)
+    return EndSeal(leakage=flow / (2.0 * math.pi * radius * pressure), uncertainty=uncertainty)
+
+
+@dataclass(frozen=True, eq=False)
+class SealedShortFilm:
+    """A short film with seals: what leaves it needs the pressure h_t L/(2 G_s) at the ends, a damping more.
+
+    Parameters
+    ----------
+    film : SqueezeFilm
+        The same with open ends.
+    damping : float [1]
+        Of the seals: pi c^3/(2 viscosity G_s L) in the film's units, half of that where the film ruptures,
+        since the pressure at the ends has the sign of that in the film.
+    """
+
+    film: SqueezeFilm
+    damping: float
+
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
+        return self.film.force(eccentricity, rate) - self.damping * rate
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
+        found = self.film.jacobian(eccentricity, rate)
+        unit = np.eye(2).reshape(2, 2, *(1,) * (eccentricity.ndim - 1))
+        found[:, 2:] -= self.damping * unit
+        return found

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
-from ...errors import InputError, require_finite, require_non_negative, require_positive
-from ...inputs.si_arguments import quantities
+from ...core.errors import InputError, require_finite, require_non_negative, require_positive
+from ...core.inputs import quantities
 
 TURN = 2.0 * math.pi
 
@@ -253,3 +254,213 @@ def _gaps(pads: tuple[Pad, ...]) -> list[Span]:
             raise InputError(f"pads must not overlap, got {pad!r} and {following!r}")
         gaps.append(Span((pad.start + pad.extent) % TURN, max(room - pad.extent, 0.0), 0.0))
     return gaps
+
+
+# The openings of a bearing seen from an axis of their own, so that turned bearings share one map.
+
+
+STEPS = 7_200_000_000
+"""Angles are compared as whole numbers of TURN/STEPS, 1e-9 rad."""
+
+WIDEST = TURN / 6.0
+"""Widest opening of a map: the wider, the less a source finds that carries; past half a turn J vanishes."""
+
+_View = tuple[tuple[int, int], ...]
+
+
+class AlignedOpenings(NamedTuple):
+    """Openings at ambient pressure, the axis from which they are seen, and their symmetry.
+
+    Attributes
+    ----------
+    grooves : tuple of Groove
+        Grooves and gaps between pads; angles from the axis, in ascending order.
+    axis : float [rad]
+        Angle of the axis in the bearing frame.
+    mirrored : bool
+        Whether the axis is one of mirror symmetry.
+    fold : int
+        Whole turns are `fold` times a turn that leaves the openings as they are.
+    """
+
+    grooves: tuple[Groove, ...]
+    axis: float
+    mirrored: bool
+    fold: int
+
+
+def aligned_openings(geometry: FilmGeometry) -> AlignedOpenings:
+    """Return the openings of a bearing seen from the middle of an opening or of a film between two.
+
+    Raises
+    ------
+    InputError
+        If there is a supply pressure, no opening, or one that is too wide.
+    """
+    require_mappable(geometry)
+    middles = [span.start + 0.5 * span.extent for span in geometry.spans()]
+    candidates = [(_view(geometry, axis), axis) for axis in middles]
+    view, axis = min(candidates, key=lambda pair: (pair[0] != _mirror(pair[0]), pair[0]))
+    grooves = tuple(Groove(center=c * TURN / STEPS, width=w * TURN / STEPS) for c, w in view)
+    return AlignedOpenings(grooves, axis, view == _mirror(view), _fold(view))
+
+
+def is_mappable(geometry: FilmGeometry) -> bool:
+    """Return whether a film of this geometry has a map: no supply, openings of 60 deg at most."""
+    try:
+        require_mappable(geometry)
+    except InputError:
+        return geometry.plain and geometry.supply == 0.0
+    return True
+
+
+def require_mappable(geometry: FilmGeometry) -> None:
+    """Raise InputError where a film of this geometry has no map, with what to take instead."""
+    if geometry.supply > 0.0:
+        raise InputError(
+            f"supply pressure must be 0 for a map of the film, got {geometry.supply!r} 1/s in units of 12 "
+            "viscosity radius^2/clearance^2: with a supply the force is not homogeneous in the velocity; "
+            "take ReynoldsFilm"
+        )
+    geometry.require_whole_length("a map of the film")
+    if geometry.plain:
+        raise InputError("a map with openings needs grooves or pads, got a plain bearing; take MapFilm")
+    widest = max(opening.extent for opening in geometry.openings())
+    if widest > WIDEST * (1.0 + 1e-9):
+        raise InputError(
+            f"openings must not be wider than 60 deg for a map of the film, got {widest:.6g} rad: "
+            "some motions find hardly a film that carries; take ReynoldsFilm"
+        )
+
+
+def _view(geometry: FilmGeometry, axis: float) -> _View:
+    openings = (
+        (opening.start + 0.5 * opening.extent - axis, opening.extent) for opening in geometry.openings()
+    )
+    return tuple(sorted((round(c / TURN * STEPS) % STEPS, round(w / TURN * STEPS)) for c, w in openings))
+
+
+def _mirror(view: _View) -> _View:
+    return tuple(sorted((-center % STEPS, width) for center, width in view))
+
+
+def _fold(view: _View) -> int:
+    for fold in range(len(view), 1, -1):
+        turned = tuple(sorted(((center + STEPS // fold) % STEPS, width) for center, width in view))
+        if STEPS % fold == 0 and turned == view:
+            return fold
+    return 1
+
+
+# Where the film of a bearing without openings starts.
+
+
+@runtime_checkable
+class FilmStart(Protocol):
+    """The line at ambient pressure at which a film starts, if there is one."""
+
+    @property
+    def line(self) -> float | None:
+        """Angle of a line that stays in the bearing [rad]; None for none."""
+
+    @property
+    def turning(self) -> bool:
+        """Whether the line lies at the widest gap and turns with the journal."""
+
+    def __hash__(self) -> int:
+        """Return the same for equal starts: grids are kept by it."""
+
+
+@dataclass(frozen=True)
+class FreeStart:
+    """The film starts where Reynolds' equation lets it: oil is there wherever pressure can be."""
+
+    line: ClassVar[float | None] = None
+    """No line is held."""
+
+    turning: ClassVar[bool] = False
+    """Nothing turns."""
+
+
+@dataclass(frozen=True)
+class WidestGap:
+    """The film starts at the widest gap, opposite to the journal's displacement, with which the line turns.
+
+    So do the printed tables of Butenschoen (1976) and others. At the center the gap is equal all round, and
+    the force depends on the direction from which it is approached.
+    """
+
+    line: ClassVar[float | None] = None
+    """No line stays in the bearing."""
+
+    turning: ClassVar[bool] = True
+    """The line turns with the journal."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class HeldLine:
+    """The film starts at a line that stays in the bearing, such as a supply that is not a groove.
+
+    Parameters
+    ----------
+    line : float [rad]
+        Its angle in the bearing frame, from +x towards +y.
+    """
+
+    line: float
+
+    turning: ClassVar[bool] = False
+    """The line stays."""
+
+    def __post_init__(self) -> None:
+        require_finite("line", self.line)
+
+
+# What a two-dimensional film does where its pressure would fall below ambient.
+
+
+@runtime_checkable
+class Cavitation(Protocol):
+    """How negative pressure is dealt with: find the ruptured zone, clip the pressure, or bear tension."""
+
+    @property
+    def searched(self) -> bool:
+        """Whether the ruptured zone is a part of the solution, p >= 0."""
+
+    @property
+    def clipped(self) -> bool:
+        """Whether negative pressures of a full film are dropped from the answer."""
+
+
+@dataclass(frozen=True)
+class Complementarity:
+    """Reynolds rupture: p >= 0, and no flux out of the ruptured zone (p and its slope vanish at its edge)."""
+
+    searched: ClassVar[bool] = True
+    """The ruptured zone is searched for."""
+
+    clipped: ClassVar[bool] = False
+    """Nothing is left to clip."""
+
+
+@dataclass(frozen=True)
+class HalfSommerfeld:
+    """Guembel rupture: the negative pressures of the full film are dropped; flow is not conserved."""
+
+    searched: ClassVar[bool] = False
+    """The film is solved full."""
+
+    clipped: ClassVar[bool] = True
+    """Negative pressures are dropped."""
+
+
+@dataclass(frozen=True)
+class FullFilm:
+    """Sommerfeld film: no rupture, tension included."""
+
+    searched: ClassVar[bool] = False
+    """The film is solved full."""
+
+    clipped: ClassVar[bool] = False
+    """Negative pressures stay."""

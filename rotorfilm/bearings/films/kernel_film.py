@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ConvergenceError, InputError, require_inside, warn_user
-from ...model import Array
+from ...core.errors import ConvergenceError, InputError, require_inside, warn_user
+from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
-from ...native.film_kernels import Batch
-from ...native.response_kernels import ResponseKernel
+from ...native.film_kernels import Batch, ResponseKernel
 from .law import FilmOptions, vanishing_source, wall_contact
 
 

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from time import perf_counter
 from typing import Protocol
 
 import numpy as np
 
-from ...errors import InputError
-from ...model import Array
+from ...core.errors import InputError
+from ...core.model import Array
+from ...core.progress import Report
 from .map_table import MapTable, stretch, unstretch
-from .quintic import quintic_coefficients
 
 _SLOPE_WEIGHTS = np.array([8 / 5, -4 / 5, 8 / 35, -1 / 35])
 """Weights of an even function at 1, 2, 3, 4 that give its value at 0, to eighth order."""
@@ -136,3 +141,212 @@ def _exponent(L: Array, reach: float, slope: Array | None) -> Array:
 def _with_ghosts(M: Array) -> Array:
     """Return M with the nodes at -X in front: a step across the center turns the direction around."""
     return np.concatenate([-M[:, :0:-1, ::-1], M], axis=1)
+
+
+# Interpolation by quintic B-splines on a uniform grid: sixth order, four derivatives continuous.
+
+
+DEGREE = 5
+
+_AT_NODE = np.array([1.0, 26.0, 66.0, 26.0, 1.0]) / 120.0
+_POWERS = np.arange(6.0)[:, None]
+_BASIS = (
+    np.array(
+        [
+            [1.0, -5.0, 10.0, -10.0, 5.0, -1.0],
+            [26.0, -50.0, 20.0, 20.0, -20.0, 5.0],
+            [66.0, 0.0, -60.0, 0.0, 30.0, -10.0],
+            [26.0, 50.0, 20.0, -20.0, -20.0, 10.0],
+            [1.0, 5.0, 10.0, 10.0, 5.0, -5.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+    / 120.0
+)
+"""Polynomials of the fraction of a cell that its six B-splines are."""
+
+_SIXTH_DIFFERENCE = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0])
+
+
+def quintic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the B-spline coefficients that interpolate `values` on a uniform grid along one axis.
+
+    Parameters
+    ----------
+    values : ndarray
+        Values at `cells + 1` nodes along `axis`, at least 6.
+    axis : int
+        The axis of the nodes.
+
+    Returns
+    -------
+    ndarray
+        `cells + 5` coefficients along `axis`; cell i is covered by i, ..., i + 5. The two knots nearest
+        to each end are no knots (the fifth derivative is continuous there), which keeps the sixth order
+        up to the ends.
+    """
+    nodes = np.moveaxis(values, axis, 0)
+    right = np.concatenate([nodes, np.zeros((4, *nodes.shape[1:]))])
+    matrix = _collocation(len(nodes) - 1)
+    solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
+    return np.moveaxis(solved.reshape(right.shape), 0, axis)
+
+
+def periodic_quintic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the coefficients that interpolate `values` on a uniform turn, each centered on its node."""
+    count = values.shape[axis]
+    turn = 2.0 * np.pi * np.arange(count // 2 + 1) / count
+    at_node = (66.0 + 52.0 * np.cos(turn) + 2.0 * np.cos(2.0 * turn)) / 120.0
+    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / at_node
+    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), count, axis)
+
+
+def periodic_quintic(coefficients: Array, turns: Array) -> Array:
+    """Return the periodic spline of `periodic_quintic_coefficients` (axis 0) at fractions of a turn, (n,)."""
+    count = len(coefficients)
+    cell, inside = np.divmod(turns % 1.0 * count, 1.0)
+    near = (cell.astype(int) + np.arange(-2, 4)[:, None]) % count
+    return np.einsum("jn,jn...->n...", spline_weights(inside), coefficients[near])
+
+
+def spline_weights(inside: Array) -> Array:
+    """Return the six B-splines of a cell at fractions of it, shape (6, n)."""
+    return _BASIS @ inside**_POWERS
+
+
+def spline_slopes(inside: Array) -> Array:
+    """Return the derivatives of the six B-splines of a cell by the fraction, shape (6, n)."""
+    return _BASIS[:, 1:] @ (_POWERS[1:] * inside ** _POWERS[:-1])
+
+
+def _collocation(cells: int) -> Array:
+    matrix = np.zeros((cells + 5, cells + 5))
+    for node in range(cells + 1):
+        matrix[node, node : node + 5] = _AT_NODE
+    for row, knot in enumerate((1, 2, cells - 2, cells - 1)):
+        matrix[cells + 1 + row, knot - 1 : knot + 6] = _SIXTH_DIFFERENCE
+    return matrix
+
+
+# How far a map is off: force and derivatives against a finer film, at states that fill its range evenly.
+
+
+MARGIN = 2.0
+"""A bound is so many times the largest error among the states: of 200 others 1.2 times at most."""
+
+BATCH = 8
+"""States in a piece of work."""
+
+
+def even_shares(count: int, dimensions: int) -> Array:
+    """Return points, (dimensions, count), that fill the unit cube evenly.
+
+    Steps of a sequence (Roberts 2018): 1/g, 1/g^2, ... with g^(dimensions + 1) = g + 1.
+    """
+    g = 1.0
+    for _ in range(64):
+        g = (1.0 + g) ** (1.0 / (dimensions + 1.0))
+    return np.outer(g ** -np.arange(1.0, dimensions + 1.0), np.arange(1, count + 1)) % 1.0
+
+
+def batches(e: Array, w: Array) -> Iterator[tuple[Array, Array]]:
+    """Yield eccentricities and sources (2, n), a piece of work at a time."""
+    for first in range(0, e.shape[1], BATCH):
+        yield e[:, first : first + BATCH], w[:, first : first + BATCH]
+
+
+def state_errors(
+    force: Array,
+    slopes: Array,
+    exact: Array,
+    exact_slopes: Array,
+    least: tuple[Array | float, Array | float] = (0.0, 0.0),
+) -> tuple[Array, Array]:
+    """Return the errors of forces (2, n), and of K and C in (2, 4, n), the larger one, each (n,).
+
+    Relative to the force, and to the largest entry of the matrix; to `least` of them, (n,) and (2, n), where
+    they are below it.
+    """
+    own = np.hypot(*(force - exact)) / np.maximum(np.hypot(*exact), least[0])
+    gaps, sizes = matrix_sizes(slopes - exact_slopes), matrix_sizes(exact_slopes)
+    return own, (gaps / np.maximum(sizes, least[1])).max(axis=0)
+
+
+def matrix_sizes(slopes: Array) -> Array:
+    """Return the largest entries, (2, n), of d force/de and d force/dw in (2, 4, n)."""
+    return np.asarray(np.abs(slopes).reshape(2, 2, 2, -1).max(axis=(0, 2)))
+
+
+# The pieces of a table, made on all cores by threads, and how long that takes, told after the first few.
+
+
+PILOT = 0.08
+"""Share of the pieces after which the time of all is told."""
+
+GOLDEN = 0.6180339887498949
+
+
+def cores() -> int:
+    """Return the number of cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def made_pieces(
+    pieces: Sequence[Callable[[], Array]],
+    report: Report,
+    what: str,
+    *,
+    workers: int = 0,
+    clock: Callable[[], float] = perf_counter,
+) -> list[Array]:
+    """Return what each piece returns.
+
+    The first ones, spread over all of the sequence, are a pilot: the report begins after them, with the time
+    that all take by them, so that their neighbors should cost the same.
+
+    Parameters
+    ----------
+    pieces : sequence of callable
+        Each without arguments; they run side by side where they release the interpreter lock.
+    report : callable
+        Called after the pilot and then after each piece, from this thread.
+    what : str
+        What is made, in the text of the report.
+    workers : int, optional
+        Threads; by default one for each core.
+    clock : callable, optional
+        Returns the time [s].
+    """
+    count = workers or cores()
+    order = spread_order(len(pieces))
+    pilot = min(len(pieces), max(2 * count, math.ceil(PILOT * len(pieces))))
+    found: dict[int, Array] = {}
+    pool = ThreadPoolExecutor(count)
+    try:
+        begin = clock()
+        found.update(_run(pool, pieces, order[:pilot]))
+        seconds = (clock() - begin) * len(pieces) / pilot
+        text = f"{what}, about {seconds:.2g} s"
+        report(pilot / len(pieces), text)
+        for number, answer in _run(pool, pieces, order[pilot:]):
+            found[number] = answer
+            report(len(found) / len(pieces), text)
+    finally:
+        # After an error, or Ctrl-C, what has not begun is given up.
+        pool.shutdown(cancel_futures=True)
+    return [found[number] for number in range(len(pieces))]
+
+
+def spread_order(count: int) -> list[int]:
+    """Return the numbers below `count` so that the first ones, however many, lie all over the range."""
+    return [int(number) for number in np.argsort(np.arange(1, count + 1) * GOLDEN % 1.0)]
+
+
+def _run(
+    pool: ThreadPoolExecutor, pieces: Sequence[Callable[[], Array]], numbers: Sequence[int]
+) -> Iterator[tuple[int, Array]]:
+    waiting: dict[Future[Array], int] = {pool.submit(pieces[number]): number for number in numbers}
+    for done in as_completed(waiting):
+        yield waiting[done], done.result()

@@ -9,19 +9,123 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 
 from __future__ import annotations
 
+import hashlib
+import logging
+import os
+import struct
+import zlib
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError
-from ...files import write_whole
-from ...inputs.si_arguments import quantities
-from ...model import Array
+from ...core.errors import FileWarning, InputError, RotorfilmError, warn_user
+from ...core.files import read_sealed, write_sealed, write_whole
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...core.progress import Report, silent
 from ...native import slice_table
-from .table_bytes import Layout, Sizes, StoredTable, seal, unseal
+
+# How tables lie in files: a mark, a version, a checksum and sizes, then little-endian numbers.
+
+
+_HEADER = struct.Struct("<8sIIiiii")
+
+Sizes = tuple[int, int, int, int]
+
+Layout = tuple[tuple[str, int], ...]
+"""Little-endian dtype and count of each array of a table."""
+
+
+class StoredTable(ABC):
+    """A table that is its bytes: saved, loaded, compared and hashed by them."""
+
+    @abstractmethod
+    def to_bytes(self) -> bytes:
+        """Return the table as little-endian bytes."""
+
+    @classmethod
+    @abstractmethod
+    def from_bytes(cls, content: bytes) -> Self:
+        """Return the table that `to_bytes` wrote."""
+
+    def save(self, path: str | Path) -> None:
+        """Write the table to a file."""
+        write_whole(path, self.to_bytes())
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Return the table in a file; see `from_bytes` for the errors."""
+        return cls.from_bytes(Path(path).read_bytes())
+
+    @cached_property
+    def _content(self) -> bytes:
+        return self.to_bytes()
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (type(other) is type(self) and self._content == other._content)
+
+    def __hash__(self) -> int:
+        return hash(self._content)
+
+
+def seal(mark: bytes, version: int, sizes: Sizes, *arrays: Array | NDArray[np.int32]) -> bytes:
+    """Return the bytes of a table; the mark has eight of them."""
+    body = b"".join(array.astype(array.dtype.newbyteorder("<")).tobytes() for array in arrays)
+    return _HEADER.pack(mark, version, zlib.crc32(body), *sizes) + body
+
+
+def unseal(
+    kind: str, mark: bytes, version: int, layout: Callable[[Sizes], Layout], content: bytes
+) -> tuple[Any, ...]:
+    """Return the sizes, and then as floats the arrays that `seal` wrote.
+
+    Parameters
+    ----------
+    kind : str
+        What messages call the table.
+    mark, version
+        As given to `seal`.
+    layout : callable
+        The arrays of a table of given sizes; empty where sizes cannot be.
+    content : bytes
+
+    Raises
+    ------
+    RotorfilmError
+        If the content is not such a table, of another version, truncated or damaged.
+    """
+    if len(content) < _HEADER.size or not content.startswith(mark):
+        raise RotorfilmError(f"{kind}: the content does not begin with the mark of a {kind}")
+    _, found, checksum, *entries = _HEADER.unpack_from(content)
+    sizes: Sizes = (entries[0], entries[1], entries[2], entries[3])
+    if found != version:
+        raise RotorfilmError(
+            f"{kind}: version must be {version}, got {found}; make it again with this rotorfilm"
+        )
+    arrays = layout(sizes)
+    expected = _HEADER.size + sum(np.dtype(dtype).itemsize * count for dtype, count in arrays)
+    if not arrays or len(content) != expected:
+        raise RotorfilmError(f"{kind}: size must be {expected} bytes for {sizes}, got {len(content)}")
+    if zlib.crc32(content[_HEADER.size :]) != checksum:
+        raise RotorfilmError(f"{kind}: the checksum does not fit, the content is damaged")
+    return (sizes, *_arrays(arrays, content))
+
+
+def _arrays(layout: Layout, content: bytes) -> Iterator[Array]:
+    start = _HEADER.size
+    for kind, count in layout:
+        yield np.frombuffer(content, dtype=kind, offset=start, count=count).astype(float)
+        start += np.dtype(kind).itemsize * count
+
+
+# The impedance map of every plain journal bearing as one table: collapsing, saving, loading.
+
 
 MAGIC = b"RFILMMAP"
 VERSION = 2
@@ -188,4 +292,115 @@ def _layout(sizes: Sizes) -> Layout:
         (("<f8", 4 + entries), (f"<{'f' if width == 8 else 'i'}{width}", entries * cells_x * cells_t))
         if possible
         else ()
+    )
+
+
+# Tables on disk: made once, found again, whole or not there.
+
+
+FOLDER_VARIABLE = "ROTORFILM_CACHE"
+"""Environment variable that names the folder of the cache."""
+
+_logger = logging.getLogger(__name__)
+
+T = TypeVar("T")
+S = TypeVar("S", bound=StoredTable)
+
+
+def cache_folder() -> Path:
+    """Return the folder of the cache: $ROTORFILM_CACHE, or the platform's ($XDG_CACHE_HOME/rotorfilm)."""
+    chosen = os.environ.get(FOLDER_VARIABLE)
+    if chosen:
+        return Path(chosen)
+    # Imported here so that an FMU with another film needs no more than numpy and scipy.
+    from platformdirs import user_cache_path
+
+    return user_cache_path("rotorfilm", appauthor=False)
+
+
+def table_path(kind: str, key: object) -> Path:
+    """Return where a table of a kind lies: its name is a digest of all that decides its content."""
+    return cache_folder() / f"{kind}-{hashlib.sha256(repr(key).encode()).hexdigest()[:24]}.bin"
+
+
+def told(report: Report, of: str, folder: Path) -> Report:
+    """Return the report; without one, one that says once in the log that a table is being made.
+
+    Parameters
+    ----------
+    report : callable
+    of : str
+        What the table is of.
+    folder : Path
+        Where it will be kept.
+    """
+    said: list[str] = []
+
+    def log(fraction: float, text: str) -> None:
+        if not said:
+            said.append(text)
+            _logger.warning("making the %s, %s; it will be kept in %s", text, of, folder)
+
+    return log if report is silent else report
+
+
+def cached(
+    path: Path,
+    *,
+    from_bytes: Callable[[bytes], T],
+    build: Callable[[], T],
+    to_bytes: Callable[[T], bytes],
+    what: str,
+) -> T:
+    """Return what a sealed file holds, built and written where it is missing or damaged.
+
+    Parameters
+    ----------
+    path : Path
+        Its name tells all that decides what it holds: a file of another name is refused.
+    from_bytes : callable
+        Returns what content holds; raises RotorfilmError if it is not right.
+    build : callable
+        Returns it without a file.
+    to_bytes : callable
+        Returns the content of the file.
+    what : str
+        What it is, for the warnings.
+
+    Warns
+    -----
+    FileWarning
+        If the file is damaged or cannot be read, so that it is built again, or if it cannot be written.
+    """
+    try:
+        return from_bytes(read_kept(path))
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except (OSError, RotorfilmError) as error:
+        warn_user(f"{what} is made again: {error}", FileWarning)
+    made = build()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_sealed(path, to_bytes(made), path.name)
+    except OSError as error:
+        warn_user(
+            f"{what} could not be kept in {path.parent} ({error}); {FOLDER_VARIABLE} names another folder",
+            FileWarning,
+        )
+    return made
+
+
+def read_kept(path: Path) -> bytes:
+    """Return what `cached` wrote; see `read_sealed` for the errors."""
+    return read_sealed(path, path.name, "a file of the cache must be what its name says")
+
+
+def cached_table(kind: type[S], path: Path, build: Callable[[], S]) -> S:
+    """Return the table at a path, built and written where it is missing or damaged; see `cached`."""
+    return cached(
+        path,
+        from_bytes=kind.from_bytes,
+        build=build,
+        to_bytes=kind.to_bytes,
+        what="the map of the film",
     )

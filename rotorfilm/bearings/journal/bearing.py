@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
 
-from ...errors import InputError, ValidityWarning, require_kind, require_non_negative, require_tuple
-from ...inputs.si_arguments import quantities
-from ...model import Array
-from ...native.journal_spec import journal_spec
-from ...native.spec import NativeSpec
-from ..film_units import require_size
-from ..films.bound_law import BoundLaw, kinematics
-from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad
-from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
+from ...core.errors import (
+    InputError,
+    ValidityWarning,
+    require_kind,
+    require_non_negative,
+    require_tuple,
+    warn_user,
+)
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...core.readable import Readable
+from ...native.spec import NativeSpec, journal_spec
+from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad, Pocket
+from ..films.law import BoundFilm, BoundLaw, FilmLaw, FilmOptions, kinematics, options
 from ..oil import Cooling, Oil
-from ..oil.lubricant import require_lubricant
-from ..reaction import FilmReaction
-from .fitting import film_name, fitted_film, usual_film
-from .heat.warm_film import WarmFilm
-from .odd_dimensions import warn_of_odd_dimensions
-from .openings_in_bearing import film_geometry, film_length
+from ..oil.heat_balance import require_lubricant
+from ..reaction import FilmReaction, require_size
+from .effective_viscosity import WarmFilm
+from .map.map_film import MapFilm
 
 
 @quantities
@@ -210,3 +214,212 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, which may be meant for other bearings: that is the question."""
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return replace(bearing, film=film)
+
+
+# Which film law a bearing really has: the one that is given, or the usual one, in the bearing's geometry.
+
+
+_GEOMETRY = "geometry"
+"""Parameter of the films that are fitted to a bearing: the bearing itself shows it."""
+
+
+def film_name(film: FilmLaw) -> str:
+    """Return a film law as Python would make it, without its geometry and what is None."""
+    name = type(film).__name__
+    if not dataclasses.is_dataclass(film):
+        return name
+    values = {f.name: getattr(film, f.name) for f in dataclasses.fields(film) if f.repr}
+    shown = [f"{key}={value!r}" for key, value in values.items() if value is not None and key != _GEOMETRY]
+    return f"{name}({', '.join(shown)})"
+
+
+def usual_film(geometry: FilmGeometry, slenderness: float) -> FilmLaw:
+    """Return the film of a bearing that names none: the map where there is one, else in two dimensions."""
+    if geometry.plain:
+        return MapFilm()
+    from ..films.geometry import is_mappable
+    from .grooved_film import GroovedMapFilm
+    from .reynolds_film import ReynoldsFilm
+
+    low, high = GroovedMapFilm().slenderness_range
+    return MapFilm() if is_mappable(geometry) and low <= slenderness <= high else ReynoldsFilm()
+
+
+def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
+    """Return a film law in a bearing of this geometry; a `MapFilm` with openings is a `GroovedMapFilm`.
+
+    Raises
+    ------
+    InputError
+        If the law cannot represent the geometry: it has no place for openings, or, of maps, if there is a
+        supply pressure, an opening wider than 60 deg, or a table of a plain bearing beside openings.
+    """
+    if isinstance(film, MapFilm) and not geometry.plain:
+        from .grooved_film import GroovedMapFilm
+
+        if film.table is not None:
+            raise InputError(
+                "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "
+                "or GroovedMapFilm(table=...)"
+            )
+        film = GroovedMapFilm()
+    fitted = options(film, FilmOptions).fitted(geometry)
+    if fitted is None and not geometry.plain:
+        raise InputError(
+            f"film must represent the bearing's geometry, which {type(film).__name__} cannot: "
+            f"got {geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
+        )
+    return film if fitted is None else fitted
+
+
+# From the grooves and feed holes of a bearing in metres to the openings of its film.
+
+
+Opening = Groove | FeedHole
+"""What a bearing is fed by, beside a circumferential groove."""
+
+ROUNDOFF = 1e-12
+"""Of the length of the bearing, by which a groove over the whole length may differ from it."""
+
+
+def film_length(length: float, circumferential_groove: float | None) -> float:
+    """Return the axial length that is film [m]: that of both lands beside a circumferential groove.
+
+    Raises
+    ------
+    InputError
+        If the groove leaves no land.
+    """
+    width = circumferential_groove or 0.0
+    if not 0.0 <= width < length:
+        raise InputError(
+            f"circumferential_groove must be from 0 to below the length {length!r}, got {width!r}"
+        )
+    return length - width
+
+
+def film_geometry(
+    openings: tuple[Opening, ...],
+    pads: tuple[Pad, ...],
+    supply: float,
+    *,
+    radius: float,
+    length: float,
+    circumferential_groove: float | None,
+) -> FilmGeometry:
+    """Return the openings as the film of a bearing sees them.
+
+    Parameters
+    ----------
+    openings : tuple of Groove or FeedHole
+    pads : tuple of Pad
+    supply : float [1/s]
+        Supply pressure in the unit of the film.
+    radius, length : float [m]
+    circumferential_groove : float or None [m]
+        Width along the axis; None for none. What it covers of the length has no film, so that of a groove
+        beside it only the rest counts.
+
+    Raises
+    ------
+    InputError
+        If an opening is longer than the bearing, lies within the circumferential groove, or overlaps another.
+    """
+    lands = film_length(length, circumferential_groove)
+    grooves, pockets = [], []
+    for center, width, along in (_sized(opening, radius, length) for opening in openings):
+        if along >= length * (1.0 - ROUNDOFF):
+            grooves.append(Groove(center=center, width=width))
+        else:
+            pockets.append(Pocket(center=center, width=width, share=_share(along, length, lands)))
+    return FilmGeometry(
+        grooves=tuple(grooves),
+        pads=pads,
+        supply=supply,
+        pockets=tuple(pockets),
+        circumferential=circumferential_groove is not None,
+    )
+
+
+def _sized(opening: Opening, radius: float, length: float) -> tuple[float, float, float]:
+    """Return center and width [rad] of an opening, and its length [m]."""
+    if isinstance(opening, FeedHole):
+        largest = min(length * opening.diameter / opening.side, 2.0 * radius)
+        if opening.diameter >= largest:
+            raise InputError(
+                f"diameter of a feed hole must be below {largest:.6g} m, that of the bearing or of the "
+                f"circle whose square is as long, got {opening.diameter!r}"
+            )
+        return opening.center, opening.side / radius, opening.side
+    along = length if opening.length is None else opening.length
+    if along > length * (1.0 + ROUNDOFF):
+        raise InputError(f"grooves must be at most as long as the bearing, {length!r} m, got {along!r}")
+    return opening.center, opening.width, along
+
+
+def _share(along: float, length: float, lands: float) -> float:
+    """Return the share of the lands that an opening of a length [m] covers."""
+    covered = along - (length - lands)
+    if covered <= 0.0:
+        raise InputError(
+            "an opening must be longer than the circumferential_groove that it crosses, "
+            f"{length - lands:.6g} m, got {along:.6g}"
+        )
+    return covered / lands
+
+
+# Dimensions that are probably a slip of units.
+
+
+CLEARANCE_RATIOS = (1e-5, 2e-2)
+"""Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
+
+
+def warn_of_odd_dimensions(
+    radius: float, length: float, clearance: float, film: str, slenderness_limit: float
+) -> None:
+    """Warn where a bearing [m] is not of a size that is built, or too long for its film.
+
+    Parameters
+    ----------
+    radius, length, clearance : float [m]
+    film : str
+        What the film is, for the message.
+    slenderness_limit : float [1]
+        Length / diameter to which the film is meant.
+    """
+    ratio, (least, most) = clearance / radius, CLEARANCE_RATIOS
+    if not least * (1.0 - 1e-12) <= ratio <= most * (1.0 + 1e-12):
+        warn_user(
+            f"clearance / radius should be {least:g} to {most:g}, got {ratio:.3g} "
+            f"from {clearance!r} m and {radius!r} m: check units"
+        )
+    slenderness = length / (2.0 * radius)
+    if slenderness > slenderness_limit:
+        warn_user(
+            f"length / diameter must not exceed {slenderness_limit} for {film}, got {slenderness:.6g}: "
+            "the film force can be wrong by half and more"
+        )
+
+
+# What the films that are solved for a journal at rest tell alike.
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FilmAtRest(Readable):
+    """A film for a journal at rest; N lines around it.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    force : ndarray, shape (2,) [N]
+        On the journal.
+    angle : ndarray, shape (N,) [rad]
+        Lines, in the bearing frame from +x towards +y.
+    """
+
+    position: Array
+    speed: float
+    force: Array
+    angle: Array

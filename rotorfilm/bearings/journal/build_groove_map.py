@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ...errors import InputError
-from ...inputs.kinds import arguments
-from ...progress import Report, silent
+from ...core.errors import InputError
+from ...core.inputs import arguments
+from ...core.progress import Report, silent
 from .bearing import JournalBearing
-from .grooves.groove_table import GrooveMapTable
-from .grooves.grooved_film import GroovedMapFilm
+from .groove_map import GrooveMapTable
+from .grooved_film import GroovedMapFilm
 
 
 @arguments

@@ -26,15 +26,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol, cast, runtime_checkable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, InputError
-from ...model import Array
-from ...results import BearingLosses
-from .cooling import Cooling
-from .oil import Oil
+from ...core.errors import ConvergenceError, InputError, require_kind, require_positive
+from ...core.model import Array
+from ...core.results import BearingLosses
+from ...core.signals import Signal
+from ...native.loss_kernels import LossKernel
+from ..films.kernel_film import BoundKernel
+from ..reaction import Size
+from .oil import Cooling, Oil, require_absolute
 
 _STEPS = 60
 _ROUNDOFF = 1e-14
@@ -196,3 +200,73 @@ def _unheated(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
         return cooling.supply_temperature
     share = through_housing / (with_oil + through_housing)
     return math.fsum((cooling.supply_temperature, share * (cooling.ambient - cooling.supply_temperature)))
+
+
+# What of a bearing its heat follows from.
+
+
+@runtime_checkable
+class Cooled(Size, Protocol):
+    """What a bearing with an oil and cooling offers, as `JournalBearing` and `LobedBearing` do."""
+
+    @property
+    def cooled(self) -> tuple[Oil, Cooling]:
+        """Its oil and what cools it."""
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y."""
+
+    def at_temperature(self, temperature: float) -> Any:
+        """Return the bearing with a film of one temperature [K]."""
+
+    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
+        """Return the heat that the film makes and takes along at one state."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, (3, 5)."""
+
+    def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
+        """Return its compiled film at 1 Pa s with its losses; None if there is none."""
+
+
+# The lubricant of a bearing: one viscosity, or an oil and how warm it is.
+
+
+def require_lubricant(
+    viscosity: float | None, oil: Oil | None, temperature: float | None, cooling: Cooling | None
+) -> None:
+    """Raise InputError unless there is a viscosity [Pa s], or an oil with temperature [K] or cooling."""
+    if oil is None:
+        if viscosity is None:
+            raise InputError("viscosity or oil must be given, got neither")
+        require_positive("viscosity", viscosity)
+        for name, value in (("temperature", temperature), ("cooling", cooling)):
+            if value is not None:
+                raise InputError(f"{name} must be None without oil, got {value!r}")
+        return
+    require_kind("oil", oil, Oil, "an Oil such as Oil.iso_vg(46)")
+    if viscosity is not None:
+        raise InputError(f"viscosity must be None where oil is given, got {viscosity!r}")
+    require_kind("cooling", cooling, Cooling | None, "a Cooling")
+    if temperature is not None:
+        require_absolute("temperature", temperature)
+    elif cooling is None:
+        raise InputError("temperature or cooling must be given with oil, got neither")
+
+
+def film_viscosity(
+    viscosity: float | None, oil: Oil | None, temperature: float | None, cooling: Cooling | None
+) -> float:
+    """Return the viscosity of a lubricant [Pa s] that `require_lubricant` let pass.
+
+    Of an oil without a temperature it is that of fresh oil.
+    """
+    if oil is None:
+        return cast(float, viscosity)
+    stated = cast(Cooling, cooling).supply_temperature if temperature is None else temperature
+    return float(oil.law.viscosity(stated))

@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import warn_user
-from ..film_units import FilmUnits
-from .cooling import COLDEST_OIL
-from .oil import DENSITY, HOTTEST_OIL, warn_beyond_law
+from ...core.errors import warn_user
+from ..reaction import FilmUnits
+from .oil import COLDEST_OIL, DENSITY, HOTTEST_OIL, warn_beyond_law
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.

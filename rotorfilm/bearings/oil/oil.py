@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, field, replace
-from typing import Any
+from functools import lru_cache
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import (
+from ...core.errors import (
     InputError,
     brief,
     require_each,
@@ -19,12 +21,236 @@ from ...errors import (
     require_positive,
     warn_user,
 )
-from ...inputs.kinds import arguments
-from ...inputs.si_arguments import quantities, quantity
-from ...model import Array
-from ...units import CELSIUS
-from .cooling import COLDEST_OIL, require_absolute
-from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
+from ...core.inputs import arguments, quantities, quantity
+from ...core.model import Array
+from ...core.units import CELSIUS
+from ...native.loss_kernels import OilTable
+from ..reaction import FilmUnits
+
+# How the viscosity of an oil falls with its temperature: the laws that an `Oil` may have.
+
+
+EXPANSION = 0.00064
+"""Fall of an oil's density per kelvin, of its density at 15 degrees Celsius [1/K]."""
+
+_OFFSET = 0.7
+"""What ASTM D341 adds to a kinematic viscosity in mm2/s."""
+
+LEAST_KINEMATIC, MOST_KINEMATIC = 2e-6, 20.0
+"""Kinematic viscosities between which ASTM D341 has the offset as a constant [m^2/s]."""
+
+EVEN = 50.0
+"""Farthest from its point [K] that an even thinning holds: there it is a factor of 1.4 to 2.2 off Walther's
+law."""
+
+
+def relative_density(temperature: ArrayLike) -> Array:
+    """Return density / density at 15 degrees Celsius of a mineral oil [1], over its temperature [K]."""
+    return 1.0 - EXPANSION * (np.asarray(temperature, dtype=float) - CELSIUS - 15.0)
+
+
+@runtime_checkable
+class ViscosityLaw(Protocol):
+    """A dynamic viscosity over temperature."""
+
+    @property
+    def temperature_range(self) -> tuple[float, float]:
+        """Temperatures [K] between which the law holds."""
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the dynamic viscosity [Pa s] at temperatures [K], of their shape."""
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], of their shape."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Walther:
+    """Walther's law as in ASTM D341: lg lg(nu + 0.7) = intercept - steepness lg T, nu in mm2/s, T in K.
+
+    The dynamic viscosity is nu times the density of a mineral oil at the same temperature. The law is meant
+    for kinematic viscosities from 2 to 2e7 mm2/s, which is its `temperature_range`; below, ASTM D341 has
+    further terms.
+
+    Parameters
+    ----------
+    intercept : float [1]
+        lg lg(nu + 0.7) where lg T is 0.
+    steepness : float [1]
+        How steeply the viscosity falls, positive.
+    density : float [kg/m3]
+        At 15 degrees Celsius.
+    """
+
+    intercept: float
+    steepness: float
+    density: float
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "intercept", "steepness", "density")
+
+    @classmethod
+    def through(cls, first: tuple[float, float], second: tuple[float, float], density: float) -> Walther:
+        """Return the law through two points (temperature [K], kinematic viscosity [m^2/s]).
+
+        Raises
+        ------
+        InputError
+            If the viscosity does not fall from the colder to the warmer point, or a number is not positive.
+        """
+        (cold, thick), (warm, thin) = sorted((first, second))
+        for name, value in (("temperature", cold), ("kinematic viscosity", thin)):
+            require_positive(name, value)
+        if not (cold < warm and thick > thin):
+            raise InputError(
+                "kinematic viscosity must fall with temperature between two points, got "
+                f"{thick:g} m2/s at {cold:g} K and {thin:g} m2/s at {warm:g} K"
+            )
+        high, low = (math.log10(math.log10(1e6 * nu + _OFFSET)) for nu in (thick, thin))
+        steepness = (high - low) / math.log10(warm / cold)
+        return cls(intercept=high + steepness * math.log10(cold), steepness=steepness, density=density)
+
+    @property
+    def temperature_range(self) -> tuple[float, float]:
+        """Temperatures [K] between which the law holds."""
+        lg = np.log10(np.log10(1e6 * np.array([MOST_KINEMATIC, LEAST_KINEMATIC]) + _OFFSET))
+        coldest, hottest = 10.0 ** ((self.intercept - lg) / self.steepness)
+        return float(coldest), float(hottest)
+
+    def kinematic(self, temperature: ArrayLike) -> Array:
+        """Return the kinematic viscosity [m^2/s] at temperatures [K], of their shape."""
+        return 1e-6 * (10.0 ** self._lg(temperature) - _OFFSET)
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the dynamic viscosity [Pa s]; see `ViscosityLaw`."""
+        return self.kinematic(temperature) * self.density * relative_density(temperature)
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return -d ln(viscosity)/d temperature [1/K]; see `ViscosityLaw`."""
+        T = np.asarray(temperature, dtype=float)
+        lg = self._lg(T)
+        shifted = 10.0**lg
+        falling = shifted / (shifted - _OFFSET) * math.log(10.0) * lg * self.steepness / T
+        return np.asarray(falling + EXPANSION / relative_density(T))
+
+    def _lg(self, temperature: ArrayLike) -> Array:
+        """Return lg(nu + 0.7)."""
+        T = np.asarray(temperature, dtype=float)
+        return np.asarray(10.0 ** (self.intercept - self.steepness * np.log10(T)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exponential:
+    """viscosity exp(-decay (T - temperature)): one measured point and how fast the oil thins.
+
+    Real oils thin ever more slowly: the law holds within 50 K of its temperature, and everywhere where the
+    oil does not thin.
+
+    Parameters
+    ----------
+    value : float [Pa s]
+        Dynamic viscosity at the temperature.
+    temperature : float [K]
+    decay : float [1/K]
+        -d ln(viscosity)/d temperature, the same at all temperatures; 0 for an oil that does not thin.
+    """
+
+    value: float
+    temperature: float
+    decay: float
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "value", "temperature")
+        require_non_negative("decay", self.decay)
+
+    @property
+    def temperature_range(self) -> tuple[float, float]:
+        """Temperatures [K] between which the law holds."""
+        within = EVEN if self.decay else math.inf
+        return self.temperature - within, self.temperature + within
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the dynamic viscosity [Pa s]; see `ViscosityLaw`."""
+        warmer = np.asarray(temperature, dtype=float) - self.temperature
+        return np.asarray(self.value * np.exp(-self.decay * warmer))
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return -d ln(viscosity)/d temperature [1/K]; see `ViscosityLaw`."""
+        return np.full(np.shape(temperature), self.decay)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Vogel:
+    """factor exp(activation/(T - origin)): a fit that costs one exponential.
+
+    Between 20 and 200 degrees Celsius a fit through 40, 70 and 100 is within 4 % of Walther's law.
+
+    Parameters
+    ----------
+    factor : float [Pa s]
+        Viscosity at endless temperature.
+    activation : float [K]
+        How steeply the viscosity falls.
+    origin : float [K]
+        Temperature at which the viscosity of the law has no bound, below that of the oil.
+    temperature_range : (float, float) [K]
+        Temperatures between which it holds, 20 to 200 degrees Celsius by default.
+
+    Raises
+    ------
+    InputError
+        If factor or activation is not positive, or the temperature_range does not rise from above the origin.
+    """
+
+    factor: float
+    activation: float
+    origin: float
+    temperature_range: tuple[float, float] = (20.0 + CELSIUS, 200.0 + CELSIUS)
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "factor", "activation")
+        if not self.origin < self.temperature_range[0] < self.temperature_range[1]:
+            raise InputError(
+                f"temperature_range must rise from above the origin {self.origin!r} K, "
+                f"got {self.temperature_range!r}"
+            )
+
+    @classmethod
+    def fitted(cls, law: ViscosityLaw, at: tuple[float, float, float] = (313.15, 343.15, 373.15)) -> Vogel:
+        """Return the law that has another one's viscosities at three temperatures [K].
+
+        Within 0.1 % of an ISO grade between them; it holds from 20 K below the first to 100 K above the last.
+
+        Raises
+        ------
+        InputError
+            If ln(viscosity) does not fall ever more slowly, as it must under this law.
+        """
+        T = np.sort(np.asarray(at, dtype=float))
+        ln = np.log(law.viscosity(T))
+        falls = -np.diff(ln)
+        if not (falls[1] > 0.0 and falls[0] / falls[1] > (T[1] - T[0]) / (T[2] - T[1])):
+            raise InputError(f"viscosity must fall ever more slowly for a Vogel fit, got {law!r}")
+        q = falls[0] / falls[1] * (T[2] - T[1]) / (T[1] - T[0])
+        origin = float((q * T[0] - T[2]) / (q - 1.0))
+        activation = float(falls[0] / (1.0 / (T[0] - origin) - 1.0 / (T[1] - origin)))
+        factor = float(np.exp(ln[0] - activation / (T[0] - origin)))
+        temperature_range = float(T[0]) - 20.0, float(T[2]) + 100.0
+        return cls(factor=factor, activation=activation, origin=origin, temperature_range=temperature_range)
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the dynamic viscosity [Pa s]; see `ViscosityLaw`."""
+        T = np.asarray(temperature, dtype=float)
+        return np.asarray(self.factor * np.exp(self.activation / (T - self.origin)))
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return -d ln(viscosity)/d temperature [1/K]; see `ViscosityLaw`."""
+        T = np.asarray(temperature, dtype=float)
+        return np.asarray(self.activation / (T - self.origin) ** 2)
+
+
+# An oil: viscosity, density, heat capacity and conductivity over its temperature.
+
 
 GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
 """Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by
@@ -264,3 +490,158 @@ def _kelvin(temperature: ArrayLike) -> Array:
     if not (np.isfinite(T).all() and (T > 0.0).all()):
         raise InputError(f"temperature must be finite and positive, in K, got {temperature!r}")
     return T
+
+
+# What takes the heat of a journal's film away: fresh oil and the housing.
+
+
+STEEL = 3.6e6
+"""Heat capacity of steel per volume [J/(m^3 K)]."""
+
+RING = 1.3
+"""Outer radius of the bush, and of the part of its housing that warms with it, over that of the bearing, as
+`Cooling` assumes them."""
+
+
+COLDEST_OIL = 150.0
+"""Temperature [K] below which there is no oil; degrees Celsius probably were meant."""
+
+
+def require_absolute(name: str, temperature: float) -> None:
+    """Raise InputError unless a temperature [K] is one that an oil may have."""
+    if require_number(name, temperature) < COLDEST_OIL:
+        raise InputError(
+            f"{name} must be at least {COLDEST_OIL:g} K, got {temperature!r}: '{temperature:g} degC'?"
+        )
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Cooling:
+    """How the heat of a film leaves: with the oil that leaks and is replaced, and through the housing.
+
+    Parameters
+    ----------
+    supply_temperature : float [K]
+        Of the fresh oil.
+    ambient_temperature : float or None [K]
+        Around the housing; None for that of the fresh oil.
+    housing_conductance : float [W/K]
+        Heat flow through bush and housing per kelvin between film and ambient; 0 where all heat leaves with
+        the oil.
+    carry_over : float [1]
+        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it
+        has no part.
+    bush_heat_capacity : float or None [J/K]
+        Of the bush, and of what of housing and shaft warms with it. None for a steel ring to `RING` times the
+        radius.
+    full_gap : bool
+        Whether oil fills the whole gap also where the film is ruptured. By default it is in streamers there,
+        which take less power.
+
+    Raises
+    ------
+    InputError
+        If a temperature or the heat capacity is not positive, the conductance is negative, or the carry-over
+        is not from 0 to 1.
+    """
+
+    supply_temperature: float
+    ambient_temperature: float | None = None
+    housing_conductance: float = 0.0
+    carry_over: float = 0.8
+    bush_heat_capacity: float | None = None
+    full_gap: bool = False
+
+    def __post_init__(self) -> None:
+        require_absolute("supply_temperature", self.supply_temperature)
+        if self.ambient_temperature is not None:
+            require_absolute("ambient_temperature", self.ambient_temperature)
+        if self.bush_heat_capacity is not None:
+            require_positive("bush_heat_capacity", self.bush_heat_capacity)
+        require_non_negative("housing_conductance", self.housing_conductance)
+        if not 0.0 <= require_number("carry_over", self.carry_over) <= 1.0:
+            raise InputError(f"carry_over must be from 0 to 1, got {self.carry_over!r}")
+
+    @property
+    def ambient(self) -> float:
+        """Temperature around the housing [K]."""
+        given = self.ambient_temperature
+        return self.supply_temperature if given is None else given
+
+    @property
+    def coldest(self) -> float:
+        """Temperature below which no film of this cooling gets [K]."""
+        return (
+            min(self.supply_temperature, self.ambient)
+            if self.housing_conductance
+            else self.supply_temperature
+        )
+
+    def capacity(self, radius: float, length: float) -> float:
+        """Return the heat capacity of bush and housing [J/K] of a bearing of these dimensions [m]."""
+        if self.bush_heat_capacity is not None:
+            return self.bush_heat_capacity
+        return STEEL * math.pi * (RING**2 - 1.0) * radius**2 * length
+
+
+# ln viscosity of an oil as splines, for kernels of the C library.
+
+
+RANGE = (CELSIUS - 20.0, CELSIUS + 200.0)
+"""Temperatures [K] between which the tables hold."""
+
+CELLS = 110
+"""Cells of 2 K, with which the splines are within 1e-9 of Walther's law."""
+
+
+@lru_cache(maxsize=64)
+def viscosity_table(oil: Oil) -> OilTable:
+    """Return ln viscosity of an oil over `RANGE`."""
+    from ..films.map_fit import quintic_coefficients
+
+    nodes = np.linspace(*RANGE, CELLS + 1)
+    return OilTable(quintic_coefficients(np.log(oil.law.viscosity(nodes))), *RANGE)
+
+
+# How much the load of a bearing compresses its oil, which films of one density and viscosity leave out.
+
+
+BULK_MODULUS = 1.5e9
+"""Of a mineral oil [Pa], pressure per relative change of volume."""
+
+MOST = 0.5
+"""Compression by the mean pressure from which a film without it is no answer, whatever the oil.
+
+Bearings carry a hundredth of that. Scenes, which know their oil, tell of less.
+"""
+
+
+def compression(
+    load: tuple[float, float] | Array, radius: float, length: float, bulk_modulus: float = BULK_MODULUS
+) -> float:
+    """Return the relative change of volume [1] of oil by the mean pressure |load|/(2 radius length).
+
+    Parameters
+    ----------
+    load : array_like, shape (2,) [N]
+    radius, length : float [m]
+        Of the bearing.
+    bulk_modulus : float [Pa]
+    """
+    return math.hypot(*load) / (2.0 * radius * length) / bulk_modulus
+
+
+def warn_of_pressure(reaction: object, load: Array) -> None:
+    """Warn of a load [N] whose mean pressure is beyond films of one density and viscosity."""
+    bearing = getattr(reaction, "bearing", reaction)  # of a film that is told which bearing is around it
+    if not isinstance(bearing, FilmUnits):
+        return
+    R, L = bearing.radius, bearing.length  # type: ignore[attr-defined]
+    share = compression(load, R, L)
+    if share > MOST:
+        warn_user(
+            f"load {math.hypot(*load):.6g} N makes a mean pressure of {share * BULK_MODULUS:.3g} Pa over "
+            f"2 radius length, {share:.0%} of the bulk modulus of a mineral oil: a film of one density and "
+            "viscosity does not hold there"
+        )

@@ -2,17 +2,40 @@
 
 from typing import TYPE_CHECKING
 
-from ...sources import show
+from ...core.sources import show
 
 if TYPE_CHECKING:
-    from .dam import *
-    from .lobe import SETS, Lobe as Lobe, lobe_set as lobe_set
-    from .lobe_share import LobeShare
-    from .lobed_bearing import LobedBearing as LobedBearing
+    from ...core.sources import show
+    from .lobed_bearing import (
+        SETS,
+        Lobe as Lobe,
+        LobedBearing as LobedBearing,
+        LobeShare,
+        lobe_set as lobe_set,
+    )
     from .pad_bearing import PadBearing as PadBearing
     from .pad_build import PadResolution
-    from .pad_film import PadFilm as PadFilm, PadGridFilm as PadGridFilm, PadMapFilm as PadMapFilm
-    from .pad_map import is_pad_mappable
-    from .tilting import *
+    from .pad_film import (
+        PadFilm as PadFilm,
+        PadGridFilm as PadGridFilm,
+        PadMapFilm as PadMapFilm,
+        is_pad_mappable,
+    )
+    from .pressure_dam import (
+        DamKernel,
+        PressureDamBearing as PressureDamBearing,
+        Recess as Recess,
+        RecessedPad as RecessedPad,
+        RecessedPads as RecessedPads,
+        pressure_dam_pads as pressure_dam_pads,
+    )
+    from .tilting_bearing import (
+        PadEquilibrium as PadEquilibrium,
+        PadMatrices as PadMatrices,
+        TiltedPads as TiltedPads,
+        TiltingPadBearing as TiltingPadBearing,
+        TiltingPadsAtRest,
+    )
+    from .tilting_pads import TiltingPads as TiltingPads, differenced_slopes, even_pivots as even_pivots
 else:
     show(__name__)

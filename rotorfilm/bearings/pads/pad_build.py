@@ -5,25 +5,87 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError
-from ...model import Array
-from ...progress import Report, silent
-from ..films.map_bounds import BATCH
-from ..films.quintic import quintic_coefficients
-from ..films.ring.ring_grids import are_counts, require_cells
-from ..films.ring.ring_kernel import RingKernel, richardson
-from ..films.ring.ring_samples import log_potential, reference
-from ..films.table_pieces import cores, made_pieces
-from .pad_bounds import LOSS_STATES, STATES, PadStates, loss_states, pad_bounds, pad_states
-from .pad_grid import CELLS, pad_grid
-from .pad_losses import CELLS as LOSS_CELLS, fitted_losses, grid_losses, loss_places
-from .pad_nodes import along_nodes, between_nodes, node_angles, node_places
-from .pad_table import PadMapTable
+from ...core.errors import InputError
+from ...core.model import Array
+from ...core.progress import Report, silent
+from ..films.finite_volumes import (
+    LONG,
+    RingKernel,
+    are_counts,
+    log_potential,
+    reference,
+    require_cells,
+    richardson,
+    ring_grids,
+    ring_spans,
+)
+from ..films.geometry import TURN, Complementarity, FilmGeometry, Pad
+from ..films.map_fit import (
+    BATCH,
+    MARGIN,
+    cores,
+    even_shares,
+    made_pieces,
+    matrix_sizes,
+    quintic_coefficients,
+    state_errors,
+)
+from .pad_table import (
+    CELLS as LOSS_CELLS,
+    LARGEST,
+    PadMapTable,
+    fitted_losses,
+    grid_losses,
+    least_film,
+    loss_places,
+    loss_reach,
+    wall,
+)
+
+# The two-dimensional film on one pad: the reference of its map.
+#
+# In the frame of a pad its middle is at the angle 0. With the center of curvature r_p, the clearance
+# c_p and the velocity v_p of the pad the film knows only e = (r - r_p)/c_p and w = (v - v_p)/c_p -
+# (speed/2) z^ x e: a pad that is displaced is one in its place with another e (Lund 1964). H = 1 -
+# e.n > 0 is asked for on the arc alone, so that |e| may be above 1. Forces are in units of viscosity
+# * length * radius^3 / c_p^2.
+
+
+CELLS = (96, 8)
+"""Cells along a pad and along half its length."""
+
+
+@lru_cache(maxsize=64)
+def pad_grid(
+    extent: float, slenderness: float, cells: tuple[int, int] = CELLS, *, extrapolated: bool = True
+) -> RingKernel:
+    """Return the film on one pad in its own frame, ruptured where it would be in tension.
+
+    Parameters
+    ----------
+    extent : float [rad]
+        Angle that the pad covers, below 2 pi.
+    slenderness : float [1]
+        Length / diameter.
+    cells : (int, int)
+        Cells along the pad and along half its length: multiples of 4, at least 16 and 4.
+    extrapolated : bool
+        Whether the force is that extrapolated from these cells and half as many.
+    """
+    geometry = FilmGeometry(pads=(Pad(start=-0.5 * extent, extent=extent),))
+    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
+    return RingKernel(
+        slenderness, ring_spans(geometry), grids, Complementarity(), extrapolated=extrapolated, pad=True
+    )
+
+
+# How the map of a pad is made: potentials of the two-dimensional film, and their fit.
+
 
 REACH = 3.0
 """A film at the edge of a pad lies on so many times the angle over which its source drives."""
@@ -259,3 +321,172 @@ def _solved(extent: float, slenderness: float, cells: tuple[int, int], e: Array,
     return np.concatenate(
         [films[k].reference(e[:, k : k + 1], w[:, k : k + 1]) for k in range(len(films))], axis=1
     )
+
+
+# How far the map of a pad is off: bounds from a film on finer grids at states all over its range.
+#
+# Errors of the force are relative to it, those of K and C to the largest entry of the matrix; where
+# these are below 5 % of their largest value over the directions of the source at that place, relative
+# to those 5 %: towards the edge beyond which a source drives no film all of them vanish. The states
+# fill the coordinates of the map evenly. Those of shear and flow are at rest and fill the places.
+
+
+LEAST_FILMS = (0.3, 0.1, 0.03, 0.0)
+"""Least film / clearance from which a bound holds; the last one in the range of the map."""
+
+STATES = 320
+
+LOSS_STATES = 96
+"""Of a journal at rest, for shear and flow."""
+
+FLOOR = 0.05
+"""Of the largest value over all directions of the source."""
+
+DIRECTIONS = 32
+
+
+class PadStates(NamedTuple):
+    """States at which a map is compared with a finer film.
+
+    Attributes
+    ----------
+    e, w : ndarray, shape (2, n)
+    phi : ndarray, shape (n,) [rad]
+        Angle of w.
+    """
+
+    e: Array
+    w: Array
+    phi: Array
+
+
+def pad_states(extent: float, u_range: tuple[float, float], y_end: float, count: int = STATES) -> PadStates:
+    """Return states that fill the range of a map evenly."""
+    first, last = u_range
+    shares = even_shares(count, 3)
+    xi = -np.expm1(-(first + (last - first) * shares[0]))
+    e = np.stack([xi, np.tanh((2.0 * shares[1] - 1.0) * y_end) * wall(xi, extent)])
+    phi = (shares[2] - 0.5) * (np.pi + extent)
+    return PadStates(e, np.stack([np.cos(phi), np.sin(phi)]), phi)
+
+
+def pad_errors(table: PadMapTable, states: PadStates, exact: Array) -> tuple[Array, Array]:
+    """Return the errors of the force, and of K and C, (n,) each, of a map.
+
+    Parameters
+    ----------
+    table : PadMapTable
+    states : PadStates
+    exact : ndarray, shape (10, n)
+        Force and derivatives at the states.
+    """
+    kernel, e = table.kernel(), states.e
+    phi = (np.arange(DIRECTIONS) + 0.5 - 0.5 * DIRECTIONS) * (np.pi + table.extent) / DIRECTIONS
+    around = np.tile([np.cos(phi), np.sin(phi)], e.shape[1])
+    places = np.repeat(e, DIRECTIONS, axis=1)
+    forces = np.hypot(*kernel.force(places, around).values).reshape(-1, DIRECTIONS)
+    matrices = matrix_sizes(kernel.jacobian(places, around).values).reshape(2, -1, DIRECTIONS)
+    least = FLOOR * forces.max(axis=1), FLOOR * matrices.max(axis=2)
+    found = kernel.force(e, states.w).values, kernel.jacobian(e, states.w).values
+    return state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1), least)
+
+
+def loss_states(extent: float, count: int = LOSS_STATES) -> tuple[Array, Array]:
+    """Return eccentricities (2, n), and rates of both senses (n,) [1/s], that fill the maps of losses."""
+    shares = even_shares(count, 2)
+    theta = TURN * shares[1]
+    chi = LARGEST * np.sqrt(shares[0]) * loss_reach(theta, extent)[0]
+    rate = np.where(np.arange(count) % 2, -1.0, 1.0)
+    return np.stack([chi * np.cos(theta), chi * np.sin(theta)]), rate
+
+
+def loss_errors_of_pad(table: PadMapTable, e: Array, rate: Array, exact: Array) -> Array:
+    """Return the errors of shear and of flows of a map, (2, n), at states as of `loss_states`.
+
+    Parameters
+    ----------
+    table : PadMapTable
+    e, rate : ndarray
+    exact : ndarray, shape (3, n)
+        What `pad_losses.grid_losses` returns of them.
+    """
+    found = np.stack(table.loss_map().at(e, rate)[:3])
+    shear, *flows = np.abs(found - exact)
+    return np.stack([shear / exact[0], np.max(flows, axis=0)])
+
+
+def pad_bounds(table: PadMapTable, states: PadStates, exact: Array, exact_losses: Array) -> Array:
+    """Return the bounds of a map; see `PadMapTable` and, for the arguments, `pad_errors`."""
+    e, rate = loss_states(table.extent)
+    parts = (
+        (states.e, np.stack(pad_errors(table, states, exact))),
+        (e, loss_errors_of_pad(table, e, rate, exact_losses)),
+    )
+    return np.column_stack([LEAST_FILMS, *(_worst(least_film(at, table.extent), own) for at, own in parts)])
+
+
+def _worst(film: Array, errors: Array) -> Array:
+    """Return the bounds of errors (k, n) in each band of the least film, (BANDS, k)."""
+    return np.array([MARGIN * errors[:, film >= limit].max(axis=1, initial=0.0) for limit in LEAST_FILMS])
+
+
+# Nodes of the map of a pad: where they lie, and values between them from the slopes of the potential.
+#
+# A film that is solved has the slopes of its potential by the place of the journal for next to nothing, as
+# its pressure minimizes it. They are worth a node more between every two.
+
+
+NEAR_NODES = 4
+"""Nodes whose values and slopes make a value between two: exact for polynomials of degree 7."""
+
+
+def node_angles(extent: float, count: int) -> Array:
+    """Return the angles of the source of the nodes, (count,) [rad]: the middles of equal parts."""
+    return (np.arange(count) + 0.5 - 0.5 * count) * (np.pi + extent) / count
+
+
+def node_places(extent: float, xi: Array, share: Array) -> Array:
+    """Return the eccentricities, shape (2, n, m), at n xi, and m shares of the way to the wall."""
+    return np.stack([np.repeat(xi[:, None], len(share), axis=1), wall(xi, extent)[:, None] * share])
+
+
+def along_nodes(by_e: Array, extent: float, xi: Array, share: Array) -> Array:
+    """Return derivatives by u and Y, (2, n, m, ...), of what has these by e, at places of `node_places`."""
+    b, more = 0.5 * extent, (1,) * (by_e.ndim - 3)
+    end = wall(xi, extent)
+    bent = np.where(xi > np.cos(b), -xi / end, -1.0 / np.tan(b))
+    by_xi, by_eta = by_e
+    by_u = (1.0 - xi).reshape(-1, 1, *more) * (
+        by_xi + np.outer(bent, share).reshape(*by_xi.shape[:2], *more) * by_eta
+    )
+    return np.stack([by_u, np.outer(end, 1.0 - share**2).reshape(*by_xi.shape[:2], *more) * by_eta])
+
+
+def between_nodes(values: Array, slopes: Array, step: float) -> Array:
+    """Return values at n equally spaced nodes and in the middle between them, (2 n - 1, ...).
+
+    Parameters
+    ----------
+    values, slopes : ndarray, shape (n, ...)
+        Slopes by what the nodes are `step` apart in; n at least `NEAR`.
+    step : float
+    """
+    n = len(values)
+    found = np.empty((2 * n - 1, *values.shape[1:]))
+    found[::2] = values
+    for k in range(n - 1):
+        first = min(max(k - 1, 0), n - NEAR_NODES)
+        near = slice(first, first + NEAR_NODES)
+        of_values, of_slopes = _middle(k + 0.5 - first)
+        found[2 * k + 1] = np.tensordot(of_values, values[near], 1)
+        found[2 * k + 1] += step * np.tensordot(of_slopes, slopes[near], 1)
+    return found
+
+
+def _middle(at: float) -> tuple[Array, Array]:
+    """Return the weights of values and slopes at the nodes 0, 1, ... for the value at a place among them."""
+    center = 0.5 * (NEAR_NODES - 1)
+    place, power = np.arange(NEAR_NODES) - center, np.arange(2 * NEAR_NODES)[:, None]
+    slopes = power * place ** np.maximum(power - 1, 0)
+    weights = np.linalg.solve(np.hstack([place**power, slopes]), (at - center) ** power[:, 0])
+    return weights[:NEAR_NODES], weights[NEAR_NODES:]

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...errors import (
+from ...core.errors import (
     InputError,
     require_count,
     require_each,
@@ -17,14 +17,103 @@ from ...errors import (
     require_number,
     require_positive,
 )
-from ...inputs.si_arguments import quantities
-from ...model import Array
-from ...native.layouts.ball_structs import ROW, WAVE
-from .ball_element import BallElement
-from .ball_law import BallLaw, RunningBalls
-from .elliptic_contact import EllipticContact
-from .rolling_material import RollingMaterial
-from .waviness import Waviness
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...native.structs import ROW, WAVE
+from .ball_element import BallElement, BallLaw, EllipticContact, RunningBalls
+
+# What balls and rings are made of.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class RollingMaterial:
+    """An elastic material of balls or rings; `steel` and `silicon_nitride` are the usual two.
+
+    Parameters
+    ----------
+    young_modulus : float [Pa]
+    poisson_ratio : float [1]
+    density : float [kg/m3]
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+
+    young_modulus: float
+    poisson_ratio: float
+    density: float
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "young_modulus", "density")
+        if not -1.0 < require_number("poisson_ratio", self.poisson_ratio) <= 0.5:
+            raise InputError(f"poisson_ratio must be above -1 and at most 0.5, got {self.poisson_ratio!r}")
+
+    @classmethod
+    def steel(cls) -> RollingMaterial:
+        """Return bearing steel by usual figures of catalogs: 207 GPa, 0.3, 7800 kg/m3."""
+        return cls(young_modulus=207e9, poisson_ratio=0.3, density=7800.0)
+
+    @classmethod
+    def silicon_nitride(cls) -> RollingMaterial:
+        """Return the ceramic of hybrid bearings by usual figures of catalogs: 314 GPa, 0.26, 3200 kg/m3."""
+        return cls(young_modulus=314e9, poisson_ratio=0.26, density=3200.0)
+
+    @property
+    def compliance(self) -> float:
+        """(1 - nu^2)/E [1/Pa]."""
+        return (1.0 - self.poisson_ratio**2) / self.young_modulus
+
+
+# Waves of the races of a ball bearing.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Waviness:
+    """One wave of the races of one ring: amplitude cos(lobes (angle - angle of the ring) + phase).
+
+    With Z balls, lobes of m Z move the shaft along itself and change its stiffness, those of m Z + 1 and
+    m Z - 1 move it across.
+
+    Parameters
+    ----------
+    inner : bool
+        Whether it is on the inner ring, which turns, or on the outer one, which stands.
+    lobes : int
+        Around the circumference.
+    radial_amplitude : float [m]
+        Added radially to the distance of the groove centers: positive where it takes clearance.
+    axial_amplitude : float [m]
+        The same along the thrust that the row carries.
+    phase : float [rad]
+        At the angle of the ring, from +x.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+
+    inner: bool
+    lobes: int
+    radial_amplitude: float
+    axial_amplitude: float = 0.0
+    phase: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_count("lobes", self.lobes)
+        require_each(self, require_number, "radial_amplitude", "axial_amplitude", "phase")
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """As the compiled kernel reads it."""
+        return float(self.inner), float(self.lobes), self.radial_amplitude, self.axial_amplitude, self.phase
+
+
+# A ball bearing by its dimensions, deep groove or angular contact, in SI units.
 
 
 @quantities

@@ -9,18 +9,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import FmuError
-from ...model import Array, Dynamic, Model, Stepped, Switched
-from ...native.kernel_table import carried_library, kernel_row, kernel_texts
-from ...native.resource import FILE_NAME, pack
+from ...core.errors import FmuError
+from ...core.model import Array, Dynamic, Model, Stepped, Switched
+from ...core.signals import Variable
+from ...native.resource import FILE_NAME, carried_library, kernel_row, kernel_texts, pack
 from ...native.spec import NativeSpec
-from ...signals import Variable
 from ..archive import licenses
-from ..description.documentation import NATIVE, NATIVE_STEPPED, to_html
-from ..description.terminals import terminal_files
-from ..description.variables import fmi_variables, labelled, references, require_unique, structured_name
-from ..description.xml3 import build_description
-from ..python.bundle import PACKAGE
+from ..description import (
+    build_description,
+    fmi_variables,
+    labelled,
+    references,
+    require_unique,
+    structured_name,
+    terminal_files,
+)
+from ..documentation import NATIVE, NATIVE_STEPPED, to_html
+from ..python.python_backend import PACKAGE
 from ..reference import reference_table, to_csv
 from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
 

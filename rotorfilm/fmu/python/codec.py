@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FmuError
-from ...model import Portable
+from ...core.errors import FmuError
+from ...core.model import Portable
 
 PLAIN_DTYPES = {"|b1", "<i4", "<i8", "<u4", "<u8", "<f4", "<f8"}
 """Array types that JSON numbers hold exactly."""

@@ -17,11 +17,11 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from ...errors import FmuError, InputError
-from ...model import Array, Dynamic, Stepped
-from ...signals import Variable
-from ..advance import advance
-from ..description.variables import fmi_variables
+from ...core.errors import FmuError, InputError
+from ...core.model import Array, Dynamic, Stepped
+from ...core.signals import Variable
+from ..description import fmi_variables
+from ..reference import advance
 from .codec import decode
 from .pythonfmu_api import Fmi2Slave, LogMessage, abort
 

@@ -10,12 +10,12 @@ from collections.abc import Collection, Mapping
 from importlib.util import find_spec
 from typing import NamedTuple
 
-from ...errors import FmuError
+from ...core.errors import FmuError
 
 INSTALLED = {"numpy", "scipy"}
 """Packages that must be installed wherever the FMU runs."""
 
-CARRIED = {"errors", "units", "signals", "model", "results", "films", "bearings", "rotors"}
+CARRIED = {"core", "bearings", "rotors"}
 """Parts of this package that an FMU can carry."""
 
 

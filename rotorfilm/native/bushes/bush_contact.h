@@ -1,4 +1,4 @@
-/* The contact of a rigid shaft that rubs in a polymer liner under a load, worn or not (bearings/bush/moments.py). */
+/* The contact of a rigid shaft that rubs in a polymer liner under a load, worn or not (bearings/bush/wear_at_nodes.py). */
 #ifndef ROTORFILM_BUSH_CONTACT_H
 #define ROTORFILM_BUSH_CONTACT_H
 

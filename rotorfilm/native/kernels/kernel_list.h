@@ -1,4 +1,4 @@
-/* The libraries and their kernels: the one list of them, which C, CMake and native/kernel_table.py read.
+/* The libraries and their kernels: the one list of them, which C, CMake and native/resource.py read.
 
    A library is a bit. It is compiled with RF_SUBSET set to its name, into a file of that name in lower case
    without RF_. Python calls the first of them, and the last two, whose loops no FMU needs: over films, and over

@@ -4,7 +4,7 @@
 
 #include "../films/film.h"
 
-/* A ring with its gap, as bearings/rub/rub_ring.py has it. */
+/* A ring with its gap, as bearings/rub.py has it. */
 typedef struct rf_rub {
     double gap, stiffness, radius, friction, slip_velocity, dissipation, center[2];
 } rf_rub;

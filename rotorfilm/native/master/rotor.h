@@ -17,7 +17,7 @@ typedef struct rf_rotor {
     const uint32_t *output_refs, *motion_refs; /* all outputs; positions and velocities of all journals */
     const uint32_t *drive_refs;                /* what a step under a law sets: forces, or the law's inputs */
     const uint32_t *rows, *columns; /* of the derivatives: rates and motion by states and forces */
-    /* Of one that is integrated here by the exponential (cosim/schemes/exponential.py). */
+    /* Of one that is integrated here by the exponential (cosim/schemes.py). */
     double *x;
     const double *nominal, *base; /* of the states; forces where the motion is asked for */
     const double *nodes, *to_powers;

@@ -1,5 +1,5 @@
 /* Kernel "heavy_tilting_journal": a journal bearing of equal tilting pads with inertia
-   (bearings/pads/tilting/tilting_bearing.py); parameters, states and tables as in tilting_model.h. */
+   (bearings/pads/tilting_bearing.py); parameters, states and tables as in tilting_model.h. */
 
 /* Documentation of the FMU
 

@@ -8,11 +8,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.bush.bearing import MeltingBush
-from rotorfilm.bearings.bush.heat import ApproximateShaft, ExactShaft, GlobalBalance
-from rotorfilm.bearings.bush.materials import BushGeometry, Friction, LinerMaterial
+from rotorfilm.bearings.bush.bearing import BushGeometry, Friction, LinerMaterial, MeltingBush
+from rotorfilm.bearings.bush.melting import ApproximateShaft, ExactShaft, GlobalBalance
 from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 BUSH = f4k20_bush()
 PUBLISHED = replace(BUSH, shaft_heat=ApproximateShaft())

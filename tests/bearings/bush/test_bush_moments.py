@@ -10,8 +10,8 @@ from hypothesis import given, strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from rotorfilm.bearings.bush import BushWear, f4k20_bush
-from rotorfilm.bearings.bush.heat import ApproximateShaft, GlobalBalance
-from rotorfilm.bearings.bush.moments import (
+from rotorfilm.bearings.bush.melting import ApproximateShaft, GlobalBalance
+from rotorfilm.bearings.bush.wear_at_nodes import (
     Stage,
     Wearing,
     end_of_wear,

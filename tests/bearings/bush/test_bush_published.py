@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from rotorfilm.bearings.bush import f4k20_bush, published_stage
-from rotorfilm.bearings.bush.heat import ApproximateShaft
-from rotorfilm.errors import ConvergenceError, InputError
+from rotorfilm.bearings.bush.melting import ApproximateShaft
+from rotorfilm.core.errors import ConvergenceError, InputError
 
 BUSH = replace(f4k20_bush(), shaft_heat=ApproximateShaft())
 LOAD = 3750.0

@@ -11,19 +11,19 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
+from rotorfilm.analysis import OperatingPoint, coefficients, equilibrium, linearize
 from rotorfilm.bearings.bush.bush_reaction import BushReaction
 from rotorfilm.bearings.bush.bush_wear import BushWear
 from rotorfilm.bearings.bush.contact_arc import mean_weight
-from rotorfilm.bearings.bush.heat import GlobalBalance
+from rotorfilm.bearings.bush.melting import GlobalBalance
 from rotorfilm.bearings.bush.published_bush import f4k20_bush
 from rotorfilm.bearings.bush.worn_profile import LocalMelting, Melting, SharedMelting
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
-from rotorfilm.linear import OperatingPoint, coefficients, equilibrium, linearize
-from rotorfilm.model import Dynamic, Reaction, Switched
-from rotorfilm.signals import names
+from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.model import Dynamic, Reaction, Switched
+from rotorfilm.core.signals import names
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore:friction must cover the losses of a worn contact:rotorfilm.errors.ValidityWarning"
+    "ignore:friction must cover the losses of a worn contact:rotorfilm.core.errors.ValidityWarning"
 )
 
 BUSH = f4k20_bush()

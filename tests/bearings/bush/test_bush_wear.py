@@ -11,22 +11,21 @@ from hypothesis import given, settings, strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotorfilm.analysis import OperatingPoint, linearize
+from rotorfilm.bearings.bush.bearing import Friction
 from rotorfilm.bearings.bush.bush_reaction import BushReaction
 from rotorfilm.bearings.bush.bush_wear import BushWear
-from rotorfilm.bearings.bush.heat import GlobalBalance
-from rotorfilm.bearings.bush.materials import Friction
-from rotorfilm.bearings.bush.moments import Stage, Wearing, wear_by_one_moment
+from rotorfilm.bearings.bush.melting import GlobalBalance
 from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.bearings.bush.wear_at_nodes import wear_at_nodes
+from rotorfilm.bearings.bush.wear_at_nodes import Stage, Wearing, wear_at_nodes, wear_by_one_moment
 from rotorfilm.bearings.bush.worn_profile import SharedMelting
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
-from rotorfilm.fmu.advance import advance
-from rotorfilm.linear import OperatingPoint, linearize
-from rotorfilm.model import Dynamic, Switched
-from rotorfilm.signals import names
+from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.model import Dynamic, Switched
+from rotorfilm.core.signals import names
+from rotorfilm.fmu.reference import advance
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore:load and speed must keep a worn contact:rotorfilm.errors.ValidityWarning"
+    "ignore:load and speed must keep a worn contact:rotorfilm.core.errors.ValidityWarning"
 )
 
 BUSH = f4k20_bush()

@@ -7,10 +7,16 @@ import pytest
 from scipy.integrate import quad
 
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
-from rotorfilm.bearings.bush.moments import Stage, Wearing, wear_by_two_moments
-from rotorfilm.bearings.bush.wear_at_nodes import end_of_local_wear, settle_along, wear_at_nodes
+from rotorfilm.bearings.bush.wear_at_nodes import (
+    Stage,
+    Wearing,
+    end_of_local_wear,
+    settle_along,
+    wear_at_nodes,
+    wear_by_two_moments,
+)
 from rotorfilm.bearings.bush.worn_profile import LocalMelting, SharedMelting, arc_nodes
-from rotorfilm.errors import ConvergenceError
+from rotorfilm.core.errors import ConvergenceError
 
 BUSH = f4k20_bush()
 HEAT = 1e8

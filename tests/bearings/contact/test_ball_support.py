@@ -25,7 +25,7 @@ from rotorfilm import (
     mount,
     simulate,
 )
-from rotorfilm.model import Dynamic, Reaction, Switched
+from rotorfilm.core.model import Dynamic, Reaction, Switched
 
 ANGLES = (math.radians(-135), math.radians(-90), math.radians(-45), math.radians(90))
 

@@ -21,10 +21,10 @@ from rotorfilm import (
     ValidityWarning,
     perturbed,
 )
-from rotorfilm.bearings.contact.film.film_equations import TimeDerivative
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.motion import contact_run, run_files as contact_files
-from rotorfilm.bearings.contact.motion.levels import derivative_weights, extrapolation_weights
+from rotorfilm.bearings.contact import contact_run, contact_run as contact_files
+from rotorfilm.bearings.contact.contact_steps import derivative_weights, extrapolation_weights
+from rotorfilm.bearings.contact.film_equations import TimeDerivative
+from rotorfilm.bearings.contact.stationary import SmallMotion
 
 
 def contact(cells=32, V=0.1, Q0=5.0, **change):

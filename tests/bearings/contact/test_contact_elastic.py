@@ -12,10 +12,10 @@ from rotorfilm.bearings.contact import (
     StaggeredScheme,
     UpwindScheme,
 )
-from rotorfilm.bearings.contact.film.deflection import cell_deflection
-from rotorfilm.bearings.contact.film.film_equations import ContactEquations, TimeDerivative
-from rotorfilm.bearings.contact.film.stationary import dry_contact, stationary
-from rotorfilm.errors import InputError
+from rotorfilm.bearings.contact.contact_grid import cell_deflection
+from rotorfilm.bearings.contact.film_equations import ContactEquations, TimeDerivative
+from rotorfilm.bearings.contact.stationary import dry_contact, stationary
+from rotorfilm.core.errors import InputError
 
 SCHEMES = (StaggeredScheme(), UpwindScheme())
 SMALL = ContactGrid(cells=(12, 8))

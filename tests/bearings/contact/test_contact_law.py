@@ -21,13 +21,11 @@ from rotorfilm import (
     reduce_contact,
     ride,
 )
-from rotorfilm.bearings.contact.contact_law import transfer
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
-from rotorfilm.bearings.contact.rational_fit import fit_transfer
-from rotorfilm.bearings.contact.static_law import fit_static_law
-from rotorfilm.linear import OperatingPoint
-from rotorfilm.model import Dynamic, Linearization
+from rotorfilm.analysis import OperatingPoint
+from rotorfilm.bearings.contact.contact_law import fit_static_law, transfer
+from rotorfilm.bearings.contact.reduction import fit_transfer
+from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion
+from rotorfilm.core.model import Dynamic, Linearization
 
 
 @pytest.fixture(autouse=True, scope="module")

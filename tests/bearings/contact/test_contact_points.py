@@ -16,10 +16,15 @@ from rotorfilm import (
     interpolate_contact,
     reduce_contact,
 )
-from rotorfilm.bearings.contact import operating_points as contact_points
-from rotorfilm.bearings.contact.contact_law import transfer
-from rotorfilm.bearings.contact.operating_points import FREQUENCIES, kept_points, operating_point, under_load
-from rotorfilm.model import Linearization
+from rotorfilm.bearings.contact import contact_law as contact_points
+from rotorfilm.bearings.contact.contact_law import (
+    FREQUENCIES,
+    kept_points,
+    operating_point,
+    transfer,
+    under_load,
+)
+from rotorfilm.core.model import Linearization
 
 GRID = ContactGrid(cells=(20, 20))
 

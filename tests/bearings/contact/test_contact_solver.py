@@ -14,19 +14,21 @@ from rotorfilm import (
     StaggeredScheme,
     UpwindScheme,
 )
-from rotorfilm.bearings.contact.film import coarse_correction
-from rotorfilm.bearings.contact.film.coarse_correction import (
+from rotorfilm.bearings.contact import film_newton as coarse_correction
+from rotorfilm.bearings.contact.film_equations import TimeDerivative
+from rotorfilm.bearings.contact.film_newton import (
+    Closure,
+    Place,
     coarser,
     cycle,
+    gmres,
     halved_grids,
+    linearized,
     prolonged,
     restricted,
+    settled_edge,
 )
-from rotorfilm.bearings.contact.film.film_edge import settled_edge
-from rotorfilm.bearings.contact.film.film_equations import TimeDerivative
-from rotorfilm.bearings.contact.film.krylov import gmres
-from rotorfilm.bearings.contact.film.linear_contact import Closure, Place, linearized
-from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD, stationary, thinnest_speed
+from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, stationary, thinnest_speed
 
 
 def contact(cells, V=0.1, Q0=5.0, scheme=None):

@@ -16,10 +16,9 @@ from rotorfilm import (
     StaggeredScheme,
     UpwindScheme,
 )
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.film.stationary import dry_contact
-from rotorfilm.bearings.contact.operating_points import under_load
-from rotorfilm.bearings.ellipse import CIRCLE, Ellipse
+from rotorfilm.bearings.contact.contact_law import under_load
+from rotorfilm.bearings.contact.stationary import SmallMotion, dry_contact
+from rotorfilm.bearings.formulas import CIRCLE, Ellipse
 
 SCHEMES = [UpwindScheme(), StaggeredScheme()]
 

@@ -14,7 +14,7 @@ from rotorfilm import (
     Stepped,
     moving_contact,
 )
-from rotorfilm.bearings.contact.motion.contact_steps import Stepper
+from rotorfilm.bearings.contact.contact_steps import Stepper
 
 CONTACT = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(20, 20)))
 MODEL = MovingContact(contact=CONTACT)

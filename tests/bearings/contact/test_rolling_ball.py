@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rotorfilm import ContactGrid, InputError, RollingBall
-from rotorfilm.bearings.contact.film_formulas import Moes, hamrock_dowson, moes_parameters
+from rotorfilm.bearings.contact.point_contact import Moes, hamrock_dowson, moes_parameters
 
 BALL = RollingBall(
     radius=0.01,

@@ -18,10 +18,10 @@ from rotorfilm import (
     Sprung,
     damper_groups,
 )
-from rotorfilm.bearings.damper.porous_layer import mean_permeability
-from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm
-from rotorfilm.errors import FilmContactError, InputError, ValidityWarning
-from rotorfilm.model import Model, Reaction
+from rotorfilm.bearings.damper.squeeze_films import mean_permeability
+from rotorfilm.bearings.films.geometry import Complementarity, FullFilm
+from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 0.01}
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)

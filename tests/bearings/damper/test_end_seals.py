@@ -8,9 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.bearings.damper.built.ritz_squeeze import squeeze_motions
-from rotorfilm.bearings.damper.built.squeeze_impedance import film_impedance
-from rotorfilm.errors import InputError, ValidityWarning
+from rotorfilm.bearings.damper.squeeze_inertia import film_impedance
+from rotorfilm.bearings.damper.squeeze_laws import squeeze_motions
+from rotorfilm.core.errors import InputError, ValidityWarning
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
 FULL = rf.FullFilm()

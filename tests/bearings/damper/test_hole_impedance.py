@@ -7,8 +7,8 @@ from scipy.sparse import diags, eye, kron
 from scipy.sparse.linalg import spsolve
 
 import rotorfilm as rf
-from rotorfilm.bearings.damper.built.squeeze_impedance import film_impedance
-from rotorfilm.errors import InputError
+from rotorfilm.bearings.damper.squeeze_inertia import film_impedance
+from rotorfilm.core.errors import InputError
 
 R, C, MU, RHO, G = 0.05, 1e-4, 5e-3, 850.0, 2e-11
 AROUND, ALONG = 144, 11

@@ -9,10 +9,8 @@ from families.built_truth import Place
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.bearings.damper.built.film_inertia import FullInertia, short_inertia
-from rotorfilm.bearings.damper.built.ritz_squeeze import squeeze_motions
-from rotorfilm.bearings.damper.built.zone_inertia import ZoneInertia
-from rotorfilm.errors import FilmContactError, InputError, ValidityWarning
+from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia, squeeze_motions
+from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
 
 ROOT = Path(__file__).parents[3]
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}

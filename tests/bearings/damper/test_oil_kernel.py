@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.errors import InputError
-from rotorfilm.motion.compiled.film_calls import heavy_call
+from rotorfilm.analysis.compiled_rotor import heavy_call
+from rotorfilm.core.errors import InputError
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
 FULL = rf.FullFilm()

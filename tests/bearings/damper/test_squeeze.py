@@ -11,19 +11,20 @@ from scipy.integrate import quad, solve_ivp
 from scipy.sparse import diags_array, kron
 from scipy.sparse.linalg import spsolve
 
-from rotorfilm.bearings.damper.cavitated_squeeze import CavitatedSqueezeFilm
-from rotorfilm.bearings.damper.clipped_squeeze import ClippedSqueezeFilm
-from rotorfilm.bearings.damper.finite_squeeze import FiniteSqueezeFilm
-from rotorfilm.bearings.damper.full_squeeze import FullSqueezeFilm, circle_integrals
-from rotorfilm.bearings.damper.porous_layer import (
+from rotorfilm.bearings.damper.squeeze_films import (
+    CavitatedSqueezeFilm,
+    ClippedSqueezeFilm,
+    FiniteSqueezeFilm,
+    FullSqueezeFilm,
     PorousLayer,
     axial_numbers,
     axial_shapes,
+    circle_integrals,
     layer_modes,
     leakage,
 )
 from rotorfilm.bearings.damper.squeeze_laws import parabola_mean
-from rotorfilm.errors import UndefinedDerivativeError, ValidityWarning
+from rotorfilm.core.errors import UndefinedDerivativeError, ValidityWarning
 
 SEALED = PorousLayer(
     permeability_number=0.01, grading=0.5, thickness_ratio=0.1, anisotropy=1.0, vented=False, thin=False
@@ -329,7 +330,7 @@ def test_finite_film_becomes_short(layer):
 
 
 def test_finite_film_equals_the_two_dimensional_reynolds_film():
-    from rotorfilm.bearings.films.cavitation import FullFilm
+    from rotorfilm.bearings.films.geometry import FullFilm
     from rotorfilm.bearings.journal import ReynoldsFilm
 
     # A film is fed by w = v/c: the same source, in units of viscosity length radius^3 / clearance^2.

@@ -21,12 +21,11 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.bearings.damper import squeeze_potential, squeeze_table
-from rotorfilm.bearings.damper.cavitated_squeeze import CavitatedSqueezeFilm
-from rotorfilm.bearings.damper.porous_layer import PorousLayer, layer_modes
-from rotorfilm.bearings.damper.squeeze_potential import CavitatedPotential
-from rotorfilm.bearings.films.cavitation import FullFilm, HalfSommerfeld
-from rotorfilm.errors import ConvergenceError, InputError, UndefinedDerivativeError, ValidityWarning
+from rotorfilm.bearings.damper import squeeze_map as squeeze_potential, squeeze_map as squeeze_table
+from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, PorousLayer, layer_modes
+from rotorfilm.bearings.damper.squeeze_map import CavitatedPotential
+from rotorfilm.bearings.films.geometry import FullFilm, HalfSommerfeld
+from rotorfilm.core.errors import ConvergenceError, InputError, UndefinedDerivativeError, ValidityWarning
 
 LAYER = PorousLayer(
     permeability_number=0.01, grading=0.5, thickness_ratio=0.1, anisotropy=1.0, vented=False, thin=False

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
-from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
-from rotorfilm.bearings.journal.grooves.openings import aligned_openings
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
+from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
 
 WIDTH = np.radians(20.0)
 ONE = FilmGeometry(grooves=(Groove(center=0.7, width=WIDTH),))

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
-from rotorfilm.bearings.films.ring.ring_kernel import richardson
+from rotorfilm.bearings.films.finite_volumes import richardson
+from rotorfilm.bearings.films.geometry import Complementarity, FilmGeometry, FullFilm, Groove, HalfSommerfeld
 from rotorfilm.bearings.journal import ExtrapolatedFilm, JournalBearing, MapFilm, ReynoldsFilm
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 E, W = np.array([0.5, 0.2]), np.array([-0.4, 0.6])
 

@@ -13,7 +13,7 @@ from rotorfilm import (
     WidestGap,
 )
 from rotorfilm.bearings.films.geometry import FilmGeometry
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 from .butenschoen import BUTENSCHOEN
 

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.conserved.fluidity import Fluidity
 from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm.bearings.films.mass_conserving import Fluidity
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
-from rotorfilm.bearings.journal.heat.field.film_cells import film_cells
-from rotorfilm.bearings.journal.heat.field.frozen_film import FrozenFilm
+from rotorfilm.bearings.journal.film_flow import FrozenFilm, film_cells
 
 CELLS = (48, 8)
 OPENINGS = {

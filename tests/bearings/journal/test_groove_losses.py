@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from rotorfilm import Cooling, Groove, JournalBearing, Oil, ReynoldsFilm, coefficients, equilibrium
-from rotorfilm.bearings.films.film_losses import static_rate
-from rotorfilm.bearings.films.geometry import FilmGeometry
+from rotorfilm.bearings.films.geometry import AlignedOpenings, FilmGeometry, aligned_openings
+from rotorfilm.bearings.films.law import static_rate
 from rotorfilm.bearings.journal import GroovedMapFilm
-from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
-from rotorfilm.bearings.journal.grooves.groove_losses import (
+from rotorfilm.bearings.journal.groove_map import (
+    Resolution,
+    build_groove_table,
     images,
     loss_eccentricities,
     node_losses_between,
     opened_film,
     opening_runs,
 )
-from rotorfilm.bearings.journal.grooves.openings import AlignedOpenings, aligned_openings
 from rotorfilm.bearings.oil.heat_balance import balance_temperature, effective_flow
 
 SPEED = 100.0 * np.pi

@@ -9,23 +9,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from rotorfilm.bearings.films.cavitation import Complementarity
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
+from rotorfilm.analysis import coefficients, equilibrium
+from rotorfilm.bearings.films.finite_volumes import LONG, RingKernel, richardson, ring_grids, ring_spans
+from rotorfilm.bearings.films.geometry import Complementarity, FilmGeometry, Groove, Pad, aligned_openings
 from rotorfilm.bearings.films.law import FilmLaw
-from rotorfilm.bearings.films.map_bounds import state_errors
-from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
-from rotorfilm.bearings.films.ring.ring_kernel import RingKernel, richardson
+from rotorfilm.bearings.films.map_fit import state_errors
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
-from rotorfilm.bearings.journal.grooves.groove_build import (
-    ORDER,
-    Resolution,
-    build_groove_table,
-    symmetric_nodes,
-)
-from rotorfilm.bearings.journal.grooves.openings import aligned_openings
+from rotorfilm.bearings.journal.groove_map import ORDER, Resolution, build_groove_table, symmetric_nodes
 from rotorfilm.bearings.journal.map.map_film import packaged_table
-from rotorfilm.errors import InputError, UndefinedDerivativeError, ValidityWarning
-from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.core.errors import InputError, UndefinedDerivativeError, ValidityWarning
 
 COARSE = {"cells": (32, 4), "nodes": (6, 12, 12)}
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}

@@ -6,6 +6,7 @@ import functools
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import coefficients, heated_equilibrium
 from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import (
     BushRing,
@@ -15,7 +16,6 @@ from rotorfilm.bearings.journal import (
     MeanTemperature,
 )
 from rotorfilm.bearings.oil import Cooling, Exponential, Oil
-from rotorfilm.linear import coefficients, heated_equilibrium
 
 CELSIUS = 273.15
 

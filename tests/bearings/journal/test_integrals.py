@@ -7,12 +7,17 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from rotorfilm.bearings.journal.rupture.elliptic import film_nodes
-from rotorfilm.bearings.journal.rupture.gram import arc_gram
-from rotorfilm.bearings.journal.rupture.rupture import Basis, FilmArc
-from rotorfilm.bearings.journal.rupture.sommerfeld import sommerfeld_angle
-from rotorfilm.bearings.journal.rupture.trial_integrals import coupling_integrals, pair_integrals, whitened
-from rotorfilm.bearings.journal.splitting.axial_sums import FiniteAxialSum, FullAxialSum, one_minus_tanh_ratio
+from rotorfilm.bearings.journal.rupture import (
+    Basis,
+    FilmArc,
+    arc_gram,
+    coupling_integrals,
+    film_nodes,
+    pair_integrals,
+    sommerfeld_angle,
+    whitened,
+)
+from rotorfilm.bearings.journal.splitting_film import FiniteAxialSum, FullAxialSum, one_minus_tanh_ratio
 
 ARCS = [
     (0.0, np.pi),

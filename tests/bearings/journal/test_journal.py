@@ -12,8 +12,8 @@ from rotorfilm.bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
-from rotorfilm.model import Model, Reaction
+from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
+from rotorfilm.core.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 bearing = JournalBearing(**DIMENSIONS)

@@ -15,7 +15,7 @@ from rotorfilm.bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from rotorfilm.errors import FilmContactError, UndefinedDerivativeError
+from rotorfilm.core.errors import FilmContactError, UndefinedDerivativeError
 
 CUT = FixedArc(start=0.3, extent=5.9)
 FILMS = {
@@ -145,7 +145,7 @@ def test_empty_batch(film):
 
 
 @films
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 @pytest.mark.parametrize("chi", [0.0, 1e-8, 1e-4, 0.9999])
 def test_finite_over_the_whole_range_of_eccentricity(film, chi):
     e, w = np.array([chi, 0.0]), np.array([0.3, -0.5])

@@ -4,11 +4,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature
-from rotorfilm.bearings.journal.heat.field.film_cells import thickness
-from rotorfilm.bearings.journal.heat.field.film_flow import fed_film
-from rotorfilm.bearings.journal.heat.field.heat_equations import Heating
-from rotorfilm.bearings.journal.heat.field.layer_shares import layer_shares
-from rotorfilm.bearings.journal.heat.field.layers_film import layer_heat
+from rotorfilm.bearings.journal.energy_equation import Heating, layer_heat, layer_shares
+from rotorfilm.bearings.journal.film_flow import fed_film, thickness
 from rotorfilm.bearings.oil import Cooling, Oil
 
 LAYERS, FINE = 5, 4000

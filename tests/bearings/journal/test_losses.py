@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.bearings.films.film_losses import gap_shear
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
+from rotorfilm.analysis import equilibrium
+from rotorfilm.bearings.films.geometry import FilmGeometry, FullFilm, Groove, Pad
+from rotorfilm.bearings.films.law import gap_shear
 from rotorfilm.bearings.journal import (
     ExtrapolatedFilm,
     JournalBearing,
@@ -18,11 +18,9 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
-from rotorfilm.bearings.journal.map.loss_fit import fit_loss_table
-from rotorfilm.bearings.journal.map.loss_nodes import node_losses
-from rotorfilm.bearings.journal.map.loss_table import LossTable, packaged_losses
-from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
-from rotorfilm.linear import equilibrium
+from rotorfilm.bearings.journal.map.map_build import fit_loss_table, node_losses
+from rotorfilm.bearings.journal.map.map_film import LossTable, packaged_losses
+from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError
 
 R, c, mu, omega = 0.05, 1e-4, 0.02, 100.0
 PLAIN = JournalBearing(radius=R, length=2.0 * R, clearance=c, viscosity=mu)

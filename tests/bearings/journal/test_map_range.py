@@ -7,9 +7,9 @@ import pytest
 
 from rotorfilm.bearings.films.map_fit import tabulate_film
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm, bearing_table
-from rotorfilm.bearings.journal.map import own_tables
-from rotorfilm.bearings.journal.map.potential import potential
-from rotorfilm.errors import InputError, ValidityWarning
+from rotorfilm.bearings.journal.map import map_film as own_tables
+from rotorfilm.bearings.journal.map.map_potential import potential
+from rotorfilm.core.errors import InputError, ValidityWarning
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 

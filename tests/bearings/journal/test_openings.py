@@ -23,9 +23,9 @@ from rotorfilm import (
     ShortFilm,
     equilibrium,
 )
-from rotorfilm.bearings.films.film_losses import gap_shear
 from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
-from rotorfilm.errors import InputError
+from rotorfilm.bearings.films.law import gap_shear
+from rotorfilm.core.errors import InputError
 
 R, L, c, mu, omega = 0.05, 0.06, 1e-4, 0.02, 300.0
 REST = [0.0, 0.0]

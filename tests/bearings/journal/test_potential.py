@@ -7,10 +7,15 @@ import pytest
 from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.bearings.journal.map.potential import default_resolution, directed_potential, potential
-from rotorfilm.bearings.journal.map.potential_domain import RitzResolution, Source
-from rotorfilm.bearings.journal.map.potential_grid import grid_potential, richardson_potential
-from rotorfilm.errors import ConvergenceError, InputError
+from rotorfilm.bearings.journal.map.map_build import grid_potential, richardson_potential
+from rotorfilm.bearings.journal.map.map_potential import (
+    RitzResolution,
+    Source,
+    default_resolution,
+    directed_potential,
+    potential,
+)
+from rotorfilm.core.errors import ConvergenceError, InputError
 
 STATES = [(0.3, 0.5), (0.8, 0.2), (0.95, 0.9)]
 

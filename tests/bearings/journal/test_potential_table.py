@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal.map.potential import potential
-from rotorfilm.bearings.journal.map.potential_table import (
+from rotorfilm.bearings.journal.map.map_build import (
     FIELDS,
     eccentricity_ratio,
     load_table,
@@ -16,7 +15,8 @@ from rotorfilm.bearings.journal.map.potential_table import (
     table_row,
     universal_axes,
 )
-from rotorfilm.errors import InputError
+from rotorfilm.bearings.journal.map.map_potential import potential
+from rotorfilm.core.errors import InputError
 
 NODES = Path(__file__).parents[3] / "tools" / "map_nodes.npz"
 

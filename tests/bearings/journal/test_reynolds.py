@@ -8,12 +8,20 @@ from hypothesis import given, settings, strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.film_start import FreeStart, WidestGap
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad, Pocket
+from rotorfilm.bearings.films.geometry import (
+    Complementarity,
+    FilmGeometry,
+    FreeStart,
+    FullFilm,
+    Groove,
+    HalfSommerfeld,
+    Pad,
+    Pocket,
+    WidestGap,
+)
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.journal import FixedArc, MapFilm, ReynoldsFilm, ShortFilm, SpectralArcFilm
-from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError
+from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError
 
 HALF_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 GROOVES = FilmGeometry(grooves=(Groove(center=0.4, width=0.3), Groove(center=-2.2)), supply=0.1)

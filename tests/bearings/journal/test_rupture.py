@@ -17,9 +17,9 @@ from rotorfilm.bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from rotorfilm.bearings.journal.rupture.complementarity_arc import free_ends
-from rotorfilm.bearings.journal.rupture.rupture import Basis
-from rotorfilm.errors import ConvergenceError, InputError, ValidityWarning
+from rotorfilm.bearings.journal.complementarity import free_ends
+from rotorfilm.bearings.journal.rupture import Basis
+from rotorfilm.core.errors import ConvergenceError, InputError, ValidityWarning
 
 FOUR = Basis(4, constant=True)
 FREE = SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc())

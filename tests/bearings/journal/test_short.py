@@ -8,7 +8,7 @@ from mpmath import mp
 from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.errors import UndefinedDerivativeError
+from rotorfilm.core.errors import UndefinedDerivativeError
 
 
 @pytest.mark.closed_form

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import InputError, JournalBearing, ValidityWarning
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pad
+from rotorfilm.bearings.films.geometry import FilmGeometry, FullFilm, Pad
 from rotorfilm.bearings.journal import FixedArc, ReynoldsFilm, SlitArc, SpectralArcFilm, SplittingFilm
 
 PAIR = SlitArc(slit=3.4, extent=2.2)

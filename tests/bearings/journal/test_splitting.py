@@ -5,13 +5,13 @@ import pytest
 from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
-from rotorfilm.bearings.journal.splitting.published_film import (
+from rotorfilm.bearings.journal.splitting_film import (
     first_approximation,
     first_approximation_slopes,
     load_function,
     second_approximation,
 )
-from rotorfilm.errors import InputError, ValidityWarning
+from rotorfilm.core.errors import InputError, ValidityWarning
 
 QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
 ECCENTRICITIES = np.array([0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95])

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from rotorfilm.analysis import coefficients, critical_mass, equilibrium
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     JournalBearing,
@@ -12,8 +13,7 @@ from rotorfilm.bearings.journal import (
     ReynoldsFilm,
     SplittingFilm,
 )
-from rotorfilm.bearings.journal.map.potential import potential
-from rotorfilm.linear import coefficients, critical_mass, equilibrium
+from rotorfilm.bearings.journal.map.map_potential import potential
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1, film=MapFilm())
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import AdiabaticWalls, BushRing, HeldWalls
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 R, OUTER, K = 0.05, 0.1, 50.0
 N = np.arange(1.0, 6.0)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
-from rotorfilm.bearings.oil.viscosity_table import RANGE, viscosity_table
-from rotorfilm.errors import InputError, ValidityWarning
-from rotorfilm.native.layouts.heat_structs import OilStruct
+from rotorfilm.bearings.oil.oil import RANGE, viscosity_table
+from rotorfilm.core.errors import InputError, ValidityWarning
+from rotorfilm.native.structs import OilStruct
 
 CELSIUS = 273.15
 

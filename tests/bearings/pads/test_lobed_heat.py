@@ -25,9 +25,8 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.bearings.oil.heat_balance import heat_surplus
-from rotorfilm.bearings.pads.losses_of_pads import behind_pads
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table
-from rotorfilm.bearings.pads.pad_grid import pad_grid
+from rotorfilm.bearings.pads.pad_bearing import behind_pads
+from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
 
 DEGREE = np.pi / 180.0
 RADIUS, LENGTH, CLEARANCE, VISCOSITY, SPEED = 0.05, 0.05, 75e-6, 0.02, 314.0

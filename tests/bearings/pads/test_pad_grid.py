@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import JournalBearing, Pad, ReynoldsFilm
-from rotorfilm.bearings.pads.pad_bounds import FLOOR, pad_states
-from rotorfilm.bearings.pads.pad_build import FINE
-from rotorfilm.bearings.pads.pad_grid import pad_grid
+from rotorfilm.bearings.pads.pad_build import FINE, FLOOR, pad_grid, pad_states
 from rotorfilm.native import Status
 
 DEGREE = np.pi / 180.0

@@ -4,19 +4,18 @@ import numpy as np
 import pytest
 
 from rotorfilm import PadGridFilm, PadMapFilm
-from rotorfilm.bearings.films.film_losses import gap_integral
-from rotorfilm.bearings.films.quintic import periodic_quintic, periodic_quintic_coefficients, spline_slopes
-from rotorfilm.bearings.pads.pad_bounds import loss_states
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table
-from rotorfilm.bearings.pads.pad_grid import pad_grid
-from rotorfilm.bearings.pads.pad_losses import (
+from rotorfilm.bearings.films.law import gap_integral
+from rotorfilm.bearings.films.map_fit import periodic_quintic, periodic_quintic_coefficients, spline_slopes
+from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, loss_states, pad_grid
+from rotorfilm.bearings.pads.pad_table import (
     LARGEST,
+    PadMapTable,
     gap_shear_of_pad,
     gap_slopes_of_pad,
     grid_losses,
+    least_film,
     loss_reach,
 )
-from rotorfilm.bearings.pads.pad_table import PadMapTable, least_film
 
 DEGREE = np.pi / 180.0
 CELLS = (48, 8)

@@ -6,23 +6,27 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films import table_pieces
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
-from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
-from rotorfilm.bearings.journal.grooves.openings import aligned_openings
-from rotorfilm.bearings.pads.pad_bounds import LEAST_FILMS, pad_errors, pad_states
+from rotorfilm.bearings.films import map_fit as table_pieces
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
+from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
 from rotorfilm.bearings.pads.pad_build import (
     FINE,
+    LEAST_FILMS,
     ORDER,
     PadResolution,
+    along_nodes,
+    between_nodes,
     build_pad_table,
     expected_time,
+    node_angles,
+    node_places,
+    pad_errors,
+    pad_grid,
+    pad_states,
     seen_film,
 )
-from rotorfilm.bearings.pads.pad_grid import pad_grid
-from rotorfilm.bearings.pads.pad_nodes import along_nodes, between_nodes, node_angles, node_places
 from rotorfilm.bearings.pads.pad_table import least_film, wall
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 from rotorfilm.native import GrooveMapKernel, Status
 
 DEGREE = np.pi / 180.0

@@ -27,8 +27,8 @@ from rotorfilm import (
     simulate,
     whirl_threshold,
 )
+from rotorfilm.analysis.equal_steps import march
 from rotorfilm.bearings.pads.pad_build import PadResolution
-from rotorfilm.motion.transient.equal_steps import march
 
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(10, 9, 32)))
 BEARING = LobedBearing(

@@ -22,7 +22,7 @@ from rotorfilm import (
     palmgren_stiffness,
     simulate,
 )
-from rotorfilm.model import Reaction
+from rotorfilm.core.model import Reaction
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

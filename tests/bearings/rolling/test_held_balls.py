@@ -178,7 +178,9 @@ def test_thousands_of_random_balls_neither_fail_nor_jump():
         found = [bearing.kernel.at(u + k * step, speed) for k in range(-2, 3)]
         assert max(at.status for at in found) <= 1
         force = np.array([at.wrench for at in found])
-        assert np.abs(np.diff(force, 2, axis=0)).max() <= 1e-7 * np.abs(force).max() + bearing.force_noise(speed)
+        assert np.abs(np.diff(force, 2, axis=0)).max() <= 1e-7 * np.abs(force).max() + bearing.force_noise(
+            speed
+        )
         balls += bearing.balls
         traction = max(traction, found[0].each["traction"].max() / bearing.law.traction_coefficient)
     assert balls > 3000

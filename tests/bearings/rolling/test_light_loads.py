@@ -17,7 +17,7 @@ from rotorfilm import (
     equilibrium,
     variable_compliance,
 )
-from rotorfilm.bearings.rolling.cage.turning_balls import TurningBalls
+from rotorfilm.bearings.rolling.ball_cage import TurningBalls
 
 D, F = 7.938e-3, 0.52
 MODULUS = 207e9 / (1.0 - 0.3**2)  # E' = 2/sum((1 - nu^2)/E) of two bodies of steel

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import InputError, PalmgrenBalls, coefficients, equilibrium, palmgren_stiffness
-from rotorfilm.model import Reaction
+from rotorfilm.core.model import Reaction
 
 SIZE = {"balls": 9, "ball_diameter": 9.525e-3, "contact_angle": math.radians(15.0)}
 BALLS = PalmgrenBalls(**SIZE, damping=30.0)

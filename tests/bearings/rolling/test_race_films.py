@@ -26,9 +26,9 @@ from rotorfilm import (
     lubricated_balls,
     race_films,
 )
-from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.linear import OperatingPoint
-from rotorfilm.model import Dynamic, Switched
+from rotorfilm.analysis import OperatingPoint
+from rotorfilm.bearings.contact.stationary import SmallMotion
+from rotorfilm.core.model import Dynamic, Switched
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

@@ -20,7 +20,7 @@ from rotorfilm import (
     simulate,
     variable_compliance,
 )
-from rotorfilm.model import Dynamic, Model, Reaction, Switched
+from rotorfilm.core.model import Dynamic, Model, Reaction, Switched
 
 WAVES = (
     Waviness(inner=True, lobes=9, radial_amplitude=0.3e-6, phase=0.4),

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from seal_range import SPEED, BulkFlow, fitted
 
 import rotorfilm as rf
-from rotorfilm.bearings.seal import short_seal
+from rotorfilm.bearings import seal as short_seal
 
 WATER = {"viscosity": 1e-3, "density": 1000.0}
 

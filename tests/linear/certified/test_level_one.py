@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.linear.certified.screening import Screening, border_ratio, in_region_b, screened
+from rotorfilm.analysis.api617 import Screening, border_ratio, in_region_b, screened
 
 MASS, LENGTH, DIAMETER, SPEED = 400.0, 1.2, 0.11, 1200.0
 STIFFNESS, DAMPING = 6e7, 1.2e5

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import rotorfilm as rf
-from rotorfilm.linear.certified.placement import _lobes
+from rotorfilm.analysis.unbalance_margins import _lobes
 
 NATURAL, ECCENTRICITY = 300.0, 1e-6
 SPEEDS = np.linspace(30.0, 900.0, 1500)

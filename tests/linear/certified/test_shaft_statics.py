@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.linear.certified.mesh_convergence import _extrapolated
-from rotorfilm.reactions.carried_load import carries_load
+from rotorfilm.analysis.unbalance_margins import _extrapolated
+from rotorfilm.core.model import carries_load
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
 LENGTH, DIAMETER = 2.0, 0.1

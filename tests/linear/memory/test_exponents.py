@@ -14,12 +14,9 @@ from rotorfilm import (
     critical_mass,
     whirl_threshold,
 )
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap
-from rotorfilm.bearings.films.conserved.conserved_motion import FilmInMotion
-from rotorfilm.bearings.films.conserved.oil_kernel import oil_outflow
-from rotorfilm.linear.memory.exponents import rigid_exponents, rigid_growing
-from rotorfilm.linear.memory.mass_borders import mass_borders
-from rotorfilm.linear.memory.phase_count import growing_count
+from rotorfilm.analysis.frequency_dependent import growing_count, mass_borders, rigid_exponents, rigid_growing
+from rotorfilm.bearings.films.mass_conserving import circular_gap, oil_outflow
+from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
 
 SPEED = 314.0
 

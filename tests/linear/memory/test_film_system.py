@@ -13,7 +13,7 @@ from rotorfilm import (
     film_system,
     linearize,
 )
-from rotorfilm.linear.memory.exponents import rigid_exponents
+from rotorfilm.analysis.frequency_dependent import rigid_exponents
 
 SPEED = 314.0
 

@@ -26,12 +26,10 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
+from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
+from rotorfilm.analysis.frequency_dependent import rotor_growing
+from rotorfilm.analysis.speed_events import Critical, Start, value_rate, whirl_of
 from rotorfilm.bearings.pads.pad_build import PadResolution
-from rotorfilm.linear import rotor_system
-from rotorfilm.linear.large import remembered
-from rotorfilm.linear.large.remembered import rotor_growing
-from rotorfilm.linear.rotor_whirl import Start, value_rate, whirl_of
-from rotorfilm.linear.speed_events import Critical
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RIGID = RigidShaft(
@@ -175,7 +173,7 @@ PADS = {
 }
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_a_critical_speed_on_pads_has_their_stiffness_at_the_exponent():
     rotor, films = shaft(2), Turning(PADS)
     first = critical_speeds(rotor, PADS, [140.0, 155.0])[0]

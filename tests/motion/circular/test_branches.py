@@ -19,10 +19,9 @@ from rotorfilm import (
     synchronous_orbits,
     transmitted_ratio,
 )
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.bearings.films.geometry import Groove
-from rotorfilm.errors import ContactError, InputError
-from rotorfilm.motion import bistability_limit, bistable_map, polar_series
+from rotorfilm.analysis import bistability_limit, bistable_map, polar_series
+from rotorfilm.bearings.films.geometry import FullFilm, Groove
+from rotorfilm.core.errors import ContactError, InputError
 
 
 @pytest.mark.closed_form

@@ -7,8 +7,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from rotorfilm import simulate, transmitted_ratio
-from rotorfilm.errors import InputError
-from rotorfilm.motion import cartesian_state, polar_acceleration, polar_series
+from rotorfilm.analysis import cartesian_state, polar_acceleration, polar_series
+from rotorfilm.core.errors import InputError
 
 
 @settings(deadline=None, max_examples=25)

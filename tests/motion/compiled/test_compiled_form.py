@@ -34,7 +34,7 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
-from rotorfilm.motion.compiled.compiled_form import compiled_form
+from rotorfilm.analysis.compiled_rotor import compiled_form
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP = JournalBearing(**SIZES)

@@ -27,9 +27,8 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
-from rotorfilm.motion.compiled.march import March
-from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
-from rotorfilm.motion.compiled.run_up import stretches
+from rotorfilm.analysis.compiled_march import March, stretches
+from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 SPRINGS = LinearBearing(stiffness=((2e6, 5e5), (-5e5, 3e6)), damping=800.0)

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, MapSqueeze, PorousDamper, ShortFilm, Sprung
-from rotorfilm.motion.compiled.film_calls import film_call
-from rotorfilm.motion.compiled.journal_films import JournalFilms
+from rotorfilm.analysis.compiled_rotor import JournalFilms, film_call
 from rotorfilm.native import Status
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

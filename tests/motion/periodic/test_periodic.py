@@ -18,9 +18,8 @@ from rotorfilm import (
     simulate_rotor,
     unbalance_response,
 )
-from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
-from rotorfilm.motion.periodic.floquet import monodromy
-from rotorfilm.motion.periodic.rest import rest_of
+from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
+from rotorfilm.analysis.periodic_orbit import monodromy, rest_of
 
 from .test_simulate import shaft
 

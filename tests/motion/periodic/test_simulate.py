@@ -29,11 +29,10 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
+from rotorfilm.analysis.compiled_march import March, radau_scheme
+from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
 from rotorfilm.bearings.reaction import StaticReaction
-from rotorfilm.errors import ConvergenceError
-from rotorfilm.motion.compiled.collocation import radau_scheme
-from rotorfilm.motion.compiled.march import March
-from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
+from rotorfilm.core.errors import ConvergenceError
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)

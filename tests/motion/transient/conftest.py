@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rotorfilm.errors import FilmContactError
-from rotorfilm.model import static_linearization
-from rotorfilm.signals import force_outputs, journal_inputs
+from rotorfilm.core.errors import FilmContactError
+from rotorfilm.core.model import static_linearization
+from rotorfilm.core.signals import force_outputs, journal_inputs
 
 
 @dataclass(frozen=True)

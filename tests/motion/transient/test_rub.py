@@ -199,7 +199,7 @@ def test_derivatives_of_the_ring_in_python_and_compiled():
         up, down = ((q + s * shift[:2], v + s * shift[2:4], speed + s * shift[4]) for s in (1, -1))
         slope = (ring.force(*up) - ring.force(*down)) / (2.0 * step)
         assert_allclose(slope, jacobian[:, k], atol=1e-7 * np.abs(jacobian[:, k]).max())
-    from rotorfilm.motion.compiled.film_calls import kernel_call
+    from rotorfilm.analysis.compiled_rotor import kernel_call
     from rotorfilm.native.library import loops
 
     both = rf.ParallelReaction((ring, rf.LinearBearing(stiffness=1e6, damping=30.0)))
@@ -262,7 +262,7 @@ def test_parallel_reactions_add_up():
 
 
 def test_where_one_of_two_touches_its_wall_nothing_is_added():
-    from rotorfilm.motion.compiled.film_calls import kernel_call
+    from rotorfilm.analysis.compiled_rotor import kernel_call
     from rotorfilm.native import Status
     from rotorfilm.native.library import loops
 

@@ -5,9 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.bearings.damper.built.judged_damper import JudgedDamper
-from rotorfilm.motion.transient.shaken_rotor import ShakenRotor, StatesAlong
-from rotorfilm.scenes.counted import counted_calls
+from rotorfilm.analysis.equal_steps import ShakenRotor, StatesAlong
+from rotorfilm.bearings.damper.neglected_effects import JudgedDamper
+from rotorfilm.scenes.film_rungs import counted_calls
 
 SPEED = 300.0
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}

@@ -6,14 +6,13 @@ from numpy.testing import assert_allclose
 from scipy.integrate import DOP853, LSODA, solve_ivp
 
 import rotorfilm
+from rotorfilm.analysis import equilibrium, simulate
+from rotorfilm.analysis.simulate import Coupled
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import InputError, UndefinedDerivativeError
-from rotorfilm.linear import equilibrium
-from rotorfilm.motion import simulate
-from rotorfilm.motion.transient.coupled import Coupled
+from rotorfilm.core.errors import InputError, UndefinedDerivativeError
+from rotorfilm.core.signals import Signal
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.signals import Signal
 
 MASS, STIFFNESS, DAMPING, SPEED = 2.0, 8e4, 60.0, 150.0
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)

@@ -23,9 +23,8 @@ from rotorfilm import (
     equilibrium,
     simulate,
 )
-from rotorfilm.errors import ContactError, ConvergenceError, InputError
-from rotorfilm.motion.transient.step_error import StepError
-from rotorfilm.motion.transient.stepped_loop import Moment
+from rotorfilm.analysis.stepped_run import Moment, StepError
+from rotorfilm.core.errors import ContactError, ConvergenceError, InputError
 
 R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...bearings.reaction import StaticReaction
-from ...errors import require_positive
-from ...model import Array
+from ...core.errors import require_positive
+from ...core.model import Array
 
 
 def squeeze_damping(

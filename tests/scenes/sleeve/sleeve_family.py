@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...errors import InputError
+from ...core.errors import InputError
 from ..families import Family, SceneModels
 from .sleeve_rungs import sleeve_ladder
 from .sleeve_table import SleeveTable

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from ..families import Remark, said
 from ..lubricant_table import Lubricant
-from ..remarks import Remark, said
 from .sleeve_bearing import ViscousSleeve
 
 REMARKS = (

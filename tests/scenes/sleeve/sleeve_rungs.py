@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ...answers import ErrorEstimate, Found, Work, WorkUnit
-from ...ladders import CandidateRung, Ladder
+from ...core.answers import CandidateRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from .sleeve_bearing import ViscousSleeve
 from .sleeve_remarks import sleeve_remarks
 

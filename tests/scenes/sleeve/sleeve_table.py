@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from ..reading.tables import Quantity
+from ..reading import Quantity
 from .sleeve_bearing import ViscousSleeve
 
 

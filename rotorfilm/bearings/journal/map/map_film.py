@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ....errors import RotorfilmError, require_kind
-from ....inputs.si_arguments import quantities
-from ....model import Array
+from ....core.errors import InputError, RotorfilmError, require_kind
+from ....core.inputs import quantities
+from ....core.model import Array
 from ....native import MapKernel
-from ....native.loss_kernels import LossKernel
-from ...films.film_losses import FilmLosses, plain_losses
+from ....native.loss_kernels import LossKernel, MapLossKernel
 from ...films.kernel_film import KernelFilm
-from ...films.law import require_film
-from ...films.map_table import MapTable
-from .loss_table import packaged_kernel
-from .own_tables import OWN_RANGE, bearing_table, reference_film
+from ...films.law import FilmLosses, plain_losses, require_film
+from ...films.map_table import MapTable, StoredTable
+
+if TYPE_CHECKING:
+    from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 TABLE = "journal_map.bin"
 """The universal table of the package, in `films/data`."""
@@ -126,3 +128,183 @@ def _table_for(slenderness: float) -> MapTable:
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
     return MapKernel(*table.at(slenderness), slenderness)
+
+
+# Tables of single bearings that the packaged table leaves out: very short ones and long ones.
+#
+# A short film near the wall has ends as wide as it is long, and a long one closes its dry gap and
+# then carries pressure all round, where `potential` fails. The two-dimensional film meets both: its J
+# = (F . w)/2, extrapolated from two grids, has a smaller error than its force.
+
+
+OWN_RANGE = (0.001, 20.0)
+"""Length/diameter for which a table can be made; beyond, the layers at the ends get too thin for the grid."""
+
+TABLE_CELLS = (24, 96, 0)
+REACH = 0.999
+_SHORT, _LONG = (384, 16), (192, 24)
+
+
+@dataclass(frozen=True)
+class _TwoFilms:
+    """A film, and a finer one where the journal leaves the wall: it is then opposite, where lines are few."""
+
+    towards: ExtrapolatedFilm
+    away: ExtrapolatedFilm
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        leaving = (eccentricity * source).sum(axis=0) < 0.0
+        force = np.empty_like(source)
+        for film, mine in ((self.towards, ~leaving), (self.away, leaving)):
+            force[:, mine] = film.force(eccentricity[:, mine], source[:, mine], slenderness)
+        return force
+
+
+def _film(around: int, along: int) -> _TwoFilms:
+    from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
+
+    films = (ExtrapolatedFilm(film=ReynoldsFilm(cells=(k * around, along))) for k in (1, 2))
+    return _TwoFilms(*films)
+
+
+def reference_film(slenderness: float) -> ReynoldsFilm:
+    """Return the two-dimensional film of a bearing that the packaged table leaves out."""
+    from ..reynolds_film import ReynoldsFilm
+
+    return ReynoldsFilm(cells=_SHORT if slenderness < 1.0 else _LONG)
+
+
+@lru_cache(maxsize=16)
+def bearing_table(slenderness: float) -> MapTable:
+    """Return the table of the full film with Reynolds rupture for one length/diameter, in half a minute.
+
+    Parameters
+    ----------
+    slenderness : float [1]
+        Length / diameter, .001 to 20.
+
+    Returns
+    -------
+    MapTable
+        Largest error of a force in nine directions, length/diameter .05 and 8: 3e-4 at eccentricity ratio
+        .95, 7e-4 at .985, 3e-3 at .995 and .999.
+
+    Raises
+    ------
+    InputError
+        If the slenderness is outside its range.
+    """
+    import logging
+
+    from ...films.map_fit import tabulate_film
+
+    low, high = OWN_RANGE
+    if not low <= slenderness <= high:
+        raise InputError(f"length/diameter must be {low:g} to {high:g} for a map, got {slenderness!r}")
+    logging.getLogger(__name__).warning(
+        "length/diameter %.6g is outside the table of the package: making one for it, in about half a minute",
+        slenderness,
+    )
+    return tabulate_film(
+        _film(*(_SHORT if slenderness < 1.0 else _LONG)),
+        slenderness_range=(slenderness, slenderness),
+        cells=TABLE_CELLS,
+        largest_eccentricity_ratio=REACH,
+    )
+
+
+# Shear and flow of every plain journal bearing as three tables beside that of the potential.
+#
+# With X and S = ln(L/D) as in `films/map_table.py`, the tables hold
+#
+#     ln(sqrt(1 - chi^2) Sigma_f),   ln(sqrt(1 - chi^2) (Sigma_f + Sigma_r)),   ln(flow/|w|),
+#     each as L0(S) + chi M(X, s, S),   tan s = CROWDING tan beta,
+#
+# `Sigma_f` being the shear integral of the film, `Sigma_r` that of the streamers
+# (`films/film_losses.py`), and beta in [0, pi] the angle between eccentricity and source. The
+# streamers follow the end at which the film is torn, so that their table has kinks at the center and
+# where beta is 0 or pi: it is fitted from one side. The others are even in beta.
+
+
+LOSS_FILE = "journal_losses.bin"
+"""The table of the package, in `data`."""
+
+QUANTUM = 1e-7
+"""Unit of the stored coefficients, far below the error of the nodes."""
+
+CROWDING = 0.6
+"""Ratio of tan s and tan beta: crowds the nodes where the source is across, as the film turns there."""
+
+
+@dataclass(frozen=True, eq=False)
+class LossTable(StoredTable):
+    """Shear and flow of films over eccentricity, direction and slenderness.
+
+    Parameters
+    ----------
+    shear_film, shear, flow : MapTable
+        Of ln(s Sigma_f), ln(s (Sigma_f + Sigma_r)) and ln(flow/|w|), of equal sizes and ranges.
+
+    Raises
+    ------
+    InputError
+        If the three are not alike.
+    """
+
+    shear_film: MapTable
+    shear: MapTable
+    flow: MapTable
+
+    def __post_init__(self) -> None:
+        kinds = {(t.slenderness_range, t.reach, np.shape(t.coefficients)) for t in self.tables}
+        if len(kinds) > 1:
+            raise InputError(f"shear_film, shear and flow must have equal ranges and sizes, got {kinds!r}")
+
+    @property
+    def tables(self) -> tuple[MapTable, MapTable, MapTable]:
+        """The three tables."""
+        return self.shear_film, self.shear, self.flow
+
+    def holds(self, slenderness: float) -> bool:
+        """Return whether the table has a bearing of this length/diameter."""
+        return self.flow.holds(slenderness)
+
+    def at(self, slenderness: float) -> MapLossKernel:
+        """Return the compiled losses of one bearing; InputError if the table does not hold it."""
+        maps = [table.at(slenderness) for table in self.tables]
+        coefficients, center = (np.array([m[k] for m in maps]) for k in (0, 2))
+        return MapLossKernel(coefficients, maps[0].reach, center, CROWDING)
+
+    def to_bytes(self) -> bytes:
+        """Return the three tables as bytes, one after the other."""
+        return b"".join(table.to_bytes(QUANTUM) for table in self.tables)
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> Self:
+        """Return the table that `to_bytes` wrote; RotorfilmError where the content is damaged."""
+        size = len(content) // 3
+        return cls(*(MapTable.from_bytes(content[k * size : (k + 1) * size]) for k in range(3)))
+
+
+@lru_cache(maxsize=1)
+def packaged_losses() -> LossTable:
+    """Return the table that comes with the package.
+
+    Raises
+    ------
+    RotorfilmError
+        If it is missing or damaged.
+    """
+    package = __package__ or ""
+    try:
+        content = files(package).joinpath("data", LOSS_FILE).read_bytes()
+    except OSError as error:
+        raise RotorfilmError(f"the loss table {LOSS_FILE} of the package is missing: {error}") from error
+    return LossTable.from_bytes(content)
+
+
+@lru_cache(maxsize=64)
+def packaged_kernel(slenderness: float) -> MapLossKernel | None:
+    """Return the losses of one plain bearing; None where the table of the package does not hold it."""
+    table = packaged_losses()
+    return table.at(slenderness) if table.holds(slenderness) else None

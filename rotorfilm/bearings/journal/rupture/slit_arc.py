@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....errors import InputError, require_number
-from ....inputs.si_arguments import quantities
-from ....model import Array
-from .reynolds_arc import ReynoldsArc, ruptured_arc
-from .rupture import SHORTEST_ARC, Basis, FilmArc, FixedArc
+from ....core.errors import InputError, require_number
+from ....core.inputs import quantities
+from ....core.model import Array
+from . import SHORTEST_ARC, Basis, FilmArc, FixedArc, ReynoldsArc, ruptured_arc
 
 
 @quantities

@@ -23,7 +23,7 @@ from rotorfilm import (
     simulate,
     synchronous_orbits,
 )
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 
 R, c, mu, OMEGA = 0.05, 1e-4, 0.01, 300.0
 UNIT = 12.0 * mu * (R / c) ** 2 * OMEGA

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.conserved.conserved_cells import conserved_cells
-from rotorfilm.bearings.films.conserved.conserved_film import ConservedFilm, Supply
+from rotorfilm.bearings.films.mass_conserving import ConservedFilm, Supply, conserved_cells
 
 
 @pytest.fixture(scope="session")

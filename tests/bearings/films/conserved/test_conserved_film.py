@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotorfilm import ReynoldsFilm
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap, step_storage
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pocket
+from rotorfilm.bearings.films.mass_conserving import circular_gap, step_storage
 
 WIDEST = FilmGeometry(grooves=(Groove(center=np.pi),))
 PAIR = (Pocket(center=0.0, width=np.radians(20), share=0.8), Pocket(center=np.pi, width=0.3, share=0.6))

@@ -5,14 +5,15 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.films.conserved.conserved_cells import ConservedCells, conserved_cells
-from rotorfilm.bearings.films.conserved.conserved_film import (
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
+from rotorfilm.bearings.films.mass_conserving import (
+    ConservedCells,
     ConservedFilm,
     Gap,
     circular_gap,
+    conserved_cells,
     step_storage,
 )
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
 
 
 def open_line(places):

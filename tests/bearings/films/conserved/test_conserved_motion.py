@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap, step_storage
-from rotorfilm.bearings.films.conserved.conserved_motion import (
+from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
+from rotorfilm.bearings.films.mass_conserving import circular_gap, step_storage
+from rotorfilm.bearings.films.mass_conserving_steps import (
     dynamic_stiffness,
     slow_motion,
     speed_slope,
     step_stiffness,
 )
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2, width=np.radians(20), share=0.8),), supply=0.0106)
 PLACE = np.array([0.37, -0.48])

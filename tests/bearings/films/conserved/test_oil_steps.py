@@ -3,17 +3,23 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.conserved.conserved_cells import FILM, ConservedCells
-from rotorfilm.bearings.films.conserved.conserved_film import ConservedFilm, bdf2, circular_gap, step_storage
-from rotorfilm.bearings.films.conserved.oil_steps import (
+from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
+from rotorfilm.bearings.films.mass_conserving import (
+    FILM,
+    ConservedCells,
+    ConservedFilm,
+    bdf2,
+    circular_gap,
+    step_storage,
+)
+from rotorfilm.bearings.films.mass_conserving_steps import (
     OilMemory,
     after_step,
     oil_step,
     remembered,
+    sharpened_oil,
     steady_oil,
 )
-from rotorfilm.bearings.films.conserved.step_kernel import sharpened_oil
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2.0, width=np.radians(20.0), share=0.8),), supply=0.05)
 

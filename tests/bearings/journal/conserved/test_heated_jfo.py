@@ -26,8 +26,8 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.bearings.oil.heat_balance import carried_share
-from rotorfilm.charts.heat_charts import plot_heated_film
-from rotorfilm.errors import FilmContactError, InputError
+from rotorfilm.charts.film_charts import plot_heated_film
+from rotorfilm.core.errors import FilmContactError, InputError
 
 R, L, c, T_S = 0.05, 0.05, 75e-6, 318.15
 OMEGA, POSITION, LOAD = 314.0, np.array([22e-6, -37e-6]), np.array([0.0, -5000.0])

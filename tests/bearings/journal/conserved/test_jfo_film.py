@@ -16,7 +16,7 @@ from rotorfilm import (
     coefficients,
     equilibrium,
 )
-from rotorfilm.errors import FilmContactError, InputError, ValidityWarning
+from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
 
 from ..butenschoen import BUTENSCHOEN
 

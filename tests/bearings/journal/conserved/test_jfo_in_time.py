@@ -9,10 +9,9 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from rotorfilm import Groove, JFOFilm, JournalBearing, Stepped
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap
-from rotorfilm.bearings.films.conserved.oil_steps import remembered
-from rotorfilm.bearings.films.conserved.stepped_film import FilmMemory
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
+from rotorfilm.bearings.films.mass_conserving import circular_gap
+from rotorfilm.bearings.films.mass_conserving_steps import FilmMemory, remembered
+from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError
 
 R, c, omega = 0.05, 1e-4, 314.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)

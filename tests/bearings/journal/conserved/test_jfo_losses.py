@@ -15,7 +15,7 @@ from rotorfilm import (
     equilibrium,
     rupture_error,
 )
-from rotorfilm.errors import InputError
+from rotorfilm.core.errors import InputError
 
 R, c, mu, omega = 0.05, 1e-4, 0.02, 314.0
 BAR = 0.0053 * omega * 12.0 * mu * (R / c) ** 2

@@ -16,10 +16,8 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.oil.heat_balance import heat_surplus
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table
-from rotorfilm.bearings.pads.pad_grid import pad_grid
-from rotorfilm.bearings.pads.tilting.held_pads import turning
-from rotorfilm.bearings.pads.tilting.pivots import directions
+from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
+from rotorfilm.bearings.pads.tilting_pads import directions, turning
 
 DEGREE = np.pi / 180.0
 SPEED, LOAD = 314.0, (300.0, -3000.0)

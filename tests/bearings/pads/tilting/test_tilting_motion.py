@@ -19,8 +19,8 @@ from rotorfilm import (
     simulate,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.tilting.pivots import directions
-from rotorfilm.model import Dynamic, Reaction
+from rotorfilm.bearings.pads.tilting_pads import directions
+from rotorfilm.core.model import Dynamic, Reaction
 
 SPEED = 300.0
 KINDS = {

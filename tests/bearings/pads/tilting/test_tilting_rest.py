@@ -19,8 +19,7 @@ from rotorfilm import (
     equilibrium,
     even_pivots,
 )
-from rotorfilm.bearings.pads.tilting.held_pads import TURN
-from rotorfilm.bearings.pads.tilting.pivots import directions
+from rotorfilm.bearings.pads.tilting_pads import TURN, directions
 
 SPEED = 300.0
 
@@ -313,7 +312,7 @@ def test_what_breaks_a_rule_is_named(tilting, change, message):
         replace(tilting(4, 0.7, 75.0, 0.5), **change)
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 def test_a_journal_that_one_pad_carries_rests_on_its_axis():
     """Nothing holds it across: the other two pads have no film, and of all places it takes the nearest."""
     bearing = TiltingPadBearing(

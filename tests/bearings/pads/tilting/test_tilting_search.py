@@ -18,8 +18,7 @@ from rotorfilm import (
     even_pivots,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.tilting.held_pads import TURN
-from rotorfilm.bearings.pads.tilting.pivots import directions
+from rotorfilm.bearings.pads.tilting_pads import TURN, directions
 
 SPEED = 300.0
 
@@ -27,7 +26,7 @@ SPEED = 300.0
 @pytest.mark.closed_form
 @pytest.mark.parametrize("heavy", [0.5, 10.0])
 @pytest.mark.parametrize("side", [1e-3, -1e-3, 1e-4])
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, heavy):
     bearing = tilting(3, 0.5, 80.0, -0.2, cells=(16, 4))
     load = heavy * bearing.force_scale * SPEED * np.array([side, -1.0])
@@ -44,7 +43,7 @@ def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, h
     assert abs(at.position[0]) > 0.3 * bearing.clearance
 
 
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_an_overloaded_pad_is_told_as_an_overloaded_journal_is():
     bearing = TiltingPadBearing(
         radius=0.04,
@@ -138,7 +137,7 @@ def test_a_light_load_on_preloaded_pads_moves_the_journal_by_the_stiffness_of_th
 
 @pytest.mark.closed_form
 @pytest.mark.parametrize("seed", range(5))
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_a_light_load_on_pads_without_preload_moves_the_journal_by_its_square(tilting, seed):
     """The load of a centrally pivoted pad begins as the root of the way."""
     bearing, load, speed = light_pads(tilting, seed, 0.0)
@@ -147,7 +146,7 @@ def test_a_light_load_on_pads_without_preload_moves_the_journal_by_its_square(ti
 
 
 @pytest.mark.closed_form
-@pytest.mark.filterwarnings("ignore::rotorfilm.errors.UnloadedPadWarning")
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_the_whirl_threshold_of_light_rotors_scales_with_their_load(tilting):
     """All pads are at the beginning of their load, where forces have one scale: speed goes as sqrt(load)."""
     bearing = tilting(5, 0.5, 60.0, 0.0, film=PadMapFilm())

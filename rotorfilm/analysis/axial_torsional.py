@@ -1,0 +1,432 @@
+"""Modes and response of a shaft along its axis, and its modes about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import eig
+
+from ..core.errors import (
+    EquilibriumError,
+    InputError,
+    require_count,
+    require_finite,
+    require_non_negative,
+    require_number,
+)
+from ..core.inputs import arguments, quantities
+from ..core.model import MOST_LEFT, Array
+from ..core.readable import Readable
+from ..rotors import Coupling, LayeredElement, ShaftRotor
+from ..rotors.shaft_elements import POINTS, WEIGHTS, ShaftElement, ShaftPiece
+from ..rotors.structure import dense_matrix, summed
+from .closed_loop import checked_speeds
+
+if TYPE_CHECKING:
+    import control
+
+_SWINGS = 1e-6
+"""Frequency / size of an eigenvalue, above which a motion swings."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Spring:
+    """A spring and a damper from a node to the ground."""
+
+    node: int
+    stiffness: float
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_non_negative("stiffness", self.stiffness)
+        require_non_negative("damping", self.damping)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class ThrustBearing(_Spring):
+    """A spring and a damper along the shaft, from a node to the ground.
+
+    Parameters
+    ----------
+    node : int
+    stiffness : float [N/m]
+    damping : float [N s/m]
+    """
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class TwistSpring(_Spring):
+    """A spring and a damper about the shaft, from a node to the ground.
+
+    Parameters
+    ----------
+    node : int
+    stiffness : float [N m/rad]
+    damping : float [N m s/rad]
+    """
+
+
+@dataclass(frozen=True, kw_only=True)
+class StraightModes(Readable):
+    """Modes of a shaft along its axis, or about it, that swing, by rising size of the eigenvalue.
+
+    Attributes
+    ----------
+    eigenvalues : ndarray, shape (n,) [1/s]
+        0 for the motion of a free shaft as a whole.
+    shapes : ndarray, shape (n_nodes, n)
+        Complex motion of the nodes, largest 1.
+    """
+
+    eigenvalues: NDArray[np.complex128]
+    shapes: NDArray[np.complex128]
+
+    _shown: ClassVar[tuple[str, ...]] = ("frequency", "damping_ratio")
+
+    @property
+    def frequency(self) -> Array:
+        """Damped frequency [rad/s]."""
+        return self.eigenvalues.imag
+
+    @property
+    def damping_ratio(self) -> Array:
+        """-Re / |eigenvalue| [1], 0 for the motion as a whole."""
+        size = np.abs(self.eigenvalues)
+        return np.asarray(-self.eigenvalues.real / np.where(size > 0.0, size, 1.0))
+
+
+@arguments
+def axial_modes(rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6) -> StraightModes:
+    """Return the lowest modes of a rotor along its axis that swing; those overdamped are left out.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+        Its disks move with their nodes; a coupling must have an `axial_stiffness`.
+    bearings : sequence of ThrustBearing
+        None for a free shaft.
+    count : int
+        Most modes.
+
+    Raises
+    ------
+    InputError
+        If a bearing is on no node, or a coupling has no stiffness.
+
+    Notes
+    -----
+    Elements have a degree of freedom inside: frequencies are of fourth order in their length. Along its axis
+    a straight shaft does not feel its bending and its rotation.
+    """
+    return _modes(axial_of(rotor), rotor, bearings, count)
+
+
+@arguments
+def twist_modes(rotor: ShaftRotor, springs: Sequence[TwistSpring] = (), count: int = 6) -> StraightModes:
+    """Return the lowest torsional modes of a rotor that swing; those overdamped are left out.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+        A coupling must have a `twist_stiffness`.
+    springs : sequence of TwistSpring
+        None for a free shaft.
+    count : int
+        Most modes.
+
+    Raises
+    ------
+    InputError
+        If a spring is on no node, or a coupling has no stiffness.
+    """
+    chain = twist_chain(rotor.elements, [(disk.node, disk.polar_inertia) for disk in rotor.disks])
+    return _modes(chain, rotor, springs, count)
+
+
+@arguments
+def axial_response(
+    rotor: ShaftRotor, bearings: Sequence[ThrustBearing], frequencies: ArrayLike, node: int
+) -> control.FrequencyResponseData:
+    """Return the response of a rotor to a force along its axis, over frequency.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : sequence of ThrustBearing
+    frequencies : array_like, shape (n,) [rad/s]
+        Positive and rising.
+    node : int
+        Where the force acts.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Input `force_z` [N]; outputs `z_0`, `z_1` and so on, displacements of the nodes along +z [m].
+    """
+    grid = checked_speeds(frequencies, "frequencies")
+    require_shaft_node("node", node, rotor)
+    chain = axial_of(rotor)
+    stiffness, damping = grounded(chain, rotor, bearings)
+    mass, count = dense_matrix(chain.mass), len(rotor.elements) + 1
+    load = np.zeros(len(stiffness))
+    load[node] = 1.0
+    found = [np.linalg.solve(stiffness - w**2 * mass + 1j * w * damping, load)[:count, None] for w in grid]
+    import control
+
+    return control.FrequencyResponseData(
+        np.stack(found, axis=-1),
+        grid,
+        inputs=["force_z"],
+        outputs=[f"z_{k}" for k in range(count)],
+        name="axial_response",
+    )
+
+
+def axial_of(rotor: ShaftRotor) -> StraightChain:
+    """Return the matrices of a rotor along its axis."""
+    return axial_chain(rotor.elements, [(disk.node, disk.mass) for disk in rotor.disks])
+
+
+def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
+    """Raise InputError unless a rotor has this node."""
+    if not isinstance(node, int) or not 0 <= node <= len(rotor.elements):
+        raise InputError(f"{name} must be on a node 0 to {len(rotor.elements)}, got node {node!r}")
+
+
+def grounded(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tuple[Array, Array]:
+    """Return stiffness and damping with the springs to the ground, dense."""
+    stiffness = dense_matrix(chain.stiffness)
+    damping = np.zeros_like(stiffness)
+    for spring in springs:
+        require_shaft_node("bearings", spring.node, rotor)
+        stiffness[spring.node, spring.node] += spring.stiffness
+        damping[spring.node, spring.node] += spring.damping
+    return stiffness, damping
+
+
+def _modes(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> StraightModes:
+    require_count("count", count)
+    stiffness, damping = grounded(chain, rotor, springs)
+    mass = dense_matrix(chain.mass)
+    n = len(mass)
+    upper = np.hstack([np.zeros((n, n)), np.eye(n)])
+    values, vectors = eig(np.vstack([upper, -np.linalg.solve(mass, np.hstack([stiffness, damping]))]))
+    size = np.abs(values)
+    held = any(spring.stiffness > 0.0 for spring in springs)
+    order, swings = np.argsort(size), values.imag > _SWINGS * size
+    whole = [] if held else [0.0j]
+    chosen = [k for k in order[_whole_count(values[order[0]]) if whole else 0 :] if swings[k]]
+    shapes = [np.ones(n, dtype=complex)] if whole else []
+    shapes += [vectors[:n, k] for k in chosen]
+    nodes = np.array(shapes).T[: len(rotor.elements) + 1]
+    largest = np.array([column[np.argmax(np.abs(column))] for column in nodes.T])
+    found = np.array([*whole, *values[chosen]], dtype=complex)[:count]
+    return StraightModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
+
+
+def _whole_count(smallest: complex) -> int:
+    """Return how many of the smallest eigenvalues are the motion of a free shaft, one piece, as a whole.
+
+    That is 0 twice, by roundoff two real ones, of which none swings, or a pair. With dampers it is 0 once.
+    """
+    return 1 if smallest.imag == 0.0 else 2
+
+
+# A shaft under static forces along its axis, and what its tension does to bending.
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxialStatics(Readable):
+    """A shaft under forces along its axis.
+
+    Attributes
+    ----------
+    displacement : ndarray, shape (n_nodes,) [m]
+        Along +z.
+    tension : ndarray, shape (n_elements,) [N]
+        Of each element, positive where it is stretched.
+    thrust : ndarray, shape (n_bearings,) [N]
+        On each thrust bearing, along +z.
+    """
+
+    displacement: Array
+    tension: Array
+    thrust: Array
+
+
+@arguments
+def axial_statics(
+    rotor: ShaftRotor, bearings: Sequence[ThrustBearing], forces: Mapping[int, float]
+) -> AxialStatics:
+    """Return displacement, tension and thrust of a rotor under static forces along its axis.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : sequence of ThrustBearing
+        With some stiffness.
+    forces : mapping of int to float [N]
+        By node, along +z.
+
+    Raises
+    ------
+    InputError
+        If a node does not exist, or no bearing holds the shaft.
+    EquilibriumError
+        If the bearings are so soft beside the shaft that roundoff decides what they carry.
+    """
+    chain = axial_of(rotor)
+    stiffness, _ = grounded(chain, rotor, bearings)
+    if not any(bearing.stiffness > 0.0 for bearing in bearings):
+        raise InputError("bearings must hold the shaft along its axis, got none with a stiffness")
+    load = np.zeros(len(stiffness))
+    for node, force in forces.items():
+        require_shaft_node("forces", node, rotor)
+        load[node] += require_number(f"forces[{node}]", force)
+    moved: Array = np.asarray(np.linalg.solve(stiffness, load), dtype=float)
+    held = {b.node: 0.0 for b in bearings}
+    thrust = np.array([b.stiffness * moved[b.node] for b in bearings])
+    left, size = abs(float(thrust.sum() - load.sum())), float(np.abs(load).sum())
+    if not left <= MOST_LEFT * size:
+        raise EquilibriumError(
+            "bearings must be stiff enough beside the shaft to hold it along its axis, got stiffnesses of "
+            f"{[b.stiffness for b in bearings]} N/m, which leave {left:.3g} N of {size:.3g} N to roundoff"
+        )
+    for bearing, force in zip(bearings, thrust, strict=True):
+        held[bearing.node] += force
+    # Of what acts on the nodes up to an element, its tension is the opposite.
+    outer = load[: len(rotor.elements) + 1].copy()
+    for node, force in held.items():
+        outer[node] -= force
+    return AxialStatics(displacement=moved[: len(outer)], tension=-np.cumsum(outer)[:-1], thrust=thrust)
+
+
+@arguments
+def tensioned(rotor: ShaftRotor, at: AxialStatics) -> ShaftRotor:
+    """Return a rotor whose elements have the tension of a static state, which stiffens their bending.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    at : AxialStatics
+        Of this rotor, or of one with as many elements.
+
+    Raises
+    ------
+    InputError
+        If it has another number of elements, or tension in a coupling.
+    """
+    tension = require_finite("tension", at.tension)
+    if len(tension) != len(rotor.elements):
+        raise InputError(f"at must be of {len(rotor.elements)} elements, got {len(tension)}")
+    pairs = zip(rotor.elements, tension.tolist(), strict=True)
+    return replace(rotor, elements=tuple(_stretched(*pair) for pair in pairs))
+
+
+def _stretched(element: ShaftPiece, tension: float) -> ShaftPiece:
+    if isinstance(element, Coupling):
+        return element
+    if isinstance(element, LayeredElement):
+        first, *others = element.layers
+        rest = sum(layer.axial_force for layer in others)
+        return replace(element, layers=(replace(first, axial_force=tension - rest), *others))
+    return replace(element, axial_force=tension)
+
+
+# A shaft that stretches, or twists: one degree of freedom a node, and one in each element.
+
+
+class RodSection(NamedTuple):
+    """What a rod needs to know about its cross section: numbers, or arrays at the places `POINTS`.
+
+    Attributes
+    ----------
+    stiffness : float
+        E A [N], or G J [N m2].
+    inertia : float
+        rho A [kg/m], or rho J [kg m].
+    """
+
+    stiffness: float | Array
+    inertia: float | Array
+
+
+class StraightChain(NamedTuple):
+    """Matrices of a shaft along its axis, or about it; the nodes come first.
+
+    Attributes
+    ----------
+    mass, stiffness : sparse array, shape (n, n)
+    """
+
+    mass: Any
+    stiffness: Any
+
+
+def axial_section(element: ShaftElement) -> RodSection:
+    """Return E A and rho A of an element."""
+    mass = element.section().mass
+    return RodSection(element.material.young_modulus / element.material.density * mass, mass)
+
+
+def twist_section(element: ShaftElement) -> RodSection:
+    """Return G J and rho J of an element, round as it is."""
+    inertia = 2.0 * element.section().inertia
+    return RodSection(element.material.shear_modulus / element.material.density * inertia, inertia)
+
+
+def axial_chain(elements: Sequence[ShaftPiece], masses: Sequence[tuple[int, float]]) -> StraightChain:
+    """Return the matrices of a shaft that stretches, with masses [kg] at nodes."""
+    springs = [e.axial_stiffness if isinstance(e, Coupling) else None for e in elements]
+    rods = [None if isinstance(e, Coupling) else _rod(e, axial_section) for e in elements]
+    return _chain(elements, "axial_stiffness", springs, rods, masses)
+
+
+def twist_chain(elements: Sequence[ShaftPiece], inertias: Sequence[tuple[int, float]]) -> StraightChain:
+    """Return the matrices of a shaft that twists, with polar moments of inertia [kg m2] at nodes."""
+    springs = [e.twist_stiffness if isinstance(e, Coupling) else None for e in elements]
+    rods = [None if isinstance(e, Coupling) else _rod(e, twist_section) for e in elements]
+    return _chain(elements, "twist_stiffness", springs, rods, inertias)
+
+
+def _rod(element: ShaftElement | LayeredElement, section_of: Any) -> tuple[Array, Array]:
+    """Return mass and stiffness of an element, over both nodes and its middle."""
+    layers = element.layers if isinstance(element, LayeredElement) else (element,)
+    sections = [section_of(layer) for layer in layers]
+    stiffness, inertia = (np.broadcast_to(sum(part), POINTS.shape) for part in zip(*sections, strict=True))
+    s = POINTS
+    shapes = np.array([(1.0 - s) * (1.0 - 2.0 * s), s * (2.0 * s - 1.0), 4.0 * s * (1.0 - s)])
+    slopes = np.array([4.0 * s - 3.0, 4.0 * s - 1.0, 4.0 - 8.0 * s]) / element.length
+    weights = element.length * WEIGHTS
+    return (shapes * inertia * weights) @ shapes.T, (slopes * stiffness * weights) @ slopes.T
+
+
+def _chain(
+    elements: Sequence[ShaftPiece],
+    wanted: str,
+    springs: Sequence[float | None],
+    rods: Sequence[tuple[Array, Array] | None],
+    masses: Sequence[tuple[int, float]],
+) -> StraightChain:
+    count = len(elements) + 1
+    size = count + sum(rod is not None for rod in rods)
+    inertia = [([node], np.array([[mass]])) for node, mass in masses]
+    stiffness: list[tuple[list[int], Array]] = []
+    inside = count
+    for number, (rod, spring) in enumerate(zip(rods, springs, strict=True)):
+        ends = [number, number + 1]
+        if rod is None:
+            if spring is None:
+                raise InputError(f"{wanted} must be given of the coupling behind node {number}, got None")
+            stiffness.append((ends, spring * np.array([[1.0, -1.0], [-1.0, 1.0]])))
+            continue
+        inertia.append(([*ends, inside], rod[0]))
+        stiffness.append(([*ends, inside], rod[1]))
+        inside += 1
+    return StraightChain(summed(size, inertia), summed(size, stiffness))

@@ -1,0 +1,609 @@
+"""A rotor on its film, closed by python-control, and what of its unbalance reaches the housing."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import lu_factor, lu_solve
+
+from ..bearings.reaction import added_mass
+from ..core.errors import EquilibriumError, InputError, require_finite, require_kind, warn_user
+from ..core.inputs import arguments
+from ..core.model import (
+    Array,
+    Dynamic,
+    JournalForce,
+    Linearization,
+    Model,
+    Reaction,
+    inertial,
+    require_reaction,
+    require_turning,
+)
+from ..core.results import Coefficients, Equilibrium
+from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
+from ..rotors import FlexibleRotor, require_flexible, translations
+from ..rotors.mounted import with_mass
+from ..rotors.structure import output_rows, station_name
+from .equilibrium import equilibrium
+from .linearize import OperatingPoint, checked_vector, control_system, film_states, linearize
+from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
+from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_matrices import journal_rows, remembering, rest_near, second_order, small_motion
+from .rotor_threshold import first_growing
+from .truncation_error import LeftOut
+
+if TYPE_CHECKING:
+    import control
+
+INERTIA = ("inertia_force_x", "inertia_force_y")
+"""Outputs of a rotor that carries its film's mass: minus that mass times the acceleration."""
+
+HOUSING = ("housing_force_x", "housing_force_y")
+
+
+@arguments
+def closed_loop(
+    rotor: Dynamic, reaction: Reaction, at: Equilibrium, name: str | None = None
+) -> control.StateSpace:
+    """Return a rotor on its film, linearized about an equilibrium.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        Takes force_x, force_y and gives x, y, vx, vy of the journal; the connection is by these names.
+    reaction : Reaction
+        The film; the states of tilting pads and of lubricated balls are states of the loop.
+    at : Equilibrium
+        Where the film is linearized; the rotor is taken at its initial state at t = 0.
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs force_x, force_y: small external force on the journal [N]. Outputs x, y, vx, vy: small motion
+        about the equilibrium [m, m/s], and housing_force_x, housing_force_y: change of the force on the
+        housing [N], the opposite of the film force on the journal. The speed is constant. The mass that a
+        film adds is that of the rotor's, and its force is part of that on the housing.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks one of these signals, `at` is no Equilibrium, or the film has states that never
+        rest: `linearize(mount(rotor, {"": reaction}), OperatingPoint(x=...))` takes those.
+    """
+    require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_turning(reaction, rotor)
+    indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
+    indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
+    shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
+    housing = [[f"-film.{signal}"] for signal in FORCE_OUTPUTS]
+    if inertial(reaction) is not None:
+        housing = [[*of, f"-rotor.{own}"] for of, own in zip(housing, INERTIA, strict=True)]
+    import control
+
+    return control.interconnect(
+        [_rotor(rotor, reaction, at, shaft), linearize(reaction, at, name="film")],
+        connections=[
+            *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION_NAMES),
+            *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE_OUTPUTS),
+        ],
+        inplist=[f"rotor.{signal}" for signal in FORCE_OUTPUTS],
+        inputs=list(FORCE_OUTPUTS),
+        outlist=[
+            *(f"rotor.{signal}" for signal in MOTION_NAMES),
+            *housing,
+        ],
+        outputs=[*MOTION_NAMES, *HOUSING],
+        name=name,
+        # the speed is a parameter of the linear loop, whatever the rotor says about it
+        check_unused=False,
+    )
+
+
+def _rotor(rotor: Dynamic, reaction: Reaction, at: Equilibrium, shaft: OperatingPoint) -> control.StateSpace:
+    """Return a rotor with the mass that its film adds, whose forces on the journal are outputs then."""
+    heavy = inertial(reaction)
+    if heavy is None:
+        return linearize(rotor, shaft, name="rotor")
+    force = indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
+    motion = indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
+    state = checked_vector("x", shaft.x, len(rotor.states))
+    matrices = rotor.linearization(0.0, state, checked_vector("u", shaft.u, len(rotor.inputs)))
+    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2), at.speed), force, motion)
+    outputs = (*names(rotor.outputs), *INERTIA)
+    return control_system(
+        *whole, inputs=names(rotor.inputs), outputs=outputs, states=names(rotor.states), name="rotor"
+    )
+
+
+CENTERED = "small_motion_transmissibility is that of a rotor which springs center in a damper"
+"""What an error says where there is no equilibrium."""
+
+
+@arguments
+def transmissibility(
+    rotor: Dynamic, reaction: Reaction, load: ArrayLike, speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the force on the housing per force on the journal that turns with the shaft.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        As in `closed_loop`.
+    reaction : Reaction
+        The film.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, weight included.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising. At each of them the film is linearized at the equilibrium of
+        that speed and the response is taken at that frequency, as an unbalance excites it.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs force_x, force_y: phasors of the force on the journal. Outputs housing_force_x,
+        housing_force_y. An unbalance U (mass times eccentricity) at speed w turning about +z has the phasors
+        U w^2 and -i U w^2 at exp(i w t).
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    frequencies = checked_speeds(speeds)
+    try:
+        responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    except (EquilibriumError, InputError) as error:
+        if isinstance(error, EquilibriumError) or not np.any(load):
+            raise type(error)(f"{error}; {CENTERED}") from error
+        raise
+    import control
+
+    return control.FrequencyResponseData(
+        np.stack(responses, axis=-1),
+        frequencies,
+        inputs=list(FORCE_OUTPUTS),
+        outputs=list(HOUSING),
+        name="transmissibility",
+    )
+
+
+def checked_speeds(speeds: ArrayLike, name: str = "speeds") -> Array:
+    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
+    grid = require_finite(name, speeds)
+    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"{name} must be a list of positive and rising numbers, got {speeds!r}")
+    return grid
+
+
+def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:
+    """Return the (2, 2) complex gains to the housing at the frequency of rotation."""
+    loop = closed_loop(rotor, reaction, equilibrium(reaction, load, speed))
+    return np.asarray(loop(1j * speed, squeeze=False))[len(MOTION_NAMES) :]
+
+
+# A flexible rotor on its films as one linear system: eigenvalues, python-control, unbalance response.
+
+
+FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
+"""How the names of forces on housings and on the ground end."""
+
+
+@arguments
+def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
+    """Return a rotor on its films, linearized about an equilibrium.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`.
+    at : RotorEquilibrium
+        As `rotor_equilibrium` returns it.
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
+        opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
+        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
+        the counters `work` of `unbalance_response`. States of bearings whose stiffness is K(s) follow those
+        of the rotor, as `left_memory_0`: tilting pads and lubricated balls exactly, a film that conserves
+        its oil with an error up to 1e-3 at frequencies up to that of the shaft, as `film_system`.
+
+    Raises
+    ------
+    InputError
+        If the shaft has a loss factor, or rests on a film that conserves its oil and does not turn.
+    ConvergenceError
+        As `film_system`.
+    """
+    return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
+
+
+BASE = ("base_acceleration_x", "base_acceleration_y")
+"""Names of what the ground does to a rotor."""
+
+
+@arguments
+def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
+    """Return a rotor on its films, linearized about an equilibrium, on ground that shakes.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`, without a loss factor.
+    at : RotorEquilibrium
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
+        [m/s2]. Outputs and states: as of `rotor_system`, displacements from the ground. With its counters
+        `work`, and its errors.
+    """
+    return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
+
+
+@arguments
+def base_response(
+    rotor: FlexibleRotor, at: RotorEquilibrium, frequencies: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the response of a rotor on its films to ground that shakes, over the frequency of the ground.
+
+    |H|^2 times the spectral density of the ground is that of the response.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`; it may have a loss factor.
+    at : RotorEquilibrium
+        Its speed is that of the shaft.
+    frequencies : array_like, shape (n,) [rad/s]
+        Of the ground, positive and rising.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2. With the
+        counters `work` of `unbalance_response`.
+    """
+    grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
+    push = -s.mass @ translations(rotor)
+    responses, labels = [], names(rotor.outputs)
+    work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
+    for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
+        sense, labels = response_rows(rotor, near)
+        moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
+        responses.append(sense @ with_rates(moved, frequency))
+    import control
+
+    found = control.FrequencyResponseData(
+        np.stack(responses, axis=-1), grid, inputs=list(BASE), outputs=labels, name="base_response"
+    )
+    return with_work(found, work)
+
+
+@arguments
+def unbalance_response(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the synchronous response of a rotor to its own unbalance.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        With an unbalance.
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of every speed.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as of `rotor_system`: phasors
+        at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl. Its attribute `work` counts
+        equilibria searched, solutions in the shapes kept, and factorizations of all coordinates.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the rotor has no unbalance.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+
+    Warns
+    -----
+    ValidityWarning
+        If a motion grows at the highest of the speeds: beyond the threshold no rotor stays in the response.
+    """
+    found = driven_by_unbalance(rotor, bearings, speeds)
+    if (unstable := first_growing(rotor, bearings, np.asarray(found.frequency))) is not None:
+        warn_user(
+            f"speeds should be below the threshold of stability, got {unstable[0]:.6g} rad/s and more, where "
+            f"a motion of {abs(unstable[1].imag):.4g} rad/s grows: no rotor stays in the response there"
+        )
+    return found
+
+
+def driven_by_unbalance(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return `unbalance_response` without looking at stability."""
+    require_flexible(rotor)
+    if not rotor.assembly.unbalance.any():
+        raise InputError("rotor must have an unbalance, got none")
+    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
+    turning = np.array([[1.0], [-1.0j]])
+    loads = rotor.assembly.unbalance
+    return synchronous_response(rotor, bearings, speeds, loads, lambda speed: speed**2 * turning, "unbalance")
+
+
+def synchronous_response(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speeds: ArrayLike,
+    loads: Array,
+    amplitudes: Callable[[float], np.ndarray],
+    name: str,
+) -> control.FrequencyResponseData:
+    """Return the response to loads that turn with the shaft.
+
+    `loads` [N] has shape (N, m), the phasors of their amplitudes at each speed (m, 1).
+    """
+    grid = checked_speeds(speeds)
+    turned = DrivenResponse(rotor=rotor, bearings=bearings, loads=loads, highest_frequency=float(grid[-1]))
+    responses = []
+    with counted(*SOLVED) as work:
+        for speed in grid:
+            at, motion = turned.at(float(speed), amplitudes(float(speed)))
+            sense, labels = response_rows(rotor, at)
+            responses.append(sense @ motion)
+    data = np.stack(responses, axis=-1)
+    import control
+
+    found = control.FrequencyResponseData(data, grid, inputs=[name], outputs=labels, name=f"{name}_response")
+    return with_work(found, work)
+
+
+@arguments
+def rotor_transmissibility(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the forces on all housings per force on each journal that turns with the shaft.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of every speed.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising; the response is taken at the frequency of each.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs: `left_force_x` and so on, forces on the journals only. Outputs: `left_housing_force_x` and so
+        on for each bearing, and for each support `left_ground_force_x`, its force on the ground [1].
+        With the counters `work` of `unbalance_response`.
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule, or there is no bearing.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    require_flexible(rotor)
+    grid, s = checked_speeds(speeds), rotor.assembly
+    # A bearing pushes its housing back; an unbalance does not.
+    push = s.journals if s.housings is None else s.journals + s.housings
+    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=push.T, highest_frequency=float(grid[-1]))
+    responses, wanted = [], []
+    with counted(*SOLVED) as work:
+        for speed in grid:
+            at, motion = shaken.at(float(speed), np.eye(len(push)))
+            sense, labels = response_rows(rotor, at)
+            wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
+            responses.append(sense[wanted] @ motion)
+    if not wanted:
+        raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
+    import control
+
+    found = control.FrequencyResponseData(
+        np.stack(responses, axis=-1),
+        grid,
+        inputs=names(rotor.inputs),
+        outputs=[labels[k] for k in wanted],
+        name="transmissibility",
+    )
+    return with_work(found, work)
+
+
+def _state_space(
+    rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array, inputs: Sequence[str], name: str | None
+) -> control.StateSpace:
+    """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
+    with counted(*SOLVED) as work:
+        found = rotor_states(rotor, at, loads)
+    system = control_system(
+        *found.matrices, inputs=inputs, outputs=found.outputs, states=found.states, name=name
+    )
+    return with_work(system, work)
+
+
+# The synchronous response of a rotor to forces that turn with it.
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrivenResponse:
+    """A rotor on its films, driven at the frequency of its rotation.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+    bearings : mapping of str to Reaction
+        As in `rotor_modes`.
+    loads : ndarray, shape (N, m) [N]
+    highest_frequency : float [rad/s]
+        Highest speed of interest; a rotor of many elements moves in the shapes that it needs.
+    """
+
+    rotor: FlexibleRotor
+    bearings: Mapping[str, Reaction]
+    loads: Array
+    highest_frequency: float
+
+    @cached_property
+    def known(self) -> list[_Driven]:
+        """The models so far, the last with the most shapes."""
+        return []
+
+    def at(self, speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray]:
+        """Return the rest at a speed and the phasors of (q, q', q'') at exp(i speed t), shape (3 N, k).
+
+        Parameters
+        ----------
+        speed : float [rad/s]
+            Positive.
+        amplitudes : ndarray, shape (m, k)
+            Of the loads.
+        """
+        for k, model in enumerate(models(self.rotor, self.highest_frequency)):
+            if k == len(self.known):
+                self.known.append(_Driven(model, self.bearings, self.loads))
+            found = self.known[k].at(speed, amplitudes)
+            if found is not None:
+                return found
+        raise AssertionError("all coordinates have no error")  # pragma: no cover
+
+
+class _Driven:
+    """The same in some of the shapes."""
+
+    def __init__(self, model: Condensed, bearings: Mapping[str, Reaction], loads: Array) -> None:
+        self.model, self.bearings, self.loads = model, bearings, model.seen(loads)
+        self.left_out = None if model.space is None else LeftOut(model, loads)
+        self.last: RotorEquilibrium | None = None
+
+    def at(self, speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray] | None:
+        """Return as `DrivenResponse.at` does; None if more shapes are needed."""
+        self.last = at = rest(self.model.structure, self.bearings, speed, self.last)
+        tally("solutions")
+        factor = lu_factor(small_motion(self.model.structure, at, speed).dynamic_stiffness(speed))
+        few = lu_solve(factor, self.loads @ amplitudes)
+        if self.left_out is not None:
+            dual = lu_solve(factor, self.left_out.seen.T, trans=2)
+            if self.left_out.error(at, speed, amplitudes, few, dual) > TOLERANCE:
+                return None
+        return at, with_rates(self.model.lifted(few), speed)
+
+
+def with_rates(motion: np.ndarray, frequency: float) -> np.ndarray:
+    """Return phasors of (q, q', q'') at exp(i frequency t), shape (3 N, ...), of those of q."""
+    return np.concatenate([motion, 1j * frequency * motion, -(frequency**2) * motion])
+
+
+# A flexible rotor on its films as a state space, with the states of bearings whose stiffness is K(s).
+
+
+class RotorStates(NamedTuple):
+    """A rotor on its films: matrices, and the names of outputs and states."""
+
+    matrices: Linearization
+    outputs: list[str]
+    states: list[str]
+
+
+def rotor_states(rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array) -> RotorStates:
+    """Return a rotor on its films about a rest, under loads (N, m) [N] per unit of the inputs.
+
+    Raises
+    ------
+    InputError
+        If the rotor has hysteresis, which no state space has, or as `film_states`.
+    """
+    structure = rotor.structure
+    if structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+    films = {name: film_states(film) for name, film in remembering(at).items()}
+    direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
+    mass, damping, stiffness = second_order(structure, direct)
+    n, sizes = len(mass), [len(film.A) for film in films.values()]
+    rows = {name: journal_rows(structure, name) for name in films}
+    pushes = [np.zeros((n, 0)), *(rows[name].T @ film.C for name, film in films.items())]
+    tally("factorizations")
+    columns = np.hstack([-stiffness, -damping, *pushes, loads])
+    motion, pushed = np.split(np.linalg.solve(mass, columns), [2 * n + sum(sizes)], axis=1)
+    felt = [np.hstack([f.B[:, :2] @ rows[name], f.B[:, 2:] @ rows[name]]) for name, f in films.items()]
+    own = _on_diagonal([film.A for film in films.values()])
+    sense, outputs = response_rows(rotor, direct)
+    by_state = np.hstack([sense[:, : 2 * n], np.zeros((len(sense), sum(sizes)))])
+    for name, first, film in zip(films, np.cumsum([2 * n, *sizes]), films.values(), strict=False):
+        row = outputs.index(station_name(name, HOUSING[0]))
+        by_state[row : row + 2, first : first + len(film.A)] -= film.C
+    by_acceleration = sense[:, 2 * n :]
+    A = [np.eye(n, motion.shape[1], n), motion, np.hstack([np.vstack([np.zeros((0, 2 * n)), *felt]), own])]
+    B = [np.zeros_like(pushed), pushed, np.zeros((len(own), pushed.shape[1]))]
+    further = [
+        station_name(name, f"memory_{k}")
+        for name, size in zip(films, sizes, strict=True)
+        for k in range(size)
+    ]
+    return RotorStates(
+        Linearization(
+            np.vstack(A), np.vstack(B), by_state + by_acceleration @ motion, by_acceleration @ pushed
+        ),
+        outputs,
+        [*names(rotor.states), *further],
+    )
+
+
+def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
+    """Return rows over (q, q', q'') and names of all outputs of a rotor on its films."""
+    s = rotor.assembly
+    own = output_rows(s)
+    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
+    labels = names(rotor.outputs)[:-1]
+    for name, film in at.coefficients.items():
+        felt = film_rows(s, name, len(film.stiffness))
+        parts = (film.stiffness, film.damping, added_mass(film))
+        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
+        labels += [station_name(name, signal) for signal in HOUSING]
+    return np.vstack(rows), labels
+
+
+def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, Coefficients]:
+    """Return stiffness and damping of films whose states are held."""
+    return {
+        name: Coefficients(
+            stiffness=-film.D[:, :2],
+            damping=-film.D[:, 2:],
+            position=at.coefficients[name].position,
+            speed=at.speed,
+        )
+        for name, film in films.items()
+    }
+
+
+def _on_diagonal(blocks: Sequence[Array]) -> Array:
+    """Return square blocks on a diagonal; of none an empty matrix."""
+    from scipy.linalg import block_diag
+
+    return np.asarray(block_diag(*blocks)) if blocks else np.zeros((0, 0))

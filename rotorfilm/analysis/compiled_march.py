@@ -1,0 +1,673 @@
+"""Time integration of a rotor of any size on films, compiled: as long as its bearings, not its shaft."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from ctypes import byref, c_int32, c_int64
+from dataclasses import replace
+from enum import IntEnum
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import roots_jacobi
+
+from ..core.errors import (
+    ContactError,
+    ConvergenceError,
+    InputError,
+    require_finite,
+    require_non_negative,
+    require_positive,
+)
+from ..core.inputs import arguments
+from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
+from ..core.model import Array, Dynamic, breakpoints
+from ..core.results import Trajectory
+from ..core.signals import indices, names, units
+from ..native.library import loops
+from ..native.structs import (
+    SLOTS,
+    STEPS,
+    GroundStruct,
+    MarchStruct,
+    ModesStruct,
+    SchemeStruct,
+    SpeedsStruct,
+    SpinStruct,
+    StepTableStruct,
+)
+from ..rotors import MountedRotor, SpeedProfile
+from .compiled_rotor import (
+    Complex,
+    JournalFilms,
+    ModalRotor,
+    Parts,
+    ShapedStart,
+    largest_difference,
+    modal_rotor,
+    raise_foreign,
+    spin_rates,
+    starts,
+    take_apart,
+    warn_beyond,
+)
+
+LONGEST_TURN = 1.0
+"""Longest step in turns of the shaft."""
+
+COMPARED = 201
+"""Times at which runs in fewer and more shapes are compared, at least."""
+
+
+@arguments
+def simulate_rotor(
+    mounted: MountedRotor,
+    *,
+    duration: float,
+    samples: int = 1001,
+    times: ArrayLike | None = None,
+    initial_state: ArrayLike | None = None,
+    rtol: float = 1e-8,
+    max_step: float = math.inf,
+    condensation: float = 1e-5,
+) -> Trajectory:
+    """Return the motion of a rotor on films from t = 0.
+
+    The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
+    exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
+
+    A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
+    (more than 60 coordinates) moves in few shapes: in ever more, until the journals of two runs agree, the
+    second with shapes to four times the frequency of the first. If they never do it is run whole.
+
+    Parameters
+    ----------
+    mounted : MountedRotor
+        From `mount`, with a bearing without states in at least one station and no forces left free that
+        anybody would drive. Its speed may be a profile.
+    duration : float [s]
+    samples : int
+        Number of samples at equal distance, from 0 to `duration` inclusive.
+    times : array_like, shape (n,) [s], optional
+        Increasing sample times within [0, duration], instead of `samples`.
+    initial_state : array_like, shape (n_states,), optional
+        State at t = 0, instead of the rotor's own.
+    rtol : float [1]
+        Local error of the journals at every moment: displacement / clearance and velocity /
+        (clearance speed).
+    max_step : float [s]
+    condensation : float [1]
+        Largest difference of the two runs of a large shaft, in clearances; 0 runs all of it.
+
+    Returns
+    -------
+    Trajectory
+        Signals: every output of `mounted`, its bearings' forces included. Work: film_evaluations, jacobians,
+        steps, rejected, and of these restarts: steps cut short at the wall.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or the rotor is none that this function takes.
+    ContactError
+        If a journal reaches the wall; carries the trajectory until then.
+    ConvergenceError
+        If a film force is not finite or steps become too small; carries the trajectory until then.
+
+    Warns
+    -----
+    ValidityWarning
+        If a journal goes beyond the map of its film.
+    """
+    require_duration(mounted.bare, duration)
+    require_positive("rtol", rtol)
+    require_longest_step(max_step)
+    require_non_negative("condensation", condensation)
+    size = len(mounted.states)
+    state = np.asarray(mounted.initial_state if initial_state is None else initial_state, dtype=float)
+    if require_finite("initial_state", state).shape != (size,):
+        raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
+    grid = sample_times(duration, samples, times)
+    wanted = Wanted(grid=grid, duration=duration, rtol=rtol, max_step=max_step, condensation=condensation)
+    return _agreed(starts(mounted, state, whole=condensation == 0.0), wanted)
+
+
+class Wanted(NamedTuple):
+    """What is asked of a run."""
+
+    grid: Array
+    duration: float
+    rtol: float
+    max_step: float
+    condensation: float
+
+
+def _agreed(starts: Iterator[ShapedStart], wanted: Wanted) -> Trajectory:
+    """Return the first run that one in fewer shapes agrees with, or that of the whole rotor."""
+    # Runs are compared at more times than those that are asked for.
+    dense = wanted._replace(grid=np.union1d(wanted.grid, np.linspace(0.0, wanted.duration, COMPARED)))
+    work: Counter[str] = Counter()
+    before: Trajectory | None = None
+    for start in starts:
+        failure = None
+        parts = take_apart(start.mounted)
+        try:
+            run = _run(start, parts, dense if start.condensed else wanted)
+        except (ContactError, ConvergenceError) as raised:
+            failure, run = raised, raised.partial
+        work.update(run.work)
+        near = before is not None and largest_difference(parts, before, run) <= wanted.condensation
+        if near or not start.condensed:
+            break
+        before = run
+    picked = replace(_at(run, wanted.grid), work=dict(work))
+    if failure is not None:
+        raise type(failure)(str(failure), picked) from failure
+    return picked
+
+
+def _at(run: Trajectory, grid: Array) -> Trajectory:
+    """Return a run at those of its times that are on a grid."""
+    kept = np.isin(run.time, grid)
+    return replace(run, time=run.time[kept], signals={name: row[kept] for name, row in run.signals.items()})
+
+
+def _run(start: ShapedStart, parts: Parts, wanted: Wanted) -> Trajectory:
+    mounted, state, grid = start.mounted, start.state, wanted.grid
+    rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
+    longest = min(wanted.max_step, wanted.duration, LONGEST_TURN * 2.0 * np.pi / rate)
+    run = RunUp(parts, state, Settings(rtol=wanted.rtol, longest=longest, duration=wanted.duration))
+    kept: list[Array] = [state[None]] if grid.size and grid[0] == 0.0 else []
+    try:
+        kept.extend(run.states(grid))
+    except (ContactError, ConvergenceError) as failure:
+        kept.append(failure.partial)
+        raise type(failure)(str(failure), _trajectory(mounted, grid, kept, run)) from failure
+    run.warn()
+    return _trajectory(mounted, grid, kept, run)
+
+
+def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
+    states = np.concatenate(kept) if kept else np.zeros((0, len(mounted.states)))
+    time = grid[: len(states)]
+    rotor = mounted.bare
+    # Displacements and rates are linear in the state, the last output is the speed.
+    rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
+    outputs = rows @ states.T
+    outputs[-1] = [run.parts.profile.speed(t) for t in time]
+    signals = dict(zip(names(rotor.outputs), outputs, strict=True))
+    parts = run.parts
+    for name, bearing in zip(parts.names, parts.bearings, strict=True):
+        prefix = f"{name}_" if name else ""
+        x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
+        force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
+        signals[prefix + "force_x"], signals[prefix + "force_y"] = force
+    known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
+    return Trajectory(time=time, signals=signals, work=run.work, units=known)
+
+
+# Steps of a rotor in modes under forces that are polynomials of time (`native/loops/collocation.h`).
+
+
+STAGES = 4
+"""Collocation nodes of a step: order 7."""
+
+
+class Collocation(NamedTuple):
+    """Nodes of a step and polynomials on them, coefficients by rising power.
+
+    Attributes
+    ----------
+    nodes : ndarray, shape (s,)
+        Of Radau's right rule.
+    lagrange : ndarray, shape (s, s)
+    remainder : ndarray, shape (s + 1,)
+        The polynomial that vanishes at the nodes and is 1 at the start.
+    """
+
+    nodes: Array
+    lagrange: Array
+    remainder: Array
+
+    def struct(self) -> SchemeStruct:
+        """Return it as the C library reads it, while this object lives."""
+        return SchemeStruct(len(self.nodes), *(numbers.ctypes.data for numbers in self))
+
+
+@lru_cache(maxsize=8)
+def radau_scheme(stages: int) -> Collocation:
+    """Return the scheme of so many nodes."""
+    # The inner nodes are the zeros of Jacobi's polynomial of weight 1 - x on [0, 1].
+    inner = 0.5 * (1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0])
+    nodes = np.append(inner, 1.0)
+    lagrange = np.linalg.inv(np.vander(nodes, increasing=True)).T
+    remainder = np.polynomial.polynomial.polyfromroots(nodes)
+    return Collocation(nodes, np.ascontiguousarray(lagrange), remainder / remainder[0])
+
+
+class ModalArrays(NamedTuple):
+    """The modes of a rotor as the C library reads them.
+
+    Attributes
+    ----------
+    values, push, sense : ndarray of complex
+        As of a `ModalRotor`.
+    """
+
+    values: Complex
+    push: Complex
+    sense: Complex
+
+    @classmethod
+    def of(cls, modal: ModalRotor) -> ModalArrays:
+        """Return those of a rotor."""
+        rows = modal.values, modal.push, modal.sense
+        return cls(*(np.ascontiguousarray(row, dtype=complex) for row in rows))
+
+    def struct(self) -> ModesStruct:
+        """Return them as the C library reads them, while this object lives."""
+        places = (numbers.ctypes.data for numbers in self)
+        return ModesStruct(*self.push.shape, len(self.sense), *places)
+
+
+class StepTable(NamedTuple):
+    """What one length of a step needs, of s nodes.
+
+    Attributes
+    ----------
+    move : ndarray, shape (s rows, 2 n_modes)
+        Motion of the journals at the nodes per real and imaginary part of the modal coordinates.
+    gain : ndarray, shape (s, s, rows, channels)
+        The same at a node per force at each node.
+    defect : ndarray, shape (s, rows, channels)
+        The same per gap of the force at the start.
+    keep : ndarray of complex, shape (n_modes,)
+        Modal coordinates at the end per themselves.
+    forced : ndarray, shape (2 n_modes, s channels)
+        Their real and imaginary parts per force at each node.
+    turn : ndarray of complex, shape (s, n_modes), or None
+        Modal coordinates at the nodes per themselves; None where the modes are those of the speed.
+    weights : ndarray of complex, shape (s, s + 1, n_modes), or None
+        The same per drive at each node, and per gap of it at the start.
+    """
+
+    move: Array
+    gain: Array
+    defect: Array
+    keep: Complex
+    forced: Array
+    turn: Complex | None
+    weights: Complex | None
+
+    @classmethod
+    def unfilled(cls, rotor: ModalArrays, stages: int, *, spins: bool = False) -> StepTable:
+        """Return a table that is to be filled."""
+        modes, channels = rotor.push.shape
+        rows = len(rotor.sense)
+        return cls(
+            np.empty((stages * rows, 2 * modes)),
+            np.empty((stages, stages, rows, channels)),
+            np.empty((stages, rows, channels)),
+            np.empty(modes, dtype=complex),
+            np.empty((2 * modes, stages * channels)),
+            np.empty((stages, modes), dtype=complex) if spins else None,
+            np.empty((stages, stages + 1, modes), dtype=complex) if spins else None,
+        )
+
+    @classmethod
+    def of_step(cls, rotor: ModalArrays, scheme: Collocation, step: float) -> StepTable:
+        """Return the table of a length of step [s]."""
+        table = cls.unfilled(rotor, len(scheme.nodes))
+        arguments = byref(rotor.struct()), byref(scheme.struct()), step, byref(table.struct())
+        if loops()["rf_set_step_table"](*arguments):
+            raise MemoryError("no memory for the tables of a step")
+        return table
+
+    def struct(self) -> StepTableStruct:
+        """Return it as the C library reads it, while this object lives."""
+        return StepTableStruct(*(None if part is None else part.ctypes.data for part in self))
+
+
+# The driver of the compiled integration: scheme, tables, what ends a run.
+
+
+BUDGET = 20000
+"""Steps between two looks at the interpreter, where a user may interrupt."""
+
+SHORTEST = 1e-13
+"""Shortest step, relative to the duration, before a run is given up."""
+
+NEWTON = 0.01
+"""Error left by Newton's method, in local errors."""
+
+_COUNTERS = {
+    "film_evaluations": "films",
+    "jacobians": "jacobians",
+    "steps": "steps",
+    "rejected": "rejected",
+    "restarts": "walls",
+}
+
+
+def profile_rows(profile: SpeedProfile) -> tuple[Array, Array, Array, Array]:
+    """Return times, speeds, slopes after them and angles turned since t = 0."""
+    times = np.array(profile.times, dtype=float)
+    slopes = np.array([profile.acceleration(t) for t in profile.times])
+    angles = np.array([profile.angle(t) for t in profile.times])
+    return times, np.array(profile.speeds, dtype=float), slopes, angles
+
+
+class End(IntEnum):
+    """Why a march ended: rf_march_end of march.h."""
+
+    DONE = 0
+    WALL = 1
+    SHORT = 2
+    BUSY = 3
+    BROKEN = 4
+    NO_MEMORY = 5
+
+
+class March:
+    """One run of a rotor, which goes on from stop to stop.
+
+    Parameters
+    ----------
+    modal : ModalRotor
+    state : ndarray of complex, shape (n_modes,)
+        Modal coordinates; moved by `to`.
+    rtol : float [1]
+        Local error of the journals: displacement / clearance, velocity / (clearance speed).
+    longest : float [s]
+        Longest step.
+    duration : float [s]
+        Of the whole run, which says what step is too short.
+    speed : float [rad/s], optional
+        Of the modes, where the matrices depend on the speed and that is not always this one.
+    stages : int
+        Collocation nodes.
+    """
+
+    def __init__(
+        self,
+        *,
+        modal: ModalRotor,
+        state: Complex,
+        rtol: float,
+        longest: float,
+        duration: float,
+        speed: float | None = None,
+        stages: int = STAGES,
+    ) -> None:
+        self.modal, self.state = modal, np.array(state, dtype=complex)
+        self._duration = duration
+        self._kept = ModalArrays.of(modal), radau_scheme(stages), JournalFilms.of_rotor(modal)
+        self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
+        spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
+        self._spin = spin_rates(modal) if spins else None
+        base = modal.parts.base
+        self._ground = None if base is None else base.rows
+        self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(SLOTS + 1)]
+        times = len(self._numbers[0])
+        self._struct = MarchStruct(
+            *(of.struct() for of in self._kept),
+            SpeedsStruct(times, *(row.ctypes.data for row in self._numbers[:4])),
+            spin_struct(speed, self._spin),
+            ground_struct(self._ground),
+            self._numbers[4].ctypes.data,
+            longest,
+            SHORTEST * duration,
+            rtol,
+            max(NEWTON * rtol, 1e-12),
+            (StepTableStruct * (SLOTS + 1))(*(table.struct() for table in self._tables)),
+            (c_int32 * STEPS)(*[-1] * STEPS),
+            (c_int32 * SLOTS)(*[-1] * SLOTS),
+        )
+        # A first step that the error control need not believe in: a hundredth of a turn or less.
+        first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / duration)
+        self._struct.step = math.ceil(4.0 * math.log2(max(1.0, longest / first)))
+        self._struct.z = self.state.ctypes.data
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Film_evaluations, jacobians, steps, rejected steps and, of these, restarts at a wall so far."""
+        return {name: getattr(self._struct, counter) for name, counter in _COUNTERS.items()}
+
+    @property
+    def time(self) -> float:
+        """How far the run is [s]."""
+        return float(self._struct.time)
+
+    @property
+    def step(self) -> int:
+        """Which of the lengths of steps is the next one."""
+        return int(self._struct.step)
+
+    @property
+    def left_map(self) -> bool:
+        """Whether a film was asked beyond its map."""
+        return bool(self._struct.left_map)
+
+    def resume(self, time: float, state: Complex, step: int) -> None:
+        """Go on at a time [s] with a state in modal coordinates, and the step of another march if not -1."""
+        self._struct.time, self.state[:] = time, state
+        self._struct.step = step if step >= 0 else self._struct.step
+
+    def to(self, stop: float, grid: Array) -> Complex:
+        """Integrate to a time and return the modal coordinates at the times of `grid` after the last stop.
+
+        Raises
+        ------
+        ContactError, ConvergenceError
+            With the modal coordinates until then as partial result.
+        """
+        out, place = np.empty((len(grid), len(self.state)), dtype=complex), c_int64()
+        times = np.ascontiguousarray(grid, dtype=float)
+        arguments = times.ctypes.data, len(times), byref(place), out.ctypes.data
+        end = End.BUSY
+        while end == End.BUSY:
+            end = End(loops()["rf_march_to"](byref(self._struct), stop, BUDGET, *arguments))
+        raise_foreign(self.modal.calls)
+        if end == End.NO_MEMORY:
+            raise MemoryError("no memory for the steps of a rotor")
+        if end != End.DONE:
+            raise self._failure(end, out[: place.value])
+        return out
+
+    def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
+        at = f"at t = {self.time:.9g} s"
+        if end == End.WALL:
+            return ContactError(f"journal reached the wall {at}", kept)
+        if end == End.BROKEN:
+            return ConvergenceError(
+                f"film force must be finite and the forces of a step solvable, {at}", kept
+            )
+        return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
+
+
+def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> SpinStruct:
+    """Return what the speed changes as the C library reads it, while the arrays live."""
+    return SpinStruct(speed or 0.0, *(part.ctypes.data for part in rates or ()))
+
+
+def ground_struct(rows: Array | None) -> GroundStruct:
+    """Return times and acceleration of the ground as the C library reads them, while the array lives."""
+    return GroundStruct() if rows is None else GroundStruct(rows.shape[1], *(row.ctypes.data for row in rows))
+
+
+def rate_of(modal: ModalRotor) -> float:
+    """Return the largest angular speed [rad/s], or a slow mode's where the rotor does not turn."""
+    return modal.parts.nominal_speed or float(np.abs(modal.values).min())
+
+
+def journal_scales(modal: ModalRotor) -> Array:
+    """Return what makes x, y, vx, vy of each journal dimensionless, shape (4 n_bearings,)."""
+    rate = rate_of(modal)
+    return np.concatenate([np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in modal.parts.lengths])
+
+
+# A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.
+
+
+BANDS = 12
+"""Bands of speed between rest and the largest speed: in each the modes are those of its middle."""
+
+
+class Settings(NamedTuple):
+    """How a run is integrated: local error, longest step [s], duration [s]."""
+
+    rtol: float
+    longest: float
+    duration: float
+
+
+class Stretch(NamedTuple):
+    """A part of a run: when it ends [s], and the speed of the modes that it is integrated in [rad/s]."""
+
+    end: float
+    speed: float
+
+
+def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[Stretch]:
+    """Yield the parts of a run: between kinks of the speed, each within one band of it."""
+    profile = parts.profile
+    largest = max(profile.speeds, key=abs)
+    width = abs(largest) / bands
+    ground = () if parts.base is None else parts.base.times
+    kinks = sorted({0.0, *(t for t in (*profile.times, *ground) if 0.0 < t < duration), duration})
+    for begin, end in pairwise(kinks):
+        speed, slope = profile.speed(begin), profile.acceleration(begin)
+        if not parts.turns or slope == 0.0:
+            yield Stretch(end, speed if parts.turns else largest)
+            continue
+        first, last = sorted((speed, speed + slope * (end - begin)))
+        edges = width * np.arange(np.floor(first / width) + 1.0, np.ceil(last / width))
+        crossed = sorted(begin + (float(edge) - speed) / slope for edge in edges)
+        inner = [t for t in crossed if begin < t < end]
+        for t, until in pairwise([begin, *inner, end]):
+            middle = speed + slope * (0.5 * (t + until) - begin)
+            yield Stretch(until, width * float(np.floor(middle / width) + 0.5))
+
+
+class RunUp:
+    """One run of a rotor in modes, in those of another speed where the speed has left a band.
+
+    Parameters
+    ----------
+    parts : Parts
+    state : ndarray, shape (2 N,)
+        At t = 0.
+    settings : Settings
+    """
+
+    def __init__(self, parts: Parts, state: Array, settings: Settings) -> None:
+        self.parts, self._state, self._settings = parts, state, settings
+        self._marches: dict[float, March] = {}
+        self._time, self._step = 0.0, -1
+
+    @property
+    def profile(self) -> SpeedProfile:
+        """The speed over time."""
+        return self.parts.profile
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Counters of `March.work`, of all marches."""
+        total: Counter[str] = Counter()
+        for march in self._marches.values():
+            total.update(march.work)
+        return dict(total)
+
+    def states(self, grid: Array) -> Iterator[Array]:
+        """Integrate and yield the states at the times of `grid`, shape (m, 2 N), stretch by stretch.
+
+        Raises
+        ------
+        ContactError, ConvergenceError
+            With the states since the last stretch as partial result.
+        """
+        for stretch in stretches(self.parts, self._settings.duration):
+            march = self._march(stretch.speed)
+            march.resume(self._time, march.modal.modal(self._state), self._step)
+            inside = grid[(grid > self._time) & (grid <= stretch.end)]
+            try:
+                kept = march.to(stretch.end, inside)
+            except (ContactError, ConvergenceError) as failure:
+                partial = march.modal.physical(failure.partial.T).T
+                raise type(failure)(str(failure), partial) from failure
+            self._state = march.modal.physical(march.state)
+            self._time, self._step = stretch.end, march.step
+            yield march.modal.physical(kept.T).T
+
+    def warn(self) -> None:
+        """Warn if a film was asked beyond its map."""
+        for march in self._marches.values():
+            if march.left_map:
+                warn_beyond(march.modal.calls)
+                return
+
+    def _march(self, speed: float) -> March:
+        if speed not in self._marches:
+            modal = modal_rotor(self.parts, speed)
+            self._marches[speed] = March(
+                modal=modal, state=modal.modal(self._state), speed=speed, **self._settings._asdict()
+            )
+        return self._marches[speed]
+
+
+# When a simulation is sampled, and how far it may step: checks of what the caller asks for.
+
+
+FASTEST = 1e6
+"""Speed that no shaft exceeds [rad/s]; a run that is short at it needs no look at the rotor."""
+
+SLOWEST = 1.0
+"""Speed [rad/s] as which a shaft counts that stands or turns more slowly: it may swing all the same."""
+
+
+def require_duration(rotor: Dynamic, duration: float) -> None:
+    """Raise InputError unless a run has a length, and no more turns than can be run."""
+    require_positive("duration", duration)
+    longest = 2.0 * math.pi * TURNS
+    if duration * FASTEST <= longest:
+        return
+    speed = max(highest_speed(rotor, duration), SLOWEST)
+    if duration * speed > longest:
+        raise InputError(
+            f"duration must be at most {TURNS:g} turns, {longest / speed:.3g} s at {speed:g} rad/s, "
+            f"got {duration!r} s"
+        )
+
+
+def highest_speed(rotor: Dynamic, duration: float) -> float:
+    """Return the highest speed of a rotor at its start and where its speed bends within a run [rad/s]."""
+    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
+    moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
+    none = np.zeros(len(rotor.inputs))
+    return float(max(np.abs(rotor.output(t, rotor.initial_state, none)[speed]).max() for t in moments))
+
+
+def sample_times(duration: float, samples: int, times: ArrayLike | None) -> Array:
+    """Return increasing times within [0, duration]; raise InputError where they are not."""
+    if times is None:
+        if not isinstance(samples, int) or samples < 2:
+            raise InputError(f"samples must be an integer of at least 2, got {samples!r}")
+        require_at_most("samples", samples, MOST_STEPS)
+        return np.linspace(0.0, duration, samples)
+    grid = np.atleast_1d(require_finite("times", times))
+    if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"times must increase strictly, got {times!r}")
+    if grid.size and (grid[0] < 0.0 or grid[-1] > duration):
+        raise InputError(f"times must lie within [0, {duration!r}] s, got {grid[0]!r} to {grid[-1]!r}")
+    return grid
+
+
+def require_longest_step(max_step: float) -> None:
+    """Raise InputError unless the longest step is positive; it may be infinite."""
+    if not max_step > 0.0:
+        raise InputError(f"max_step must be positive, got {max_step!r}")

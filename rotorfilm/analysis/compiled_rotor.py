@@ -1,0 +1,688 @@
+"""A rotor as the bearings see it: its linear part in modes, whatever its size, and the forces it feels.
+
+With x = (q, q') and weak springs and dampers at the journals, which the films give back, the rotor is
+
+    x' = A x + B u,    u = (film force + K0 p + C0 p' at each journal, r(t)),
+
+r(t) being the unbalance's pair and x counted from the rest under weight on those springs. In the modes
+A V = V Lambda everything linear is exact and costs as many operations as there are modes; without the springs
+a rotor that is free to move would have no complete set of modes. Of each conjugate pair one is kept.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..bearings.assemblies import ParallelReaction, Sprung
+from ..bearings.damper import PorousDamper, SqueezeFilmDamper
+from ..bearings.films.kernel_film import BoundKernel
+from ..bearings.linear import LinearBearing
+from ..bearings.reaction import FilmReaction
+from ..bearings.rub import RubRing
+from ..core.errors import (
+    ConvergenceError,
+    FilmContactError,
+    InputError,
+    RotorfilmError,
+    UndefinedDerivativeError,
+    warn_user,
+)
+from ..core.model import Array, Dynamic, Reaction, inertial, require_massless
+from ..core.results import Trajectory
+from ..native import Status
+from ..native.film_kernels import OilDamperKernel
+from ..native.library import functions, loops
+from ..native.structs import BothStruct, JournalsStruct, SprungStruct
+from ..rotors import (
+    BaseMotion,
+    FlexibleRotor,
+    MountedRotor,
+    RigidRotor,
+    ShakenBaseRotor,
+    SpeedProfile,
+    mount,
+    translations,
+)
+from ..rotors.structure import NOMINAL_LENGTH, Structure, mean_plane, solved_equations, station_name
+from .modal_reduction import Condensed, models
+
+# The force of a bearing as a compiled function behind an address, for loops that must not enter
+# Python.
+#
+# Every such function is that of the C library (native/films/journal_kernel.h),
+#
+# int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
+#
+# with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it
+# along, `LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, `RubRing` and
+# the sum of `ParallelReaction` in native/loops/rub.h, and any other reaction is called back in
+# Python: slower, with the same result.
+
+
+_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
+
+
+class FilmCall(NamedTuple):
+    """Where the compiled force of a bearing is.
+
+    Attributes
+    ----------
+    address : int
+        Of the function.
+    data : int
+        Its first argument.
+    owner : object
+        What must live as long as both.
+    beyond : str
+        How the force goes on beyond the map of its film; empty where it has none.
+    raised : list of BaseException
+        What a force in Python raised besides errors of this package, until `raise_foreign`.
+    """
+
+    address: int
+    data: int
+    owner: Any
+    beyond: str = ""
+    raised: Sequence[BaseException] = ()
+
+    def beside(self, stiffness: float, *, still: bool) -> FilmCall:
+        """Return this force beside equal springs [N/m], of a journal that does not spin where it is still."""
+        both = SprungStruct(self.address, self.data, stiffness, still)
+        return self._replace(
+            address=_address("rf_sprung_at"), data=ctypes.addressof(both), owner=(both, self.owner)
+        )
+
+
+def raise_foreign(calls: Iterable[FilmCall]) -> None:
+    """Raise what a force in Python raised that the loop around it could not: an error of its own, Ctrl-C."""
+    for call in calls:
+        if call.raised:
+            raise call.raised[0]
+
+
+def warn_beyond(calls: Iterable[FilmCall]) -> None:
+    """Warn that a journal went beyond the map of its film."""
+    how = " or ".join(dict.fromkeys(call.beyond for call in calls if call.beyond))
+    warn_user(f"a journal went beyond the map of its film; its force is {how}")
+
+
+def film_call(reaction: Reaction) -> FilmCall:
+    """Return the compiled force of a reaction without states, one that calls back where it has none."""
+    require_massless("reaction", reaction)
+    return kernel_call(reaction) or _called_back(reaction)
+
+
+class MassCall(NamedTuple):
+    """Where the compiled mass that a bearing adds is; zeros where it adds none.
+
+    Attributes
+    ----------
+    address : int
+        Of the function, an rf_mass_response of native/films/film.h.
+    data : int
+        Its first argument.
+    """
+
+    address: int = 0
+    data: int = 0
+
+
+def heavy_call(reaction: Reaction) -> tuple[FilmCall, MassCall]:
+    """Return the compiled force of a reaction without states, and the mass that it adds.
+
+    Raises
+    ------
+    InputError
+        If it adds a mass that is not compiled.
+    """
+    if inertial(reaction) is None:
+        return film_call(reaction), MassCall()
+    film, inner = kernel_call(reaction), reaction.reaction if isinstance(reaction, Sprung) else reaction
+    bound = inner.film_in_c if isinstance(inner, SqueezeFilmDamper) else None
+    if film is None or not isinstance(bound, BoundKernel) or not isinstance(bound.kernel, OilDamperKernel):
+        raise InputError(
+            f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
+        )
+    return film, MassCall(bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
+
+
+def kernel_call(reaction: Reaction) -> FilmCall | None:
+    """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
+    if isinstance(reaction, FilmReaction):
+        return _bound(reaction.film_in_c)
+    if type(reaction) is SqueezeFilmDamper or type(reaction) is PorousDamper:
+        film = _bound(reaction.film_in_c)
+        return None if film is None else film.beside(0.0, still=True)
+    if type(reaction) is Sprung:
+        inner = kernel_call(reaction.reaction)
+        return None if inner is None else inner.beside(reaction.stiffness, still=False)
+    if type(reaction) is ParallelReaction:
+        return _summed([kernel_call(one) for one in reaction.reactions])
+    if type(reaction) is LinearBearing:
+        values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
+        return FilmCall(address=_address("rf_springs_at"), data=values.ctypes.data, owner=values)
+    if type(reaction) is RubRing:
+        values = reaction.numbers
+        return FilmCall(address=_address("rf_rub_at"), data=values.ctypes.data, owner=values)
+    return None
+
+
+def _summed(calls: Sequence[FilmCall | None]) -> FilmCall | None:
+    """Return the sum of forces on one journal; None where one of them has no kernel."""
+    total: FilmCall | None = calls[0]
+    for call in calls[1:]:
+        if total is None or call is None:
+            return None
+        both = BothStruct(total.address, total.data, call.address, call.data)
+        total = FilmCall(
+            address=_address("rf_both_at"),
+            data=ctypes.addressof(both),
+            owner=(both, total, call),
+            beyond=total.beyond or call.beyond,
+        )
+    return total
+
+
+def _bound(film: object) -> FilmCall | None:
+    if not isinstance(film, BoundKernel):
+        return None
+    data = ctypes.addressof(film.kernel.struct)
+    return FilmCall(address=_address(film.kernel.function), data=data, owner=film, beyond=film.beyond)
+
+
+@cache
+def _address(name: str) -> int:
+    return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
+
+
+def _called_back(reaction: Reaction) -> FilmCall:
+    raised: list[BaseException] = []
+
+    def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
+        position, velocity = np.array(state[:2]), np.array(state[2:4])
+        try:
+            for i, value in enumerate(np.asarray(reaction.force(position, velocity, state[4])).tolist()):
+                force[i] = value
+            slopes = np.asarray(reaction.jacobian(position, velocity, state[4]))[:, :5]
+            for i, value in enumerate(slopes.ravel().tolist()):
+                jacobian[i] = value
+        except FilmContactError:
+            return Status.AT_WALL
+        except UndefinedDerivativeError:
+            return Status.UNDEFINED
+        except RotorfilmError:
+            return Status.NOT_FINITE
+        except BaseException as error:
+            raised[:] = [error]
+            return Status.NOT_FINITE
+        return Status.OK
+
+    function = _CALLBACK(answer)
+    return FilmCall(
+        address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
+    )
+
+
+# A rotor as the bearings see it: its linear part in modes, whatever its size, and the forces it feels.
+
+
+Complex = np.ndarray
+
+SUPPORTS = ((1.0, 0.3), (3.0, 0.3), (0.3, 0.3), (1.0, 1.0), (10.0, 1.0), (0.1, 0.1))
+"""Springs and dampers at the journals, relative to their natural size, tried until the modes are distinct."""
+
+GOOD_CONDITION = 1e6
+"""Condition of the modes, in scaled coordinates, that is taken at once."""
+
+LARGEST_CONDITION = 1e10
+
+
+class Parts(NamedTuple):
+    """A mounted rotor taken apart: matrices, speed, and bearings at some of the stations.
+
+    Attributes
+    ----------
+    structure : Structure
+    profile : SpeedProfile
+    bearings : tuple of Reaction
+    names : tuple of str
+        Stations of the bearings.
+    rows : ndarray, shape (2 n_bearings, N)
+        Displacement of their journals.
+    base : BaseMotion or None
+        Of the ground; None where it is still.
+    moved : ndarray, shape (N, 2)
+        Coordinates of a translation of the rotor along x and y, none where the ground is still.
+    """
+
+    structure: Structure
+    profile: SpeedProfile
+    bearings: tuple[Reaction, ...]
+    names: tuple[str, ...]
+    rows: Array
+    base: BaseMotion | None = None
+    moved: Array = np.zeros((0, 0))
+
+    @property
+    def lengths(self) -> Array:
+        """Typical displacement of each journal: its clearance, shape (n_bearings,) [m]."""
+        sizes = [bearing.clearance for bearing in self.bearings]
+        return np.array([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes])
+
+    @property
+    def nominal_speed(self) -> float:
+        """Largest angular speed [rad/s], 0 where it does not turn."""
+        return max(abs(value) for value in self.profile.speeds)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the matrices depend on the speed: a gyroscopic effect or rotating damping."""
+        return bool(np.any(self.structure.gyroscopic) or np.any(self.structure.circulation))
+
+    @property
+    def speed(self) -> float:
+        """The constant speed [rad/s]; raise InputError where it changes, or the ground shakes."""
+        if self.base is not None:
+            raise InputError("ground must be still for a periodic motion, got a ShakenBaseRotor")
+        speeds = set(self.profile.speeds)
+        if len(speeds) != 1:
+            raise InputError(f"speed must be constant, got a profile over {self.profile.times!r} s")
+        return float(speeds.pop())
+
+
+class ModalRotor(NamedTuple):
+    """The linear part of a mounted rotor in modes, at one speed.
+
+    Attributes
+    ----------
+    parts : Parts
+    values : ndarray of complex, shape (n_modes,) [1/s]
+    shapes : ndarray of complex, shape (2 N, n_modes)
+        State per modal coordinate: the state is the real part of their sum.
+    inverse : ndarray of complex, shape (n_modes, 2 N)
+    push : ndarray of complex, shape (n_modes, 2 n_bearings + 2)
+        Modal force per film force and per unbalance pair; two columns more where the ground shakes.
+    sense : ndarray of complex, shape (4 n_bearings, n_modes)
+        x, y, vx, vy of each journal per modal coordinate.
+    rest : ndarray, shape (2 N,)
+        State under weight on the springs.
+    spring, damper : ndarray, shape (2 n_bearings,) [N/m], [N s/m]
+        K0 and C0.
+    calls : tuple of FilmCall
+    condition : float [1]
+    """
+
+    parts: Parts
+    values: Complex
+    shapes: Complex
+    inverse: Complex
+    push: Complex
+    sense: Complex
+    rest: Array
+    spring: Array
+    damper: Array
+    calls: tuple[FilmCall, ...]
+    condition: float
+
+    @property
+    def journal_rest(self) -> Array:
+        """x, y, vx, vy of each journal at `rest`, shape (4 n_bearings,)."""
+        return journal_rows(self.parts) @ self.rest
+
+    def modal(self, state: Array) -> Complex:
+        """Return the modal coordinates of a state (2 N,)."""
+        return self.inverse @ (state - self.rest)
+
+    def physical(self, modal: Complex) -> Array:
+        """Return the states of modal coordinates (n_modes, ...)."""
+        rest = self.rest.reshape(-1, *[1] * (modal.ndim - 1))
+        return np.asarray((self.shapes @ modal).real + rest)
+
+
+def take_apart(mounted: MountedRotor) -> Parts:
+    """Return structure, speed and bearings of a rotor that rests in bearings without states.
+
+    Raises
+    ------
+    InputError
+        If the rotor is none with matrices, rests in no bearing, or in one with states.
+    """
+    found = mounted.all_bearings
+    bare = mounted.bare
+    structure, profile = _structure(bare.rotor if isinstance(bare, ShakenBaseRotor) else bare)
+    names = [name for name in structure.stations if name in found]
+    bearings = [found[name] for name in names]
+    if not names:
+        raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
+    moving = [name for name in names if found[name].states]
+    if moving:
+        raise InputError(
+            f"bearings must have no states of their own here, got some at the stations {moving}: "
+            "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
+        )
+    places = [structure.stations.index(name) for name in names]
+    rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
+    parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
+    if isinstance(bare, ShakenBaseRotor):
+        return parts._replace(base=bare.base, moved=translations(bare.rotor))
+    return parts
+
+
+def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
+    if not isinstance(rotor, RigidRotor | FlexibleRotor):
+        raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
+    if rotor.structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
+    return rotor.structure, rotor.profile
+
+
+def journal_rows(parts: Parts) -> Array:
+    """Return the rows that make x, y, vx, vy of each journal out of (q, q'), shape (4 n_bearings, 2 N)."""
+    count, size = parts.rows.shape
+    rows = np.zeros((count // 2, 4, 2 * size))
+    rows[:, :2, :size] = rows[:, 2:, size:] = parts.rows.reshape(-1, 2, size)
+    return rows.reshape(2 * count, 2 * size)
+
+
+def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
+    """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
+    model = solved_equations(parts.structure)
+    places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
+    pushes = [model.push[:, places], model.unbalance]
+    if parts.base is not None:
+        pushes.append(np.vstack([np.zeros_like(parts.moved), -parts.moved]))
+    return (
+        model.steady + speed * model.spin,
+        np.hstack(pushes),
+        model.weight,
+    )
+
+
+def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
+    """Return what a rad/s more than the speed of the modes adds to the rates of the modal coordinates.
+
+    Returns
+    -------
+    matrix : ndarray, shape (2 n_modes, 2 n_modes)
+        Per real and imaginary part, of real and imaginary part.
+    rest : ndarray, shape (2 n_modes,)
+        At the rest.
+    """
+    spin = modal.inverse @ solved_equations(modal.parts.structure).spin
+    seen, rest = spin @ np.hstack([modal.shapes.real, -modal.shapes.imag]), spin @ modal.rest
+    return np.vstack([seen.real, seen.imag]), np.concatenate([rest.real, rest.imag])
+
+
+def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
+    """Return the linear part of a rotor at one speed in modes.
+
+    Raises
+    ------
+    ConvergenceError
+        If no springs at the journals make its modes distinct.
+    """
+    A, B, weight = state_matrices(parts, speed)
+    stiffness, rate = _natural_support(parts, speed)
+    best: tuple[tuple[Complex, Complex, Complex, float], Array, Array, Array] | None = None
+    for spring, damper in SUPPORTS:
+        K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
+        C0 = damper / spring * K0 / rate
+        shifted = A - B[:, : len(K0)] @ _support_rows(parts, K0, C0)
+        found = modes(shifted, rate)
+        if best is None or found[3] < best[0][3]:
+            best = found, K0, C0, shifted
+        if found[3] < GOOD_CONDITION:
+            break
+    assert best is not None
+    (values, shapes, inverse, condition), K0, C0, shifted = best
+    if not condition < LARGEST_CONDITION:
+        raise ConvergenceError(f"modes of the rotor must be distinct, got a condition of {condition:.3g}")
+    return ModalRotor(
+        parts=parts,
+        values=values,
+        shapes=shapes,
+        inverse=inverse,
+        push=inverse @ B,
+        sense=journal_rows(parts) @ shapes,
+        rest=np.asarray(-np.linalg.solve(shifted, weight)),
+        spring=K0,
+        damper=C0,
+        calls=tuple(film_call(bearing) for bearing in parts.bearings),
+        condition=condition,
+    )
+
+
+def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
+    """Return the size of the stiffness at each bearing [N/m], and a typical rate [1/s]."""
+    count, s = len(parts.bearings), parts.structure
+    load = float(np.linalg.norm(s.weight)) / count
+    # A rigid translation is what the journals' rows see with a weight of one.
+    mass = float(np.trace(s.mass)) / (2.0 * count)
+    stiffness = load / parts.lengths + 0.01 * mass * speed**2
+    if not np.all(stiffness > 0.0):
+        stiffness = np.full(count, float(np.abs(s.stiffness).max()) or 1.0)
+    return stiffness, abs(speed) or math.sqrt(float(stiffness.max()) / mass)
+
+
+def _support_rows(parts: Parts, spring: Array, damper: Array) -> Array:
+    return np.hstack([spring[:, None] * parts.rows, damper[:, None] * parts.rows])
+
+
+def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
+    """Return eigenvalues, shapes, their inverse and condition; one of each pair, real parts to be added."""
+    n = len(A) // 2
+    scale = np.repeat([1.0, rate], n)
+    values, vectors = np.linalg.eig(A * scale / scale[:, None])
+    try:
+        inverse = np.linalg.inv(vectors)
+    except np.linalg.LinAlgError:
+        return values, vectors, vectors, np.inf
+    condition = float(np.linalg.norm(vectors, 1) * np.linalg.norm(inverse, 1))
+    inverse = inverse / scale
+    kept = values.imag >= 0.0
+    weight = np.where(values.imag > 0.0, 2.0, 1.0)
+    return (
+        values[kept].astype(complex),
+        (scale[:, None] * vectors * weight)[:, kept],
+        inverse[kept],
+        condition,
+    )
+
+
+# The films at the journals of a rotor, with the springs that it rests on (`native/loops/march.h`).
+
+
+CONTACT_GAP = 1e-9
+"""Film thickness, in clearances, at which a journal counts as touching: below any surface roughness."""
+
+
+class JournalFilms(NamedTuple):
+    """The bearings of a rotor as the C library reads them.
+
+    Attributes
+    ----------
+    films, of : ndarray of addresses, shape (n,)
+        Of the functions, and of what they take first.
+    rest : ndarray, shape (4 n,)
+        x, y, vx, vy of each journal about which motion is counted.
+    spring, damper : ndarray, shape (2 n,) [N/m], [N s/m]
+        What the rotor rests on and the films give back.
+    lengths : ndarray, shape (n,) [m]
+        Clearances, or what stands for them.
+    walls : ndarray, shape (n,) [m]
+        Eccentricities at which a journal counts as touching; infinite without a wall.
+    """
+
+    films: np.ndarray
+    of: np.ndarray
+    rest: Array
+    spring: Array
+    damper: Array
+    lengths: Array
+    walls: Array
+
+    @classmethod
+    def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
+        """Return those of a rotor, which has to live as long; motion is from its rest, or `absolute`."""
+        addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
+        rest = np.zeros(4 * len(modal.calls)) if absolute else modal.journal_rest
+        walls = (1.0 - CONTACT_GAP) * np.array([bearing.clearance for bearing in modal.parts.bearings])
+        rows = rest, modal.spring, modal.damper, modal.parts.lengths, walls
+        return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
+
+    def struct(self) -> JournalsStruct:
+        """Return them as the C library reads them, while this object lives."""
+        return JournalsStruct(len(self.lengths), *(numbers.ctypes.data for numbers in self))
+
+    def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
+        """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).
+
+        Parameters
+        ----------
+        motion : ndarray, shape (4 n, samples) [m, m/s]
+            x, y, vx, vy of each journal.
+        speed : float [rad/s]
+        """
+        rows, samples = motion.shape
+        given = np.ascontiguousarray(motion, dtype=float)
+        force, slope = np.empty((rows // 2, samples)), np.empty((rows // 2, 4, samples))
+        places = force.ctypes.data, slope.ctypes.data
+        status = loops()["rf_journal_forces"](
+            byref(self.struct()), samples, given.ctypes.data, speed, *places
+        )
+        return status, force, slope
+
+
+# What of the rotors and films that anybody may bring the compiled integration takes.
+
+
+EQUATIONS = ("derivative", "output", "operators")
+"""Of a rotor, which a subclass may change."""
+
+
+def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
+    """Return a rotor in all its bearings for `simulate_rotor`; None where that does not take it, or slowly.
+
+    It takes it where
+
+    - each bearing has no states and adds no mass, and a force in the C library: a journal bearing or a
+      damper whose film has a kernel (map, short film, grooved map, two-dimensional film), a linear one, or
+      one of these beside springs;
+    - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
+      changed, without a loss factor; on ground that shakes too.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        With one station left, the one without a name.
+    reaction : Reaction
+        The bearing of that.
+    """
+    if not _is_linear(rotor) or not _is_compiled(reaction):
+        return None
+    mounted = mount(rotor, {"": reaction})
+    if not all(map(_is_compiled, mounted.all_bearings.values())):
+        return None
+    try:
+        take_apart(mounted)
+    except InputError:
+        return None
+    return mounted
+
+
+def takes_forces(rotor: Dynamic, bearings: Iterable[Reaction]) -> bool:
+    """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
+
+    It takes the linear rotors of `compiled_form`, on bearings without states and added mass.
+    """
+    mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
+    every = (*bearings, *mounted)
+    return _is_linear(rotor) and not any(film.states or inertial(film) is not None for film in every)
+
+
+def _is_compiled(bearing: Reaction) -> bool:
+    return inertial(bearing) is None and kernel_call(bearing) is not None
+
+
+def _is_linear(rotor: Dynamic) -> bool:
+    """Return whether a rotor, in bearings or not, has the equations of its matrices."""
+    bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
+    bare = bare.rotor if isinstance(bare, ShakenBaseRotor) else bare
+    base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
+    return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)
+
+
+# A shaft of many elements in as few shapes as a run over time needs.
+
+
+FREQUENCY = 4.0
+"""Frequency of the fewest shapes / largest speed."""
+
+FURTHER = 2
+"""Doublings of the frequency from one set of shapes to the next: one may add shapes that nothing excites."""
+
+
+class ShapesRotor(FlexibleRotor):
+    """A rotor that moves in some of its shapes.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+    structure : Structure
+        Its matrices in the shapes.
+    """
+
+    def __init__(self, rotor: FlexibleRotor, structure: Structure) -> None:
+        self.speed, self.gravity, self.initial = rotor.speed, rotor.gravity, ()
+        self._structure = structure
+
+    def assembled(self) -> Structure:
+        """Return the matrices."""
+        return self._structure
+
+
+class ShapedStart(NamedTuple):
+    """A rotor in its bearings and its state at t = 0; whether more shapes may follow."""
+
+    mounted: MountedRotor
+    state: Array
+    condensed: bool
+
+
+def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[ShapedStart]:
+    """Yield a rotor in ever more of its shapes, and whole in the end or at once."""
+    rotor = mounted.bare
+    if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
+        for k, model in enumerate(models(rotor, FREQUENCY * rotor.nominal_speed)):
+            if model.space is None:
+                break
+            if k % FURTHER == 0:
+                small = ShapesRotor(rotor, model.structure)
+                yield ShapedStart(mount(small, mounted.all_bearings), _within(model, state), True)
+    yield ShapedStart(mounted, state, False)
+
+
+def _within(model: Condensed, state: Array) -> Array:
+    """Return what of a state (2 N,) the shapes have, which are of unit mass."""
+    assert model.space is not None
+    mass, shapes = mean_plane(model.whole.mass), model.space.shapes
+    return np.concatenate([shapes.T @ (mass @ part) for part in np.split(state, 4)])
+
+
+def largest_difference(parts: Parts, one: Trajectory, other: Trajectory) -> float:
+    """Return by how much journals of two runs are apart, in clearances; inf where not both go as far."""
+    if len(one.time) != len(other.time):
+        return np.inf
+    worst = 0.0
+    for name, length in zip(parts.names, parts.lengths, strict=True):
+        for axis in "xy":
+            key = station_name(name, axis)
+            worst = max(worst, float(np.abs(one[key] - other[key]).max(initial=0.0)) / float(length))
+    return worst

@@ -1,0 +1,463 @@
+"""The static equilibrium of a journal under a constant load."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..bearings.oil.laminar import warn_of_flow
+from ..bearings.oil.oil import warn_of_pressure
+from ..bearings.reaction import WalledReaction, relative_film
+from ..core.errors import (
+    ConvergenceError,
+    EquilibriumError,
+    FilmContactError,
+    InputError,
+    UndefinedDerivativeError,
+    ValidityWarning,
+    require_finite,
+    require_number,
+    require_pair,
+    warn_user,
+)
+from ..core.inputs import arguments
+from ..core.model import (
+    MOST_LEFT,
+    Array,
+    JournalForce,
+    Reaction,
+    Settling,
+    Tangent,
+    Warming,
+    force_noise,
+    prepared_tangent,
+    require_reaction,
+    rest_place,
+)
+from ..core.results import Equilibrium
+
+UNLOADED = (
+    "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
+)
+"""Why a load of zero has no equilibrium."""
+
+_KELVIN = 4e-12
+_FIRST_ANGLE = math.pi / 3.0
+_ALONG, _NEAR_WALL = 0.1, 0.02
+"""Angle to the load, and part of the room that is left, of a force that is the most that a film carries."""
+
+
+@arguments
+def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibrium:
+    """Return the position at which the film balances a static load.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, weight included; film force + load = 0.
+    speed : float [rad/s]
+        Angular speed about +z, of either sign.
+
+    Returns
+    -------
+    Equilibrium
+        With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
+        preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
+        A `ValidityWarning` tells of a film beyond its map, of a mean pressure |load|/(2 radius length) above
+        half of the bulk modulus of a mineral oil, of a film that is not laminar (Reynolds number speed radius
+        clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)), and of a temperature beyond
+        the viscosity law of the oil. Another tells of an equilibrium that is statically unstable: the
+        stiffness in slow motion has a negative real eigenvalue.
+
+    Raises
+    ------
+    InputError
+        If an argument is not finite or has the wrong shape, or the load is zero.
+    EquilibriumError
+        If the load is beyond what the film carries at eccentricity ratio 0.9999, or where pads touch, if the
+        film carries nothing (no wedge at zero speed), or if the search does not converge.
+
+    Notes
+    -----
+    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
+    angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
+    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Balls,
+    among which there may be no force at all, find their rest themselves (`core.model`).
+    """
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    load = checked_load(load)
+    speed = require_number("speed", speed)
+    found = _found(reaction, load, speed)
+    warn_of_pressure(reaction, load)
+    warn_of_flow(reaction, speed, found.temperature)
+    return found
+
+
+def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium of checked arguments."""
+    if isinstance(reaction, Warming) and reaction.is_warming:
+        return _warm(reaction, load, speed)
+    at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
+    film: Any = at_rest or reaction
+    room = min(relative_film(film, np.zeros(2)), 1.0)
+    lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
+    x, y = -float(load[0]), -float(load[1])
+    near = rest_place(film, (-x, -y), speed)
+    target = StaticTarget(
+        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film, speed), near
+    )
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        best = search_place(target)
+        if at_rest and not is_found(target, best):
+            best = continued_place(target, best)
+    if not is_found(target, best):
+        raise EquilibriumError(_why_not(load, target, best))
+    found = _result(film, load, target, best)
+    if not found.residual <= MOST_LEFT:
+        raise EquilibriumError(_not_found(load, speed, found.residual))
+    if is_unstable(best):
+        warn_user(
+            f"the equilibrium at {list(best.position)} m and {speed!r} rad/s is statically unstable: the "
+            "force of the film drives the journal away from it"
+        )
+    return found if at_rest is None else at_rest.settled(found)
+
+
+def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium at the temperature at which the heat balances.
+
+    A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
+    rises, so that there is one root, between the coldest film and about what that one warms to.
+    """
+    if bearing.balanced() is not None:
+        at = _found(bearing.balanced(), load, speed)
+        temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
+        return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
+    from scipy.optimize import brentq
+
+    warmed: dict[float, Equilibrium] = {}
+
+    def excess(temperature: float) -> float:
+        warmed[temperature] = at = _found(bearing.at_temperature(temperature), load, speed)
+        warmer = bearing.balanced_temperature(at.position, np.zeros(2), speed) - temperature
+        return warmer if abs(warmer) > _KELVIN else 0.0
+
+    low = bearing.coldest()
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        rise = excess(low)
+        if rise > 0.0:
+            # Openings make the temperature of the balance rise a little with that of the film.
+            while excess(low + rise) > 0.0:
+                rise *= 2.0
+            low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+    steps = sum(one.iterations for one in warmed.values())
+    at = _found(bearing.at_temperature(low), load, speed)  # once more, for what it has to warn of
+    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
+
+
+def checked_load(load: ArrayLike) -> Array:
+    """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
+    array = require_finite("load", load)
+    if array.ndim == 0:
+        raise InputError(
+            "load must be the components (x, y) of the force on the journal, as load="
+            f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
+        )
+    if not require_pair("load", array).any():
+        raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
+    return array
+
+
+def _result(reaction: Reaction, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
+    position = np.array(point.position)
+    force = reaction.force(position, np.zeros(2), target.speed)
+    angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
+    return Equilibrium(
+        position=position,
+        speed=target.speed,
+        load=load,
+        eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
+        attitude_angle=math.remainder(angle, 2.0 * math.pi),
+        minimum_film=_minimum_film(reaction, target, point),
+        residual=math.hypot(*(force + load)) / target.size,
+        iterations=point.steps,
+        reaction=reaction,
+    )
+
+
+def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) -> float:
+    """Return the least film [m]; in a circle from s, which has its digits near the wall."""
+    if isinstance(reaction, WalledReaction):
+        return float(reaction.minimum_film(point.position))
+    return target.clearance / (1.0 + math.exp(point.s))
+
+
+def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
+    """Return the message that names the load, the rule it breaks, and the film force at the limit."""
+    speed = target.speed
+    if math.isfinite(best.norm) and not has_force_against(target):
+        return (
+            f"load must be one that the film can push against: at speed {speed!r} rad/s it has no force in "
+            f"the opposite direction, got load {load.tolist()} N"
+        )
+    given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
+    if not math.isfinite(best.norm):
+        return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
+    if best.s == LARGEST_S and best.ratio < 0.0:
+        limit = math.exp(best.ratio) * math.hypot(*load)
+        return (
+            f"load must be within the film's capacity at speed {speed!r} rad/s: the film force at "
+            f"eccentricity ratio {MAXIMUM_ECCENTRICITY} is {limit:.6g} N, {given}"
+        )
+    if best.ratio < 0.0 and abs(best.angle) < _ALONG and math.exp(-best.s) < _NEAR_WALL:
+        # As on pads, which touch before the journal has used all of its room.
+        return (
+            f"load must be within the film's capacity at speed {speed!r} rad/s: the largest film force found "
+            f"is {math.exp(best.ratio) * math.hypot(*load):.6g} N, at {list(best.position)} m, {given}"
+        )
+    left = unavoidable(target, best)
+    if best.imbalance <= left:
+        return (
+            f"load must stand out from the roundoff of the film's forces at speed {speed!r} rad/s, which "
+            f"leaves {left * target.size:.3g} N, {given}"
+        )
+    return _not_found(load, speed, best.imbalance)
+
+
+def _not_found(load: Array, speed: float, imbalance: float) -> str:
+    return (
+        f"load must have a static equilibrium at speed {speed!r} rad/s, and the search found none: the least "
+        f"imbalance found is {imbalance:.3g} of the load, got load {load.tolist()} N with |load| = "
+        f"{math.hypot(*load):.6g} N"
+    )
+
+
+# Newton's method for the place at which a film has a given force, and the loads that it has no slope for.
+
+
+MAXIMUM_ECCENTRICITY = 0.9999
+"""Eccentricity ratio beyond which a load counts as more than the film can carry."""
+
+LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
+
+_TOLERANCE = 1e-12
+_ROUNDOFF_STOP = 1e-13
+_ROUNDOFF = 1e-15  # of a place, in clearances
+_LARGEST_LOG = 300.0
+_DIRECTIONS, _FAR = 24, (0.3, 0.7, 0.95, 0.999)
+_ALIKE, _OPPOSITE = 1e-9, math.pi - 1e-6
+_NEUTRAL_SLOPE = 1e-6
+_NEWTON_STEPS = 60
+_NEUTRAL = 1e-11
+_LARGEST_MOVE = (6.0, 1.0)
+_HALVINGS = (
+    26  # the load of a tilting pad begins as the root of the way: steps beyond its edge are far too long
+)
+_ACROSS = (0.1, 0.2, 0.4, 0.8)
+_LESS = 1.4
+
+
+class StaticTarget(NamedTuple):
+    """What the search looks for: the film in plain numbers, and the force that it must have."""
+
+    tangent: Tangent
+    clearance: float
+    speed: float
+    x: float
+    y: float
+    room: float
+    lead: float  # of the first trial, from the load on
+    noise: float = 0.0  # force that roundoff leaves [N]
+    near: tuple[float, float] | None = None  # where the film says that it is [m]
+
+    @property
+    def size(self) -> float:
+        """Size of that force [N]."""
+        return math.hypot(self.x, self.y)
+
+
+class StaticPoint(NamedTuple):
+    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
+
+    s: float
+    phi: float
+    steps: int
+    position: tuple[float, float] = (math.nan, math.nan)
+    ratio: float = math.inf
+    angle: float = 0.0
+    matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    slopes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # of the force by the position [N/m]
+
+    @property
+    def norm(self) -> float:
+        """Size of the residual [1]."""
+        return math.hypot(self.ratio, self.angle)
+
+    @property
+    def imbalance(self) -> float:
+        """|film force + load| / |load| [1]; of the logarithm, so that small ones keep their digits."""
+        if not self.norm < math.inf:
+            return math.inf
+        ratio = min(self.ratio, _LARGEST_LOG)
+        return math.hypot(math.expm1(ratio), 2.0 * math.exp(0.5 * ratio) * math.sin(0.5 * self.angle))
+
+
+def search_place(target: StaticTarget) -> StaticPoint:
+    """Return the first converged point, or the best of all starts."""
+    points = []
+    for s, phi in _starts(target):
+        points.append(_newton(target, s, phi))
+        if is_found(target, points[-1]):
+            return points[-1]
+    return min(points, key=lambda point: point.norm)
+
+
+def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
+    """Return the point of a load that one pad carries nearly alone, by loads that pull less and less across.
+
+    There the film holds the journal in one direction only, and nothing tells Newton's method how far across
+    the next pad begins, whose load grows as the root of the way.
+    """
+    if not math.isfinite(best.norm):
+        return best
+    fx, fy, _ = target.tangent(*best.position, 0.0, 0.0, target.speed)
+    left = math.hypot(target.x - fx, target.y - fy)
+
+    def pulled(size: float) -> StaticTarget:
+        more = size / left - 1.0
+        return target._replace(x=target.x + more * (target.x - fx), y=target.y + more * (target.y - fy))
+
+    for share in _ACROSS:
+        across = max(share * target.size, left)
+        point = search_place(pulled(across))
+        while across > left and is_found(target, point):
+            across = max(across / _LESS, left)
+            point = _newton(pulled(across), point.s, point.phi)
+        if across == left and is_found(target, point):
+            return point
+    return best
+
+
+def _starts(target: StaticTarget) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); half of the way to the wall is enough for most films."""
+    along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
+    turns = [k * math.pi / 3.0 for k in range(6)]
+    told = [] if target.near is None else [_start_at(target, *target.near)]
+    first = (half, along_load + target.lead)
+    return [*told, first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
+
+
+def _start_at(target: StaticTarget, x: float, y: float) -> tuple[float, float]:
+    chi = math.hypot(x, y) / target.clearance or 1e-300
+    return math.log(chi / (1.0 - chi)) if chi < MAXIMUM_ECCENTRICITY else LARGEST_S, math.atan2(y, x)
+
+
+def _newton(target: StaticTarget, s: float, phi: float, most: int = _NEWTON_STEPS) -> StaticPoint:
+    point = _point(target, s, phi, 0)
+    while point.steps < most and _ROUNDOFF_STOP < point.norm < math.inf:
+        a, b, c, d = point.matrix
+        det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
+        step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle
+        if abs(det) < _NEUTRAL * size:  # nothing holds the journal in one direction: the shortest step
+            det, step_s = -size, a * point.ratio + c * point.angle
+            step_phi = b * point.ratio + d * point.angle
+        improved = _damped(target, point, step_s / det, step_phi / det)
+        if improved is None:
+            break
+        point = improved
+    return point
+
+
+def _damped(target: StaticTarget, point: StaticPoint, step_s: float, step_phi: float) -> StaticPoint | None:
+    """Return the first of ever shorter steps that lowers the residual, or None."""
+    share = min(
+        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
+    )
+    for halvings in range(_HALVINGS):
+        part = 0.5**halvings * share
+        s = min(point.s + part * step_s, LARGEST_S)
+        trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
+        if trial.norm < point.norm:
+            return trial
+    return None
+
+
+def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoint:
+    """Return the residual at (s, phi), and d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
+    distance = target.clearance / (1.0 + math.exp(-s))
+    x, y = distance * math.cos(phi), distance * math.sin(phi)
+    try:
+        fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
+    except (UndefinedDerivativeError, FilmContactError, ConvergenceError):
+        return StaticPoint(s, phi, steps)
+    size = math.hypot(fx, fy)
+    if not 0.0 < size < math.inf:
+        return StaticPoint(s, phi, steps)
+    # d(position)/ds = (1 - chi) position, d(position)/dphi = position turned by 90 degrees
+    gap = 1.0 / (1.0 + math.exp(s))
+    x_s, y_s = gap * (D[0] * x + D[1] * y), gap * (D[5] * x + D[6] * y)
+    x_phi, y_phi = D[1] * x - D[0] * y, D[6] * x - D[5] * y
+    ux, uy = fx / size, fy / size
+    return StaticPoint(
+        s,
+        phi,
+        steps,
+        (x, y),
+        math.log(size / target.size),
+        math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
+        (
+            (ux * x_s + uy * y_s) / size,
+            (ux * x_phi + uy * y_phi) / size,
+            (ux * y_s - uy * x_s) / size,
+            (ux * y_phi - uy * x_phi) / size,
+        ),
+        (D[0], D[1], D[5], D[6]),
+    )
+
+
+def is_found(target: StaticTarget, point: StaticPoint) -> bool:
+    """Return whether the film balances the load to 1e-12, or to what `unavoidable` leaves, within reason."""
+    allowed = max(_TOLERANCE, unavoidable(target, point))
+    return point.imbalance <= min(allowed, MOST_LEFT)
+
+
+def unavoidable(target: StaticTarget, point: StaticPoint) -> float:
+    """Return the imbalance that roundoff leaves of gap, place and force, over the load.
+
+    Preloaded pads and balls press each other with forces of which a light load is the small difference.
+    """
+    gap = math.exp(min(point.ratio, _LARGEST_LOG)) * (1.0 + math.exp(point.s))
+    place = target.clearance * max(abs(slope) for slope in point.slopes) / target.size
+    return _ROUNDOFF * max(gap, place) + target.noise / target.size
+
+
+def has_force_against(target: StaticTarget) -> bool:
+    """Return whether forces of the film, wherever the journal is, span the direction that the load needs.
+
+    They are looked at in many places. A force in that direction needs one on either side of it, less than
+    half a turn apart: the pads of a gap push the journal out of it together, a pad alone pushes it away.
+    """
+    sides = [-math.inf, math.inf]
+    for share in _FAR:
+        chi = share * min(target.room, MAXIMUM_ECCENTRICITY)
+        for k in range(_DIRECTIONS):
+            at = _point(target, math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS, 0)
+            if at.norm < math.inf:
+                sides[0] = max(sides[0], at.angle if at.angle <= _ALIKE else -math.inf)
+                sides[1] = min(sides[1], at.angle if at.angle >= -_ALIKE else math.inf)
+    return sides[1] - sides[0] < _OPPOSITE
+
+
+def is_unstable(point: StaticPoint) -> bool:
+    """Return whether the journal moves away from its place: d(force)/d(position) has a positive value."""
+    a, b, c, d = point.slopes
+    half, turn = 0.5 * (a + d), 0.25 * (a - d) ** 2 + b * c
+    return turn >= 0.0 and half + math.sqrt(turn) > _NEUTRAL_SLOPE * max(map(abs, point.slopes))

@@ -1,0 +1,375 @@
+"""Motions of a rotor on films that remember, and how many of them grow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from ..bearings.reaction import DynamicStiffness, MemoryCoefficients
+from ..core.errors import ConvergenceError
+from ..core.model import Array, Reaction, Settling
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
+from .modal_reduction import models, usual_frequency
+from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_matrices import journal_rows, remembering, second_order, whirl_near
+
+REACH = 20.0
+"""Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
+
+MOVED = 1e-2
+"""Relative distance of a fast exponent that does from all with K and C of one frequency."""
+
+_REAL = 1e-8
+
+
+class Motion(NamedTuple):
+    """An exponent s [1/s] and its vectors, shape (N,): L(s) right = 0, left* L(s) = 0."""
+
+    value: complex
+    right: np.ndarray
+    left: np.ndarray
+
+
+def motion_by_memory(
+    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, shape: np.ndarray
+) -> Motion | None:
+    """Return the motion on films that remember next to one on films that do not; None for none.
+
+    A motion that decays faster than it turns may have no other next to it: the film's own exponents are many
+    there.
+
+    Raises
+    ------
+    ConvergenceError
+        If there is none next to a motion that turns faster than it decays, or grows.
+    """
+    try:
+        found = Motion(*whirl_near(structure, at, frequency, value, shape))
+    except ConvergenceError:
+        if value.imag > -value.real:
+            raise
+        return None
+    s = found.value
+    if abs(s.imag) <= _REAL * abs(s):
+        return found._replace(value=complex(s.real, 0.0))
+    if s.imag < 0.0:
+        return Motion(s.conjugate(), found.right.conj(), found.left.conj())
+    return found
+
+
+def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray) -> int:
+    """Return how many exponents of a rotor on films that remember grow, both of a pair.
+
+    The determinant of all equations is that with K and C of one frequency, whose exponents are known, times
+    det(1 + R (K(s) - K - s C)) with the receptance R of the journals on those films.
+
+    Parameters
+    ----------
+    structure : Structure
+        Without hysteresis.
+    at : RotorEquilibrium
+    values : ndarray [1/s]
+        Exponents next to which the phase turns fast.
+    """
+    system, films = second_order(structure, at), remembering(at)
+    rows = np.vstack([journal_rows(structure, name) for name in films])
+    mass, damping, stiffness = (np.asarray(part) for part in system)
+
+    def ratio(nu: float) -> complex:
+        change = np.zeros((len(rows), len(rows)), dtype=complex)
+        for k, film in enumerate(films.values()):
+            pair = slice(2 * k, 2 * k + 2)
+            K = film.dynamic_stiffness.stiffness(1j * nu)
+            change[pair, pair] = K - film.stiffness - 1j * nu * film.damping
+        receptance = rows @ np.linalg.solve(stiffness - nu**2 * mass + 1j * nu * damping, rows.T)
+        return complex(np.linalg.det(np.eye(len(rows)) + receptance @ change))
+
+    reference = np.linalg.eigvals(system.state_matrix())
+    frequencies = _frequencies(reference, values, abs(at.speed))
+    return growing_count(ratio, frequencies, int(np.sum(reference.real > 0.0)))
+
+
+def require_all_growing(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speed: float,
+    values: np.ndarray,
+    growing: int,
+) -> None:
+    """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
+
+    Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
+    """
+    if not any(isinstance(bearing, Settling) for bearing in bearings.values()):
+        return
+    structure = next(models(rotor, usual_frequency(rotor, speed))).structure
+    if structure.hysteresis is not None:
+        return
+    count = rotor_growing(structure, rest(structure, bearings, speed), values)
+    if count != growing:
+        raise ConvergenceError(
+            f"all exponents that grow at {speed:.6g} rad/s must be found, and {growing} were of {count}"
+        )
+
+
+def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Array:
+    """Return frequencies from 0 on that tell apart what exponents and waves of oil do to the phase."""
+    values, upper = np.concatenate([reference, found]), reference[reference.imag >= 0.0]
+    slow = values[np.abs(values) <= REACH * speed]
+    near = np.concatenate([slow, _moved(found, upper), _moved(upper, found)])
+    beside = np.concatenate([near.imag + k * near.real for k in (-2.0, -0.5, 0.0, 0.5, 2.0)])
+    top = 4.0 * max(float(np.abs(values).max()), speed)
+    waves = speed * np.arange(1, 25) / 8.0
+    return np.unique([0.0, *beside[beside > 0.0], *waves, *np.geomspace(0.01 * speed, top, 40)])
+
+
+def _moved(values: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return which of some exponents have none of others near them."""
+    if not len(others):
+        return values
+    distance = np.abs(values[:, None] - others).min(axis=1, initial=np.inf)
+    return np.asarray(values[distance > MOVED * np.abs(values)])
+
+
+# The exponents of a rigid rotor on a film that remembers: roots of det(K(s) + s^2 mass).
+
+
+STARTS = (0.5, 0.3, 1.0)
+"""Frequencies / speed whose stiffness and damping give the first exponents."""
+
+NEUTRAL = 1e-6
+"""Growth rate / frequency of a whirl that begins or ceases to grow."""
+
+CONVERGED = 1e-13
+_STEPS = 20
+_SAME = 1e-8
+_TOP = 4.0
+_DECADES = 4.0
+
+
+class Exponents(NamedTuple):
+    """Exponents of motion.
+
+    Attributes
+    ----------
+    values : ndarray, shape (n,) [1/s]
+        By falling real part, those with imaginary part >= 0: all that grow, or one that is damped, which need
+        not be the least damped, where `growing` is 0.
+    growing : int
+        How many grow, both of a pair, by the phase of the determinant.
+    """
+
+    values: NDArray[np.complex128]
+    growing: int
+
+
+def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
+    """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
+
+    Raises
+    ------
+    ConvergenceError
+        If not all of those that grow are found.
+    """
+    found: list[complex] = []
+    growing: int | None = None
+    for start in _starts(film, mass):
+        value = _refined(film.dynamic_stiffness, mass, start)
+        if value is None or any(abs(value - one) <= _SAME * abs(one) for one in found):
+            continue
+        found = sorted([*found, value], key=lambda one: -one.real)
+        known = sum(2 if one.imag else 1 for one in found if one.real > 0.0)
+        if abs(found[0].real) <= NEUTRAL * abs(found[0]):  # on the border itself nothing is counted
+            return Exponents(np.array(found), known)
+        growing = rigid_growing(film, mass) if growing is None else growing
+        if known == growing:
+            return Exponents(np.array(found), growing)
+    raise ConvergenceError(
+        f"all {growing} growing exponents of a mass of {mass:.6g} kg on the film must be found, and "
+        f"{len(found)} exponents were: {found}"
+    )
+
+
+def whirl_exponent(film: MemoryCoefficients, mass: float) -> complex:
+    """Return the exponent that Newton's method finds from the least damped one with K, C of half the speed.
+
+    Raises
+    ------
+    ConvergenceError
+        If it finds none.
+    """
+    value = _refined(film.dynamic_stiffness, mass, next(_starts(film, mass)))
+    if value is None:
+        raise ConvergenceError(
+            f"Newton's method must find the whirl of {mass:.6g} kg at {film.speed:.6g} rad/s"
+        )
+    return value
+
+
+def _starts(film: MemoryCoefficients, mass: float) -> Iterator[complex]:
+    """Yield exponents with the stiffness and damping of a few frequencies, the least damped first."""
+    for share in STARTS:
+        nu = share * abs(film.speed)
+        K = film.dynamic_stiffness.stiffness(1j * nu)
+        near = _pencil(K.real, K.imag / nu, mass)
+        yield from sorted(near[near.imag >= 0.0].tolist(), key=lambda one: -one.real)
+
+
+def rigid_growing(film: MemoryCoefficients, mass: float) -> int:
+    """Return how many exponents of a rigid mass [kg] on a film grow.
+
+    det(K(i nu) - mass nu^2) is counted against (k + i c nu - mass nu^2)^2, critically damped.
+    """
+    speed, motion = abs(film.speed), film.dynamic_stiffness
+    k = float(np.abs(film.stiffness).max())
+    c = float(np.abs(film.damping).max())
+
+    def ratio(nu: float) -> complex:
+        D = motion.stiffness(1j * nu) - mass * nu**2 * np.eye(2)
+        return complex(np.linalg.det(D) / (math.sqrt(k) + 1j * nu * math.sqrt(mass)) ** 4)
+
+    own = math.sqrt(k / mass)
+    top = _TOP * max(own, c / mass, speed)
+    low = min(own, speed) * 10.0 ** (-0.5 * _DECADES)
+    waves = np.arange(1, 25) * 0.125 * speed
+    return growing_count(ratio, np.unique([0.0, *np.geomspace(low, top, 24), *waves[waves < top]]))
+
+
+def _pencil(stiffness: np.ndarray, damping: np.ndarray, mass: float) -> NDArray[np.complex128]:
+    """Return the roots of det(stiffness + s damping + s^2 mass), shape (4,)."""
+    matrix = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffness / mass, -damping / mass]])
+    return np.asarray(np.linalg.eigvals(matrix), dtype=complex)
+
+
+def _refined(motion: DynamicStiffness, mass: float, s: complex) -> complex | None:
+    """Return the exponent next to another, by successive linear problems; None if they lead nowhere."""
+    for _ in range(_STEPS):
+        K, slope = motion(s)
+        near = _pencil(K - s * slope, slope, mass)
+        before, s = s, complex(near[np.argmin(np.abs(near - s))])
+        if not math.isfinite(abs(s)):
+            return None
+        if abs(s - before) <= CONVERGED * abs(s):
+            return complex(s.real, abs(s.imag)) if abs(s.imag) > _SAME * abs(s) else complex(s.real, 0.0)
+    return None
+
+
+# How many exponents grow, by the phase of a determinant: what no search for them can miss.
+
+
+STEP = 0.6
+"""Largest turn of the phase from one frequency to the next [rad]."""
+
+NEAR_ONE = 0.5
+"""Distance of D/E from 1 at the last frequency."""
+
+_HALVINGS, _DOUBLINGS = 40, 40
+
+
+def growing_count(ratio: Callable[[float], complex], frequencies: Array, reference: int = 0) -> int:
+    """Return how many roots s of a determinant D(s) of real motions have a positive real part.
+
+    With E(s) of the same degree whose number of such roots is known, D/E turns by pi for each root that E has
+    more, while s goes from 0 to i infinity (the principle of the argument; roots off the real line come in
+    pairs).
+
+    Parameters
+    ----------
+    ratio : callable
+        From a frequency nu [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
+    frequencies : ndarray, shape (n,) [rad/s]
+        Rising from 0, close enough that no whole turn falls between two of them; steps in which the phase
+        turns far are halved. From the last they are doubled until D/E is near 1, so that the phase stays
+        within a quarter of a turn beyond them.
+    reference : int
+        The number of such roots of E.
+
+    Raises
+    ------
+    ConvergenceError
+        If the phase jumps: a root on the imaginary axis itself.
+    """
+    points = [(float(nu), ratio(float(nu))) for nu in frequencies]
+    while abs(points[-1][1] - 1.0) > NEAR_ONE and len(points) < len(frequencies) + _DOUBLINGS:
+        points.append((2.0 * points[-1][0], ratio(2.0 * points[-1][0])))
+    turn = sum(_turn(ratio, low, high) for low, high in pairwise(points))
+    last = points[-1][1]
+    turn -= math.atan2(last.imag, last.real)
+    return reference - round(turn / math.pi)
+
+
+def _turn(
+    ratio: Callable[[float], complex], low: tuple[float, complex], high: tuple[float, complex]
+) -> float:
+    """Return the turn of the phase between two frequencies with their values [rad]."""
+    total, parts = 0.0, [(low, high, 0)]
+    while parts:
+        low, high, depth = parts.pop()
+        step = float(np.angle(high[1] / low[1])) if low[1] else math.inf
+        if abs(step) <= STEP:
+            total += step
+            continue
+        if depth == _HALVINGS:
+            raise ConvergenceError(
+                f"the phase must be smooth to count what grows, and jumps at {high[0]:.8g} rad/s: there is a "
+                "motion that neither grows nor decays"
+            )
+        nu = 0.5 * (low[0] + high[0])
+        middle = (nu, ratio(nu))
+        parts += [(low, middle, depth + 1), (middle, high, depth + 1)]
+    return total
+
+
+# The rigid masses at which a film that remembers lets a whirl neither grow nor decay.
+
+
+RATIOS = np.concatenate([np.geomspace(0.01, 0.1, 6, endpoint=False), np.linspace(0.1, 3.0, 59)])
+"""Whirl ratios between which a border is looked for; oil crosses the cavity in half a turn or more."""
+
+
+class Border(NamedTuple):
+    """A mass [kg] and the frequency [rad/s] at which it whirls for ever."""
+
+    mass: float
+    frequency: float
+
+
+def mass_borders(film: MemoryCoefficients) -> list[Border]:
+    """Return all masses with det(K(i nu) - mass nu^2) = 0 for a frequency nu, the lightest first.
+
+    With K = A + i B the imaginary part gives k = mass nu^2 = (Axx Byy + Ayy Bxx - Axy Byx - Ayx Bxy) /
+    (Bxx + Byy), the real part a function of nu alone, (Axx - k)(Ayy - k) - Axy Ayx - det B.
+    """
+    grid = RATIOS * abs(film.speed)
+    values = [_residue(film, float(nu)) for nu in grid]
+    found = []
+    for low, high, one, other in zip(grid, grid[1:], values, values[1:], strict=False):
+        if (one > 0.0) != (other > 0.0):
+            nu = float(brentq(lambda nu: _residue(film, nu), low, high, xtol=1e-13 * high))
+            mixed, trace = _stiffness(film.dynamic_stiffness.stiffness(1j * nu))
+            if mixed * trace > 0.0:
+                found.append(Border(mixed / trace / nu**2, nu))
+    return sorted(found)
+
+
+def _stiffness(K: np.ndarray) -> tuple[float, float]:
+    """Return numerator and denominator of k."""
+    A, B = K.real, K.imag
+    mixed = A[0, 0] * B[1, 1] + A[1, 1] * B[0, 0] - A[0, 1] * B[1, 0] - A[1, 0] * B[0, 1]
+    return float(mixed), float(np.trace(B))
+
+
+def _residue(film: MemoryCoefficients, nu: float) -> float:
+    """Return the real part of the determinant where the imaginary part is 0, times trace(B)^2, scaled."""
+    K = film.dynamic_stiffness.stiffness(1j * nu)
+    K = K / np.abs(K).max()
+    mixed, trace = _stiffness(K)
+    off = K.real[0, 1] * K.real[1, 0] + float(np.linalg.det(K.imag))
+    return float((trace * K.real[0, 0] - mixed) * (trace * K.real[1, 1] - mixed) - trace**2 * off)

@@ -1,0 +1,311 @@
+"""Models at an operating point, as linear python-control systems with named signals."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..bearings.reaction import Complex, MemoryCoefficients, StateSpaceStiffness
+from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
+from ..core.inputs import arguments, quantities
+from ..core.model import Array, Dynamic, Linearization, Model, Remembering, RestingStates, settled
+from ..core.readable import Readable
+from ..core.results import Equilibrium
+from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names
+
+if TYPE_CHECKING:
+    import control
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class OperatingPoint:
+    """The time, state and input at which a model is linearized.
+
+    Attributes
+    ----------
+    t : float [s]
+        Time; matters only to models that depend on it.
+    x : array_like, shape (n_states,)
+        State, in the order and SI units of `model.states`.
+    u : array_like, shape (n_inputs,)
+        Input, in the order and SI units of `model.inputs`.
+    """
+
+    t: float = 0.0
+    x: ArrayLike = ()
+    u: ArrayLike = ()
+
+
+@arguments
+def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None = None) -> control.StateSpace:
+    """Return the exact linearization of a model, in SI units and with the model's signal names.
+
+    Parameters
+    ----------
+    model : Model
+        A static film gives a system without states whose D holds its derivatives, one that remembers the
+        system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
+    at : OperatingPoint or Equilibrium
+        An Equilibrium stands for the journal at rest there, as input of a film. Tilting pads and lubricated
+        balls rest with it, and a film whose temperature is left to its heat balance keeps that of the rest.
+    name : str, optional
+        Name of the system; python-control numbers it by default.
+
+    Raises
+    ------
+    InputError
+        If the point does not fit the model, or an Equilibrium is given for a model that is no film, or for
+        one whose states it does not tell, as the wear of a bush.
+    """
+    if isinstance(model, Remembering) and not isinstance(model, Dynamic) and isinstance(at, Equilibrium):
+        return film_system(model, at, name=name).system
+    require_kind("model", model, Model, "a Model such as a bearing or a rotor")
+    if isinstance(at, Equilibrium) and names(model.inputs) == list(JOURNAL_INPUTS):
+        model = settled(cast(Any, model), at.position, at.speed)
+    point = _film_point(model, at) if isinstance(at, Equilibrium) else at
+    x = checked_vector("x", point.x, len(model.states))
+    u = checked_vector("u", point.u, len(model.inputs))
+    matrices = model.linearization(point.t, x, u)
+    return state_space(matrices, model.inputs, model.outputs, model.states, name)
+
+
+def state_space(
+    matrices: Linearization,
+    inputs: tuple[Signal, ...],
+    outputs: tuple[Signal, ...],
+    states: tuple[Signal, ...],
+    name: str | None,
+) -> control.StateSpace:
+    """Return a linearization as a python-control system that carries the names of its signals."""
+    return control_system(
+        *matrices, inputs=names(inputs), outputs=names(outputs), states=names(states), name=name
+    )
+
+
+def control_system(*parts: Any, **labels: Any) -> control.StateSpace:
+    """Return the `control.StateSpace` of these arguments, all its states kept."""
+    import control
+
+    with warnings.catch_warnings():
+        # It sets the shape of the arrays of a system without states, which numpy deprecates since 2.5.
+        warnings.filterwarnings("ignore", category=DeprecationWarning, module=r"control\.")
+        return control.StateSpace(*parts, remove_useless_states=False, **labels)
+
+
+def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
+    """Return a vector of `size` finite numbers; raise InputError otherwise."""
+    array = require_finite(name, value)
+    if array.shape != (size,):
+        raise InputError(f"{name} must have shape ({size},) to fit the model, got shape {array.shape}")
+    return array
+
+
+def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
+    given = names(model.inputs)
+    u = np.array([*at.position, 0.0, 0.0, at.speed])
+    if given == list(JOURNAL_INPUTS) and isinstance(model, RestingStates):
+        return OperatingPoint(x=model.rest_state(at.position, at.speed), u=u)
+    if given != list(JOURNAL_INPUTS):
+        raise InputError(
+            "at must be an OperatingPoint for a model that is no film with the inputs "
+            f"{', '.join(JOURNAL_INPUTS)}, got an Equilibrium for the inputs {given}"
+        )
+    if model.states:
+        raise InputError(
+            f"at must tell the states {', '.join(names(model.states))} of this reaction, which an "
+            "Equilibrium does not: linearize(mount(rotor, {station: reaction}), OperatingPoint(x=...)) takes "
+            "the states of rotor and reaction together"
+        )
+    return OperatingPoint(u=u)
+
+
+# A film that remembers as a linear system for python-control, with its error over a range of frequencies.
+
+
+ORDERS = (2, 4, 6, 8, 12, 16, 24, 32)
+"""States for each direction of the journal that are tried, until the error is small enough."""
+
+POLES = (1.0, 0.5, 2.0)
+"""Decay rates of these states / highest frequency."""
+
+SAMPLES = 192
+"""Frequencies at which the film is asked; every second one is fitted, and the error is that at all."""
+
+
+TOLERANCE = 1e-3
+"""Largest error of a system unless another one is asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmSystem(Readable):
+    """A film that remembers, as a linear system with few states.
+
+    Attributes
+    ----------
+    system : control.StateSpace
+        Inputs x, y, vx, vy, speed, outputs force_x, force_y, as small changes about the equilibrium. The
+        states are no oil contents, but what the film remembers of x and of y, each through a chain of equal
+        lags. The speed acts as in slow motion.
+    error : float [1]
+        Largest error of K(i nu), over its largest entry, at frequencies nu up to the highest; K(0) has none.
+    highest_frequency : float [rad/s]
+        Beyond it nothing is known of the error.
+    """
+
+    system: control.StateSpace
+    error: float
+    highest_frequency: float
+
+
+class _Fit(NamedTuple):
+    """K(s) = K(0) + s damping + sum of parts (k - k at s = 0), k = ((s - a)/(s + a))^j/(s + a)."""
+
+    still: Array
+    decay: float
+    damping: Array
+    parts: Array
+    error: float
+    highest_frequency: float
+
+    @property
+    def linearization(self) -> Linearization:
+        """The fit over x, y, vx, vy: x_j' = q - a x_j - 2 a (x_1 + ... + x_(j-1)) for x and for y."""
+        order = len(self.parts)
+        lags = -self.decay * (np.eye(order) + 2.0 * np.tril(np.ones((order, order)), -1))
+        static = self.still - np.tensordot(_at_rest(order, self.decay), self.parts, 1)
+        return Linearization(
+            np.asarray(np.kron(np.eye(2), lags), dtype=float),
+            np.hstack([np.kron(np.eye(2), np.ones((order, 1))), np.zeros((2 * order, 2))]),
+            -np.transpose(self.parts, (1, 2, 0)).reshape(2, 2 * order),
+            np.hstack([-static, -self.damping]),
+        )
+
+
+@arguments
+def film_system(
+    film: Remembering,
+    at: Equilibrium,
+    *,
+    highest_frequency: float | None = None,
+    tolerance: float = TOLERANCE,
+    name: str | None = None,
+) -> FilmSystem:
+    """Return the small motion of a film that remembers as a stable system with few states.
+
+    Parameters
+    ----------
+    film : Remembering
+        As `JFOFilm`.
+    at : Equilibrium
+        Where the journal rests.
+    highest_frequency : float, optional [rad/s]
+        Up to which K(i nu) is to be right; by default the speed.
+    tolerance : float [1]
+        Largest error there, over the largest entry of K(i nu).
+    name : str, optional
+        Name of the system.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the shaft is at rest.
+    ConvergenceError
+        If 32 states for each direction are not enough.
+
+    Notes
+    -----
+    K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest, with K(0)
+    exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
+    the fit, and its damping in fast motion is positive.
+    """
+    require_kind("film", film, Remembering, "a film that remembers, such as a JFOFilm")
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
+    require_positive("tolerance", tolerance)
+    coefficients: MemoryCoefficients = film.coefficients(at.position, at.speed)
+    fit = _fitted(coefficients, highest_frequency, tolerance)
+    A, B, C, D = fit.linearization
+    by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
+    import control
+
+    system = control.StateSpace(
+        A,
+        np.hstack([B, np.zeros((len(A), 1))]),
+        C,
+        np.hstack([D, by_speed]),
+        inputs=list(JOURNAL_INPUTS),
+        outputs=list(FORCE_OUTPUTS),
+        states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(len(fit.parts))],
+        name=name,
+        remove_useless_states=False,
+    )
+    return FilmSystem(system=system, error=fit.error, highest_frequency=float(fit.highest_frequency))
+
+
+def film_states(film: MemoryCoefficients) -> Linearization:
+    """Return a film with K(s) as states under a journal: inputs x, y, vx, vy, outputs its force.
+
+    Exact where its states are known, as of tilting pads; else as `film_system` up to the speed of the shaft.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As `film_system`.
+    """
+    motion = film.dynamic_stiffness
+    if isinstance(motion, StateSpaceStiffness):
+        A, B, C, D = motion.at
+        return Linearization(A, B[:, :4], C[:2], D[:2, :4])
+    return _fitted(film, None, TOLERANCE).linearization
+
+
+def _fitted(film: MemoryCoefficients, highest_frequency: float | None, tolerance: float) -> _Fit:
+    """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
+    if film.speed == 0.0:
+        raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")
+    top = abs(film.speed) if highest_frequency is None else highest_frequency
+    require_positive("highest_frequency", top)
+    motion = film.dynamic_stiffness
+    still = motion.stiffness(0j).real
+    nu = top * np.arange(1, SAMPLES + 1) / SAMPLES
+    K = np.array([motion.stiffness(1j * float(one)) for one in nu])
+    least = math.inf
+    for fit in _fits(nu, K, still, top):
+        least = min(least, fit.error)
+        if fit.error <= tolerance and np.linalg.eigvalsh(fit.damping + fit.damping.T)[0] > 0.0:
+            return fit
+    raise ConvergenceError(
+        f"tolerance must be within reach of {ORDERS[-1]} states for each direction up to {top:.6g} rad/s, "
+        f"got {tolerance!r}: the least error is {least:.3g}"
+    )
+
+
+def _fits(nu: Array, K: Complex, still: Array, top: float) -> Iterator[_Fit]:
+    """Yield fits to the stiffness at some frequencies, those with few states first."""
+    size = 1.0 / np.abs(K).max(axis=(1, 2))
+    wanted = ((K - still) * size[:, None, None]).reshape(len(nu), 4)
+    for order in ORDERS:
+        for decay in (top * pole for pole in POLES):
+            s = 1j * nu
+            lags = ((s - decay) / (s + decay)) ** np.arange(order)[:, None] / (s + decay)
+            terms = (np.vstack([s / top, decay * (lags - _at_rest(order, decay)[:, None])]) * size).T
+            some = slice(1, None, 2)
+            found, *_ = np.linalg.lstsq(_real(terms[some]), _real(wanted[some]), rcond=None)
+            error = float(np.abs(terms @ found - wanted).max())
+            damping, parts = found[0].reshape(2, 2) / top, decay * found[1:].reshape(-1, 2, 2)
+            yield _Fit(still, decay, damping.astype(float), parts.astype(float), error, top)
+
+
+def _at_rest(order: int, decay: float) -> Array:
+    """Return the lags at s = 0."""
+    return np.asarray((-1.0) ** np.arange(order) / decay)
+
+
+def _real(rows: Complex) -> Array:
+    return np.concatenate([rows.real, rows.imag])

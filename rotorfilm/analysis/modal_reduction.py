@@ -1,0 +1,488 @@
+"""A rotor in as few shapes as a range of frequencies needs, and how far off its whirls are."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from itertools import count
+from typing import Any, NamedTuple, Protocol, TypeGuard, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import sparse
+from scipy.linalg import cho_solve_banded, cholesky_banded, lu_factor, lu_solve
+from scipy.linalg.lapack import zgbtrf, zgbtrs
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
+from ..core.model import Array, JournalForce, Reaction, Settling, require_reactions
+from ..core.results import Coefficients
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
+from .coefficients import coefficients
+
+# Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
+
+
+class BandedCholesky:
+    """The factor of a positive definite sparse matrix; LinAlgError for another."""
+
+    def __init__(self, matrix: Any) -> None:
+        tally("factorizations")
+        self.order = band_order(matrix)
+        rows, columns, values, _ = _in_order(matrix, self.order)
+        upper = rows <= columns
+        width = int((columns - rows).max())
+        band = np.zeros((width + 1, len(self.order)))
+        band[(width + rows - columns)[upper], columns[upper]] = values[upper]
+        self.factor = cholesky_banded(band, check_finite=False)
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Return the matrix's inverse times loads, shape (N, ...), real or complex."""
+        if np.iscomplexobj(loads):
+            return np.asarray(self.solve(loads.real) + 1j * self.solve(loads.imag))
+        found = np.empty(loads.shape)
+        found[self.order] = cho_solve_banded((self.factor, False), loads[self.order], check_finite=False)
+        return found
+
+
+class BandedFactor:
+    """The LU factor of a complex sparse matrix, with exchange of rows."""
+
+    def __init__(self, matrix: Any) -> None:
+        tally("factorizations")
+        self.order = band_order(abs(matrix) + abs(matrix).T)
+        rows, columns, values, self.width = _in_order(matrix, self.order)
+        band = np.zeros((3 * self.width + 1, len(self.order)), dtype=complex)
+        band[2 * self.width + rows - columns, columns] = values
+        self.factor, self.pivots, _ = zgbtrf(band, self.width, self.width, overwrite_ab=True)
+
+    def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
+        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
+        found = np.empty_like(self.factor[0])
+        found[self.order] = zgbtrs(
+            self.factor, self.width, self.width, load[self.order], self.pivots, trans=2 if adjoint else 0
+        )[0]
+        return found
+
+
+class DenseFactor:
+    """The LU factor of a dense matrix."""
+
+    def __init__(self, matrix: np.ndarray) -> None:
+        tally("factorizations")
+        self.factor = lu_factor(matrix, check_finite=False)
+
+    def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
+        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
+        return np.asarray(lu_solve(self.factor, load, trans=2 if adjoint else 0))
+
+
+def band_order(matrix: Any) -> Array:
+    """Return the order of the unknowns of a symmetric pattern in which its band is narrow."""
+    return np.asarray(reverse_cuthill_mckee(sparse.csr_array(matrix), symmetric_mode=True))
+
+
+def _in_order(matrix: Any, order: Array) -> tuple[Array, Array, np.ndarray, int]:
+    """Return rows, columns and values of a matrix whose unknowns are put in order, and its band's width."""
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    entries = sparse.coo_array(matrix)
+    rows, columns = place[entries.row], place[entries.col]
+    return rows, columns, entries.data, int(np.abs(rows - columns).max(initial=0))
+
+
+# The shapes of a rotor that a range of frequencies needs, by Lanczos' method and moments of its loads.
+
+
+SHIFT = 0.003
+"""Part of the highest frequency at which static shapes are taken: a free rotor has none at 0."""
+
+_NEW = 1e-11
+"""Part of a shape, as the root of its kinetic energy, that counts: it is stiff, and what films press on."""
+
+_FIRST_COUNT = 8
+
+
+class ShapeSpace(NamedTuple):
+    """Shapes of one plane.
+
+    Attributes
+    ----------
+    shapes : ndarray, shape (N / 2, n)
+        Of unit mass, and without mass in common: modes of the shaft on no films, then what loads add.
+    cut : float
+        All modes below this frequency are among them [rad/s].
+    frequencies : ndarray, shape (k,)
+        Of these modes, rising [rad/s].
+    solid : BandedCholesky
+        K + shift^2 M in one plane.
+    """
+
+    shapes: Array
+    cut: float
+    frequencies: Array
+    solid: BandedCholesky
+
+
+def shape_space(full: Structure, cut: float) -> ShapeSpace:
+    """Return the modes below a frequency [rad/s], and what motion of the bearings and loads add to them.
+
+    With F = (K + shift^2 M)^-1 a load b adds F b and F (M, P, K_xy) F b: what is left out then answers the
+    forces of the films to the first order in frequency^2, gyroscopic effect and torque.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If K + shift^2 M is not positive, as of a shaft that buckles.
+    """
+    n = len(full.coordinates)
+    mass, stiffness = mean_plane(full.mass), mean_plane(full.stiffness)
+    shift = SHIFT * cut
+    solid = BandedCholesky(stiffness + shift**2 * mass)
+    frequencies, modes = _modes_below(mass, stiffness, solid, shift, cut)
+    first = solid.solve(_loads(full))
+    coupled = [matrix @ first for matrix in (mass, full.gyroscopic[:n, n:], full.stiffness[:n, n:])]
+    answers = np.hstack([first, solid.solve(np.hstack(coupled))])
+    return ShapeSpace(np.hstack([modes, new_shapes(answers, modes, mass, _NEW)]), cut, frequencies, solid)
+
+
+def _loads(full: Structure) -> Array:
+    """Return what acts on the rotor in one plane, and the displacements that are asked for, as loads."""
+    n = len(full.coordinates)
+    housings = np.eye(n)[list(full.supports)]
+    both = [full.journals[:, :n], full.journals[:, n:], housings]
+    both += [full.weight.reshape(2, n), full.unbalance[:n].T, full.unbalance[n:].T]
+    both += [readout.row[: 2 * n].reshape(2, n) for readout in full.readouts]
+    both += [] if full.tilts is None else [full.tilts[:, :n], full.tilts[:, n:]]
+    rows = np.vstack(both)
+    return np.asarray(rows[np.any(rows, axis=1)].T)
+
+
+def _modes_below(
+    mass: Any, stiffness: Any, solid: BandedCholesky, shift: float, cut: float
+) -> tuple[Array, Array]:
+    """Return frequencies and shapes, of unit mass, of the modes below a frequency, with no bearings."""
+    n = mass.shape[0]
+    inverse = LinearOperator((n, n), matvec=solid.solve, dtype=float)
+    start = np.random.default_rng(0).normal(size=n)
+    count = _FIRST_COUNT
+    while True:
+        count = min(count, n - 2)
+        squares, modes = eigsh(stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start)
+        rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
+        # Lanczos' method may miss one: the law of inertia tells how many there are.
+        if (count > len(rising) == negative_count(stiffness, cut**2, mass)) or count == n - 2:
+            return np.sqrt(np.maximum(squares[rising], 0.0)), modes[:, rising]
+        count *= 2
+
+
+# A rotor in as few shapes as a range of frequencies needs, and how far off its whirls are.
+
+
+WHOLE = 160
+"""Coordinates up to which nothing is left out of a rotor unless a range of frequencies is named."""
+
+SMALL = 60
+"""Coordinates up to which nothing is left out."""
+
+ANY = 1e15
+"""Frequency [rad/s] from which on all motions are asked for."""
+
+MARGIN = 2.0
+"""Frequency up to which modes are kept / highest frequency of interest, at least."""
+
+_FIRST = 6
+
+USUAL = 10
+"""Modes in each plane that are answered, unless a range of frequencies is named."""
+
+TOLERANCE = 1e-6
+"""Relative error, of an eigenvalue or of a response, estimated, beyond which more shapes are taken."""
+
+
+class Condensed(NamedTuple):
+    """A rotor in some of its shapes.
+
+    Attributes
+    ----------
+    whole : Structure
+        All of the rotor.
+    structure : Structure
+        The matrices in the shapes kept, dense.
+    space : ShapeSpace or None
+        The shapes; None where nothing is left out.
+    """
+
+    whole: Structure
+    structure: Structure
+    space: ShapeSpace | None
+
+    def lifted(self, motion: np.ndarray) -> np.ndarray:
+        """Return motions, shape (n, ...), in the coordinates of the whole rotor."""
+        if self.space is None:
+            return motion
+        x, y = np.split(motion, 2)
+        return np.concatenate([self.space.shapes @ x, self.space.shapes @ y])
+
+    def seen(self, forces: np.ndarray) -> np.ndarray:
+        """Return forces, shape (N, m), as the shapes kept feel them, shape (n, m)."""
+        if self.space is None:
+            return forces
+        return np.concatenate([self.space.shapes.T @ plane for plane in np.split(forces, 2)])
+
+    def answer(self, forces: np.ndarray) -> np.ndarray:
+        """Return how what is left out gives way to slow forces, shape (N, m)."""
+        assert self.space is not None
+        return np.concatenate([self.space.solid.solve(plane) for plane in np.split(forces, 2)])
+
+
+def exact_structure(rotor: FlexibleRotor) -> Structure:
+    """Return all of the matrices of a rotor: dense ones of a small rotor, else as they were assembled."""
+    return rotor.assembly if len(rotor.assembly.weight) > WHOLE else rotor.structure
+
+
+def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
+    """Return up to where whirls are answered unless a question says so [rad/s]: inf for a small rotor.
+
+    Twice the speed, and at least the frequency of mode `USUAL` of the shaft on no bearings.
+    """
+    exponent = _FIRST
+    while len(rotor.assembly.weight) > WHOLE:
+        model = _remembered(rotor, exponent)
+        if model is None or model.space is None:
+            break
+        if len(model.space.frequencies) >= USUAL:
+            return max(2.0 * abs(speed), float(model.space.frequencies[USUAL - 1]))
+        exponent += 2
+    return math.inf
+
+
+def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
+    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end."""
+    full = rotor.assembly
+    size = len(full.weight)
+    if size > SMALL and frequency < ANY:
+        for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
+            model = _remembered(rotor, exponent)
+            if model is None or 2 * len(model.structure.weight) > size:
+                break
+            yield model
+    yield Condensed(full, rotor.structure, None)
+
+
+def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
+    """Return the rotor in the modes below 2^exponent rad/s; None where its stiffness is not positive."""
+    known = rotor.remembered
+    if exponent not in known:
+        try:
+            space = shape_space(rotor.assembly, 2.0**exponent)
+        except np.linalg.LinAlgError:
+            return None
+        known[exponent] = Condensed(rotor.assembly, projected(rotor.assembly, space.shapes), space)
+    found: Condensed = known[exponent]
+    return found
+
+
+# Bearings that resist the tilt of a shaft too: what linear analysis asks of them, and where they act.
+
+
+class TiltingReaction(Protocol):
+    """A bearing with force and moment over the place (x, y, tilt_x, tilt_y) of the shaft [m], [rad]."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial way [m] on which the force may change much."""
+
+    @property
+    def planar(self) -> Reaction:
+        """The bearing with its tilts held."""
+
+    def tilting_force(self, place: Array, speed: float) -> Array:
+        """Return force [N] along x, y and moment [N m] about x, y on the shaft, shape (4,)."""
+
+    def tilting_coefficients(self, place: Array, speed: float) -> Coefficients:
+        """Return stiffness and damping, shape (4, 4), at a place of the shaft at rest."""
+
+
+def resists_tilt(bearing: object) -> TypeGuard[TiltingReaction]:
+    """Return whether a bearing resists tilts."""
+    return hasattr(type(bearing), "tilting_force")
+
+
+def require_bearings(bearings: object) -> None:
+    """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
+    if isinstance(bearings, Mapping):
+        bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
+    require_reactions("bearings", bearings, JournalForce, heavy=True)
+
+
+def film_rows(structure: Structure, name: str, size: int) -> Array:
+    """Return the rows of what a bearing feels, shape (size, N): x, y, and of four degrees tilt_x, tilt_y."""
+    pair = 2 * structure.stations.index(name) + np.arange(2)
+    if size == 2:
+        return structure.journals[pair]
+    tilts = None if structure.tilts is None else structure.tilts[pair]
+    if tilts is None or not tilts.any():
+        raise InputError(
+            f"station {name!r} must feel tilts, Station(feels_tilt=True) of a ShaftRotor, for a bearing that "
+            "resists them"
+        )
+    return np.concatenate([structure.journals[pair], tilts])
+
+
+def force_at(bearing: Any, place: Array, speed: float) -> Array:
+    """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments.
+
+    States of a bearing's own, as the tilts of pads, rest too; of pads without film nothing is said here.
+    """
+    if resists_tilt(bearing):
+        return bearing.tilting_force(place, speed)
+    if not isinstance(bearing, Settling):
+        force: Array = bearing.force(place, np.zeros(2), speed)
+        return force
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnloadedPadWarning)
+        return np.asarray(bearing.at_rest().force(place, np.zeros(2), speed))
+
+
+def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
+    """Return d(force)/d(place), square, of the force that `force_at` returns."""
+    if resists_tilt(bearing):
+        return -bearing.tilting_coefficients(place, speed).stiffness
+    film: Any = bearing.at_rest() if isinstance(bearing, Settling) else bearing
+    slopes: Array = film.jacobian(place, np.zeros(2), speed)[:, :2]
+    return slopes
+
+
+def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:
+    """Return K and C at a place."""
+    if resists_tilt(bearing):
+        return bearing.tilting_coefficients(place, speed)
+    return coefficients(bearing, place, speed)
+
+
+# How many eigenvalues of a Hermitian matrix are negative, by Sylvester's law of inertia.
+
+
+GROWTH = 1e7
+"""Largest entry of a factor without exchange of rows at which its signs are trusted."""
+
+ASIDE = 1e-9
+"""By how much the place of the count is moved, as a part, where the factor grows further."""
+
+_TRIES = 4
+
+
+def negative_count(stiffness: Any, square: float, inertia: Any) -> int:
+    """Return how many eigenvalues of stiffness - square inertia, both Hermitian, are negative.
+
+    By Sylvester's law of inertia it is the number of negative pivots of the factor L D L*.
+
+    Raises
+    ------
+    ConvergenceError
+        If the factor grows near every place that was tried: an eigenvalue is there.
+    """
+    if not is_sparse(stiffness):
+        tally("eigenproblems")
+        return int(np.sum(np.linalg.eigvalsh(stiffness - square * inertia) < 0.0))
+    order: Any = band_order(abs(stiffness) + abs(inertia))
+    whole, heavy = (sparse.csc_array(part)[order][:, order] for part in (stiffness, inertia))
+    scale = 1.0 / np.sqrt(np.maximum(abs(whole).max(axis=1).toarray().ravel(), np.finfo(float).tiny))
+    scaling = sparse.diags_array(scale)
+    for k in range(_TRIES):
+        shifted = scaling @ (whole - square * (1.0 + k * ASIDE) * heavy) @ scaling
+        options = {"SymmetricMode": True, "Equil": False}
+        tally("factorizations")
+        factor = splu(
+            sparse.csc_matrix(shifted), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options
+        )
+        kept = np.array_equal(factor.perm_r, np.arange(len(order)))
+        if kept and abs(factor.L).max() <= GROWTH:
+            return int(np.sum(factor.U.diagonal().real < 0.0))
+    raise ConvergenceError(f"eigenvalues below {square:.6g} must be counted, and one is too near")
+
+
+# What analyses count of their own work.
+
+
+Item = TypeVar("Item")
+
+COUNTS = ("equilibria", "eigenproblems", "factorizations")
+"""Rests of the rotor; eigenproblems in the shapes kept; factors of matrices of all coordinates."""
+
+SOLVED = ("equilibria", "solutions", "factorizations")
+"""Of responses: solutions at one frequency in the shapes kept, or in all coordinates of a small rotor."""
+
+_counters: ContextVar[tuple[Counter[str], ...]] = ContextVar("counters", default=())
+
+
+@contextmanager
+def counted(*names: str) -> Iterator[Counter[str]]:
+    """Count what of these names is done inside."""
+    work = Counter(dict.fromkeys(names, 0))
+    before = _counters.set((*_counters.get(), work))
+    try:
+        yield work
+    finally:
+        _counters.reset(before)
+
+
+def tally(name: str, count: int = 1) -> None:
+    """Add to all that count this now."""
+    for work in _counters.get():
+        if name in work:
+            work[name] += count
+
+
+class CountedTuple(tuple[Item, ...]):
+    """What an analysis found, and what it took.
+
+    Attributes
+    ----------
+    work : dict of str to int
+        As `RotorModes.work`.
+    """
+
+    work: dict[str, int]
+
+    def __new__(cls, found: Iterable[Item], work: Counter[str]) -> CountedTuple[Item]:
+        """Return the tuple of what was found, with the counters."""
+        made = super().__new__(cls, tuple(found))
+        made.work = dict(work)
+        return made
+
+
+class CountedArray(np.ndarray):
+    """Numbers that an analysis found, and what they took.
+
+    Attributes
+    ----------
+    work : dict of str to int
+        As `RotorModes.work`; empty in what is made of such an array.
+    """
+
+    work: dict[str, int]
+
+    def __array_finalize__(self, found: Any) -> None:
+        """Count nothing for what is made of an array."""
+        self.work = {}
+
+
+def counted_array(found: ArrayLike, work: Counter[str]) -> CountedArray:
+    """Return an array of what was found, with the counters."""
+    made = np.asarray(found).view(CountedArray)
+    made.work = dict(work)
+    return made
+
+
+def with_work(found: Any, work: Counter[str]) -> Any:
+    """Return a result of another library with the counters as its attribute `work`."""
+    found.work = dict(work)
+    return found

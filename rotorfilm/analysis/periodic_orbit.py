@@ -1,0 +1,674 @@
+"""Periodic orbits of a rotor on films: driven by its unbalance, or whirl at a frequency of its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..bearings.reaction import reach
+from ..core.errors import EquilibriumError, InputError, require_count, require_positive
+from ..core.inputs import arguments
+from ..core.model import MOST_LEFT, Array, Reaction
+from ..core.readable import Drawable
+from ..core.results import Trajectory
+from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
+from ..rotors.structure import Structure
+from .coefficients import coefficients
+from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
+from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
+from .equilibrium import equilibrium
+from .harmonic_balance import (
+    CONVERGED,
+    Balance,
+    ModalFilms,
+    Receptance,
+    Solution,
+    basis,
+    constant,
+    driven,
+    end_of,
+    film_forces,
+    first_wave,
+    lengthened,
+    resized,
+    series_rows,
+    solve,
+    subharmonic,
+    truncation_of,
+    with_wave,
+)
+from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
+from .rotor_matrices import second_order, with_hysteresis
+
+HARMONICS = 8
+"""Harmonics at first."""
+
+TRUNCATION = 1e-7
+"""Largest of the last harmonics / clearance at which a series is long enough."""
+
+BALANCED = 1e-3
+"""Where the search for an orbit ends, in tolerances."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PeriodicOrbit(Drawable):
+    """A periodic orbit of a rotor on films.
+
+    Attributes
+    ----------
+    frequency : float [rad/s]
+        Angular frequency; speed / periods for an orbit that the unbalance drives.
+    speed : float [rad/s]
+    periods : int
+        Turns of the shaft per orbit; 0 for whirl at a frequency of its own.
+    stations : tuple of str
+    lengths : ndarray, shape (n_bearings,) [m]
+        Clearance of each bearing.
+    series : ndarray, shape (n_bearings, 2, 2 H + 1) [m]
+        Journal displacement x, y: mean, cosines, sines of the phase frequency * t.
+    state : ndarray, shape (n_states,)
+        State of the whole rotor at t = 0.
+    multipliers : ndarray of complex, shape (n_states,)
+        Floquet multipliers, the largest first; one of whirl is 1. Empty without `stability`.
+    residual : float [1]
+        Imbalance left / clearance.
+    truncation : float [1]
+        Largest of the last quarter of the harmonics / clearance.
+    work : dict of str to int
+        film_evaluations, iterations.
+    """
+
+    frequency: float
+    speed: float
+    periods: int
+    stations: tuple[str, ...]
+    lengths: Array
+    series: Array
+    state: Array
+    multipliers: Complex
+    residual: float
+    truncation: float
+    work: dict[str, int]
+
+    _shown: ClassVar[tuple[str, ...]] = ("period", "amplitude")
+
+    @property
+    def period(self) -> float:
+        """Duration of one orbit [s]."""
+        return 2.0 * math.pi / self.frequency
+
+    @property
+    def harmonics(self) -> int:
+        """Harmonics of the series."""
+        return self.series.shape[-1] // 2
+
+    def position(self, time: ArrayLike) -> Array:
+        """Return x, y of each journal at times (n,) [s], shape (n_bearings, 2, n) [m]."""
+        values, _ = series_rows(self.harmonics, self.frequency * np.atleast_1d(np.asarray(time, dtype=float)))
+        return np.asarray(self.series @ values.T)
+
+    @cached_property
+    def eccentricity_ratios(self) -> Array:
+        """Eccentricity ratio of each journal over the orbit, shape (n_bearings, 256)."""
+        position = self.position(self.period * np.arange(256) / 256)
+        return np.hypot(position[:, 0], position[:, 1]) / self.lengths[:, None]
+
+    @property
+    def amplitude(self) -> float:
+        """Largest distance of a journal from its mean position / clearance [1]."""
+        position = self.position(self.period * np.arange(256) / 256) - self.series[:, :, :1]
+        return float((np.hypot(position[:, 0], position[:, 1]) / self.lengths[:, None]).max())
+
+    @property
+    def free_multipliers(self) -> Complex:
+        """The multipliers without the one that is 1 because whirl has no phase of its own."""
+        if self.periods:
+            return self.multipliers
+        return np.delete(self.multipliers, int(np.argmin(np.abs(self.multipliers - 1.0))))
+
+    @property
+    def stable(self) -> bool:
+        """Whether a small disturbance dies out; InputError where the multipliers were not computed."""
+        if not self.multipliers.size:
+            raise InputError("stability must be True for an orbit that knows whether it is stable")
+        return bool(np.all(np.abs(self.free_multipliers) < 1.0))
+
+
+@arguments
+def periodic_orbit(
+    mounted: MountedRotor,
+    *,
+    start: PeriodicOrbit | Trajectory | None = None,
+    periods: int = 1,
+    tolerance: float = TRUNCATION,
+    stability: bool = True,
+) -> PeriodicOrbit:
+    """Return a periodic orbit of a rotor on films, stable or not, and its Floquet multipliers.
+
+    With unbalance the orbit repeats after `periods` turns of the shaft. Without it the orbit is whirl, whose
+    frequency is found with it; it needs a start.
+
+    Parameters
+    ----------
+    mounted : MountedRotor
+        From `mount`, at constant speed.
+    start : PeriodicOrbit or Trajectory, optional
+        An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the
+        rest, which leads to the orbit of one turn.
+    periods : int
+        Turns of the shaft per orbit: 2 after a period doubling. The orbit of one turn solves these equations
+        too, so that another one needs a start.
+    tolerance : float [1]
+        Harmonics are added until the last quarter of them is smaller, in clearances; the equations of those
+        that there are hold to a thousandth of it.
+    stability : bool
+        Whether to compute the Floquet multipliers; without them the orbit does not know whether it is stable.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or whirl has no start.
+    ConvergenceError
+        If no orbit is found.
+    """
+    require_count("periods", periods)
+    require_positive("tolerance", tolerance)
+    modal = modal_rotor(parts := take_apart(mounted), parts.speed)
+    converged = max(CONVERGED, BALANCED * tolerance)
+    if bool(np.any(parts.structure.unbalance)) and parts.speed != 0.0:
+        found = _driven(mounted, modal, start, periods, converged)
+    elif start is None:
+        raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
+    else:
+        series, frequency = _start_series(modal, start, None)
+        balance = Balance(rotor=ModalFilms(modal), harmonics=HARMONICS, periods=0)
+        found = solve(balance, resized(series, HARMONICS), frequency, converged)
+    return finished(lengthened(found, tolerance, converged), stability=stability)
+
+
+def _driven(
+    mounted: MountedRotor,
+    modal: ModalRotor,
+    start: PeriodicOrbit | Trajectory | None,
+    periods: int,
+    converged: float,
+) -> Solution[ModalFilms]:
+    harmonics = HARMONICS * periods
+    balance = Balance(rotor=ModalFilms(modal), harmonics=harmonics, periods=periods)
+    if start is not None:
+        series, _ = _start_series(modal, start, balance.frequency)
+        return solve(balance, resized(series, harmonics), balance.frequency, converged)
+    rest = first_guess(mounted, modal)
+    return driven(balance, constant(rest, harmonics), rest, converged)
+
+
+def finished(solution: Solution[ModalFilms], *, stability: bool = True) -> PeriodicOrbit:
+    """Return the orbit of a solution, with its multipliers if asked for."""
+    balance, series = solution.balance, solution.series
+    modal = balance.rotor.modal
+    parts = modal.parts
+    return PeriodicOrbit(
+        frequency=solution.frequency,
+        speed=parts.speed,
+        periods=balance.periods,
+        stations=parts.names,
+        lengths=parts.lengths,
+        series=series.reshape(len(parts.names), 2, -1),
+        state=state_at_start(modal, series, solution.frequency, balance.periods),
+        multipliers=multipliers(modal, series, solution.frequency)
+        if stability
+        else np.zeros(0, dtype=complex),
+        residual=solution.residual,
+        truncation=truncation_of(solution),
+        work={
+            "film_evaluations": (solution.iterations + 1) * balance.samples * len(parts.names),
+            "iterations": solution.iterations,
+        },
+    )
+
+
+def _start_series(
+    modal: ModalRotor, start: PeriodicOrbit | Trajectory, frequency: float | None
+) -> tuple[Array, float]:
+    """Return the series of a start and its frequency; of a run, that of its end."""
+    if isinstance(start, PeriodicOrbit):
+        series = start.series.reshape(-1, start.series.shape[-1])
+        if len(series) != 2 * len(modal.parts.names):
+            raise InputError(
+                f"start must be an orbit of {len(modal.parts.names)} journals, got {len(series) // 2}"
+            )
+        if frequency is None or start.periods * frequency == 0.0:
+            return series, start.frequency
+        ratio = start.frequency / frequency
+        return subharmonic(series, round(ratio)), frequency
+    return end_of(modal, start, frequency, HARMONICS)
+
+
+# Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.
+
+
+STEPS_PER_HARMONIC = 2
+LEAST_STEPS = 64
+
+
+def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | None = None) -> Array:
+    """Return how a small change of the state is mapped over one period, shape (2 N, 2 N).
+
+    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor on the mean slopes of its films
+    is exact, fast modes included, and over a step only what the films add to that is unknown.
+
+    Parameters
+    ----------
+    modal : ModalRotor
+    series : ndarray, shape (2 n_bearings, 2 H + 1) [m]
+    frequency : float [rad/s]
+    steps : int, optional
+        By default two for each harmonic.
+    """
+    harmonics = series.shape[1] // 2
+    steps = steps or max(LEAST_STEPS, STEPS_PER_HARMONIC * harmonics)
+    slopes = _slopes(modal, series, frequency, steps)
+    mean = slopes.mean(axis=(0, 1))
+    modal, slopes = on_mean_films(modal, mean), slopes - mean
+    step = 2.0 * np.pi / (frequency * steps)
+    table = StepTable.of_step(ModalArrays.of(modal), radau_scheme(STAGES), step)
+    modes, count = len(modal.values), slopes.shape[2]
+    channels = np.arange(STAGES)[:, None] * (count + 2) + np.arange(count)
+    forced = table.forced[:modes, channels.ravel()] + 1j * table.forced[modes:, channels.ravel()]
+    z: Complex = modal.inverse.astype(complex)
+    identity = np.eye(STAGES * count)
+    for local_slopes in slopes:
+        moved = (table.move @ np.vstack([z.real, z.imag])).reshape(STAGES, -1, 4, z.shape[1])
+        local = local_slopes.reshape(STAGES, -1, 2, 4)
+        right = np.einsum("ibrk,ibkn->ibrn", local, moved).reshape(STAGES * count, -1)
+        by_force = table.gain[..., :count].reshape(STAGES, STAGES, -1, 4, count)
+        matrix = np.einsum("ibrk,ijbkc->ibrjc", local, by_force).reshape(STAGES * count, STAGES * count)
+        z = table.keep[:, None] * z + forced @ np.linalg.solve(identity - matrix, right)
+    return np.asarray((modal.shapes @ z).real)
+
+
+def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> Array:
+    """Return the films' slopes at the nodes of all steps, shape (steps, stages, 2 n_bearings, 4)."""
+    nodes = radau_scheme(STAGES).nodes
+    phase = (2.0 * np.pi / steps * (np.arange(steps)[:, None] + nodes)).ravel()
+    values, rates = series_rows(series.shape[1] // 2, phase)
+    _, stiffness, damping = film_forces(modal, series @ values.T, frequency * (series @ rates.T))
+    both = np.moveaxis(np.concatenate([stiffness, damping], axis=1), 2, 0)
+    return both.reshape(steps, STAGES, len(series), 4)
+
+
+def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
+    """Return a rotor on other springs and dampers at its journals: further slopes (2 n, 4)."""
+    rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
+    forced = np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1)
+    A = ((modal.shapes * modal.values) @ modal.inverse).real
+    B = (modal.shapes @ modal.push).real
+    size = len(A) // 2
+    rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
+    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ forced, rate)
+    return modal._replace(
+        values=values,
+        shapes=shapes,
+        inverse=inverse,
+        push=inverse @ B,
+        sense=journal_rows(modal.parts) @ shapes,
+        condition=condition,
+    )
+
+
+def multipliers(modal: ModalRotor, series: Array, frequency: float) -> Complex:
+    """Return the Floquet multipliers, the largest first."""
+    scale = np.repeat([1.0, frequency], len(modal.shapes) // 2)
+    matrix = monodromy(modal, series, frequency)
+    values = np.linalg.eigvals(matrix * scale / scale[:, None])
+    return values[np.argsort(-np.abs(values))]
+
+
+def state_at_start(modal: ModalRotor, series: Array, frequency: float, periods: int) -> Array:
+    """Return the state (2 N,) at phase 0 of an orbit, the whole rotor's."""
+    harmonics = series.shape[1] // 2
+    samples = 4 * harmonics + 8
+    phase = 2.0 * np.pi * np.arange(samples) / samples
+    values, rates = series_rows(harmonics, phase)
+    force = film_forces(modal, series @ values.T, frequency * (series @ rates.T))[0]
+    spectrum = np.fft.rfft(force, axis=1)[:, : harmonics + 1] / samples
+    total = np.zeros(len(modal.values), dtype=complex)
+    for k in range(harmonics + 1):
+        pole = 1j * k * frequency
+        push = modal.push[:, :-2] @ spectrum[:, k]
+        back = modal.push[:, :-2] @ spectrum[:, k].conj()
+        if k and k == periods:
+            pair = 0.5 * modal.parts.speed**2 * np.array([1.0, -1.0j * np.sign(modal.parts.speed)])
+            push = push + modal.push[:, -2:] @ pair
+            back = back + modal.push[:, -2:] @ pair.conj()
+        total += push / (pole - modal.values)
+        if k:
+            total += back / (-pole - modal.values)
+    return modal.physical(total)
+
+
+# Where a mounted rotor rests, and its linear matrix there.
+
+
+TOLERANCE = 1e-12
+_NEWTON_STEPS = 30
+
+
+class Rest(NamedTuple):
+    """A rotor at rest in its bearings.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2 n_bearings,) [m]
+        Of the journals.
+    matrix : ndarray, shape (2 N, 2 N)
+        x' = A x of small motion.
+    stiffness, damping : ndarray, shape (2 n_bearings, 2)
+        Slopes of each bearing's force by its own position and velocity, positive where they drive.
+    """
+
+    position: Array
+    matrix: Array
+    stiffness: Array
+    damping: Array
+
+
+def rest_of(mounted: MountedRotor, modal: ModalRotor, guess: Array | None = None) -> Rest:
+    """Return where a rotor rests, from a guess of its journals' positions if there is one.
+
+    Raises
+    ------
+    EquilibriumError
+        If it is not found.
+    """
+    start = first_guess(mounted, modal) if guess is None else guess
+    try:
+        position = _newton(modal, start)
+    except EquilibriumError:
+        if guess is None:
+            raise
+        position = _newton(modal, first_guess(mounted, modal))
+    _, stiffness, damping = film_forces(modal, position[:, None], np.zeros((len(position), 1)))
+    stiffness, damping = stiffness[..., 0], damping[..., 0]
+    rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
+    by_motion = np.concatenate([stiffness, damping], axis=1).reshape(-1, 2, 4)
+    forced = np.einsum("bij,bjn->bin", by_motion, rows).reshape(-1, len(modal.shapes))
+    return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced, stiffness, damping)
+
+
+def shifted_matrix(modal: ModalRotor) -> Array:
+    """Return A of the rotor on the springs of its modes."""
+    return np.asarray(((modal.shapes * modal.values) @ modal.inverse).real)
+
+
+def force_columns(modal: ModalRotor) -> Array:
+    """Return the acceleration per force on each journal, shape (2 N, 2 n_bearings)."""
+    return np.asarray((modal.shapes @ modal.push[:, :-2]).real)
+
+
+def leading(matrix: Array) -> Complex:
+    """Return the eigenvalues of a matrix, the least stable first."""
+    values = np.linalg.eigvals(matrix)
+    return values[np.argsort(-values.real)]
+
+
+def _newton(modal: ModalRotor, start: Array) -> Array:
+    balance = Balance(rotor=ModalFilms(modal), harmonics=0, periods=0)
+    series = constant(start, 0)
+    for _ in range(_NEWTON_STEPS):
+        at = balance.residual(series, 1.0)
+        step = np.asarray(np.linalg.solve(at.by_series, -at.values))
+        size = float(np.abs(step).max())
+        series += (min(1.0, 0.2 / size) if size else 1.0) * balance.in_length(step)
+        if size < TOLERANCE:
+            break
+    left = float(np.abs(balance.values(series, 1.0)).max())
+    if not (size < TOLERANCE and left <= MOST_LEFT):
+        raise EquilibriumError(
+            f"rotor must have a rest near its first guess, and the search found none: the last Newton step "
+            f"was {size:.3g} of the clearance, and the rotor under the forces there is {left:.3g} of it away"
+        )
+    return np.asarray(series[:, 0])
+
+
+def first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:
+    """Return the positions of the journals at rest by the search of `linear`; zeros without weight."""
+    rotor = mounted.bare
+    parts = modal.parts
+    if not np.any(parts.structure.weight):
+        return np.zeros(2 * len(parts.bearings))
+    if isinstance(rotor, FlexibleRotor):
+        bearings = dict(zip(parts.names, parts.bearings, strict=True))
+        return np.asarray(parts.rows @ rotor_equilibrium(rotor, bearings, parts.speed).displacement)
+    assert isinstance(rotor, RigidRotor)
+    return np.asarray(equilibrium(parts.bearings[0], rotor.static_load, parts.speed).position)
+
+
+# A rotor that turns once per orbit, as its journals feel it: any bearings, and a shaft of any kind.
+#
+# With K0 and C0, the films' stiffness and damping at rest, and the displacements p of all journals,
+#
+#     p = R * (F(p, p') + K0 p + C0 p') + e,
+#
+# where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e answers weight
+# and unbalance. What stands in the brackets varies over a turn only as far as the films are not linear.
+
+
+class RotorAnswers(NamedTuple):
+    """What a rotor on K0 and C0 answers over a turn.
+
+    Attributes
+    ----------
+    stations : tuple of str
+    speed : float [rad/s]
+        Signed.
+    journals : ndarray of complex, shape (H + 1, 2 m, 2 m)
+        Displacement of the m journals per force on them.
+    external : ndarray of complex, shape (2, 2 m)
+        The same under weight, and under the unbalance in the first harmonic.
+    probes : dict of str to (ndarray, ndarray), shapes (2, 2 m) and (2,)
+        Displacement of each probe in the first harmonic per force on the journals, and under the unbalance.
+    stiffness, damping : ndarray, shape (m, 2, 2)
+        K0 and C0 of each bearing.
+    """
+
+    stations: tuple[str, ...]
+    speed: float
+    journals: Complex
+    external: Complex
+    probes: dict[str, tuple[Complex, Complex]]
+    stiffness: Array
+    damping: Array
+
+    @property
+    def harmonics(self) -> int:
+        """Those that are known."""
+        return len(self.journals) - 1
+
+    @property
+    def samples(self) -> int:
+        """Samples over a turn that these harmonics stand for."""
+        return 2 * self.harmonics + 1
+
+    def on(
+        self, bearings: Mapping[str, Reaction], sloped: Mapping[str, Reaction] | None = None
+    ) -> Balance[DrivenRotor]:
+        """Return the equations of the orbit on these bearings, their slopes those of others where given."""
+        rotor = DrivenRotor(self, bearings, bearings if sloped is None else sloped)
+        return Balance(rotor=rotor, harmonics=self.harmonics, periods=1, collocated=True)
+
+    def linear_orbit(self, rest: Array) -> Array:
+        """Return the orbit about a rest (2 m,) [m] by K0 and C0 alone."""
+        return with_wave(rest, self.external[1], self.harmonics)
+
+    def on_springs(self, wave: Complex) -> Complex:
+        """Return K0 + i w C0 times first harmonics (2 m, ...) of the displacements."""
+        springs = self.stiffness + 1j * abs(self.speed) * self.damping
+        pairs = wave.reshape(len(springs), 2, -1)
+        return np.asarray((springs @ pairs).reshape(wave.shape))
+
+    def excess(self, orbit: Array) -> Complex:
+        """Return the first harmonic (2 m,) [N] of F + K0 p + C0 p' that an orbit needs."""
+        return np.asarray(np.linalg.solve(self.journals[1], first_wave(orbit) - self.external[1]))
+
+    def film_wave(self, orbit: Array) -> Complex:
+        """Return the first harmonic (2 m,) [N] of the forces on the journals that an orbit needs."""
+        return self.excess(orbit) - self.on_springs(first_wave(orbit))
+
+
+def rotor_answers(
+    structure: Structure, at: RotorEquilibrium, probes: Sequence[str], samples: int
+) -> RotorAnswers:
+    """Return what a rotor answers about an equilibrium, at the harmonics of an odd number of samples."""
+    speed, rows = at.speed, structure.journals
+    system, turn = second_order(structure, at), abs(at.speed)
+    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); turning backward mirrors it.
+    turning = speed**2 * structure.unbalance @ np.array([1.0, -1.0j * np.sign(speed)])
+    answers, external, seen = [], np.zeros((2, len(rows)), dtype=complex), {}
+    own = {readout.signal.name: readout.row[: len(structure.weight)] for readout in structure.readouts}
+    for k in range(samples // 2 + 1):
+        whole = with_hysteresis(structure, system, k * turn, speed).dynamic_stiffness(k * turn)
+        load = structure.weight if k == 0 else turning
+        moved = np.linalg.solve(whole, np.column_stack([rows.T, load]) if k < 2 else rows.T)
+        answers.append(rows @ moved[:, : len(rows)])
+        if k < 2:
+            # Weight is in balance with the films at rest, to which K0 adds its own.
+            external[k] = rows @ moved[:, -1]
+        if k == 1:
+            for name in probes:
+                pair = np.array([own[f"{name}_x"], own[f"{name}_y"]]) @ moved
+                seen[name] = pair[:, :-1], pair[:, -1]
+    films = [at.coefficients[name] for name in structure.stations]
+    return RotorAnswers(
+        stations=structure.stations,
+        speed=speed,
+        journals=np.array(answers),
+        external=external,
+        probes=seen,
+        stiffness=np.array([film.stiffness for film in films]),
+        damping=np.array([film.damping for film in films]),
+    )
+
+
+class DrivenRotor(NamedTuple):
+    """A rotor on its bearings as the equations of a driven orbit see it.
+
+    Attributes
+    ----------
+    answers : RotorAnswers
+        Of the rotor.
+    bearings, sloped : mapping of str to Reaction
+        By station: whose forces, and whose slopes.
+    """
+
+    answers: RotorAnswers
+    bearings: Mapping[str, Reaction]
+    sloped: Mapping[str, Reaction]
+
+    @property
+    def clearances(self) -> Array:
+        """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
+        return np.array([self.bearings[name].clearance for name in self.answers.stations])
+
+    @property
+    def speed(self) -> float:
+        """Angular speed of the shaft [rad/s]."""
+        return self.answers.speed
+
+    def receptance(self, harmonics: int, frequency: float) -> Receptance:
+        """Return what the journals answer at the frequency of the shaft."""
+        return Receptance(self.answers.journals, None)
+
+    def external(self, harmonics: int, periods: int, frequency: float) -> Array:
+        """Return the series of the answer to weight and unbalance."""
+        rest, wave = self.answers.external
+        return with_wave(rest.real, wave, harmonics)
+
+    def forces(self, position: Array, velocity: Array) -> Array:
+        """Return the forces of the bearings, those of K0 and C0 added."""
+        forces = [self.bearings[name].force(*motion) for name, motion in self._motions(position, velocity)]
+        stiffness, damping = self.answers.stiffness, self.answers.damping
+        springs = stiffness @ _by_bearing(position) + damping @ _by_bearing(velocity)
+        return np.concatenate(forces) + springs.reshape(position.shape)
+
+    def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
+        """Return the forces and their slopes."""
+        slopes = np.concatenate(
+            [self.sloped[name].jacobian(*motion) for name, motion in self._motions(position, velocity)]
+        )
+        stiffness, damping = (
+            part.reshape(-1, 2, 1) for part in (self.answers.stiffness, self.answers.damping)
+        )
+        force = self.forces(position, velocity)
+        return force, slopes[:, :2] + stiffness, slopes[:, 2:4] + damping
+
+    def _motions(self, position: Array, velocity: Array) -> list[tuple[str, tuple[Array, Array, Array]]]:
+        """Return position, velocity and speed of each journal, by station."""
+        speeds = np.full(position.shape[1], self.speed)
+        pairs = zip(self.answers.stations, _by_bearing(position), _by_bearing(velocity), strict=True)
+        return [(name, (p, v, speeds)) for name, p, v in pairs]
+
+    def loaded(self, part: float) -> DrivenRotor:
+        """Return the same under a part of the unbalance."""
+        external = self.answers.external * np.array([[1.0], [part]])
+        return self._replace(answers=self.answers._replace(external=external))
+
+
+def rest_position(at: RotorEquilibrium, stations: Sequence[str]) -> Array:
+    """Return the positions of the journals at rest, shape (2 m,) [m]."""
+    return np.concatenate([at.coefficients[name].position for name in stations])
+
+
+def rest_on_film(rotor: RigidRotor, bearing: Reaction) -> RotorEquilibrium:
+    """Return where a rigid rotor at constant speed rests in its bearing, with stiffness and damping there."""
+    speed, load = rotor.profile.speeds[0], rotor.static_load
+    at = equilibrium(bearing, load, speed)
+    return RotorEquilibrium(
+        speed=speed,
+        coefficients={"": coefficients(bearing, at.position, speed)},
+        loads={"": load},
+        displacement=at.position,
+        residual=at.residual,
+    )
+
+
+def distance(balance: Balance[DrivenRotor], others: Mapping[str, Reaction], orbit: Array) -> Array:
+    """Return how much the forces of other bearings than its own change an orbit [m], to first order."""
+    rotor = balance.rotor
+    other = rotor.answers.on(others, sloped=rotor.sloped).residual(orbit, balance.frequency)
+    missing = other.values - balance.values(orbit, balance.frequency)
+    return balance.in_length(np.asarray(np.linalg.solve(other.by_series, -missing)))
+
+
+def propagated(
+    balance: Balance[DrivenRotor], orbit: Array, own: Mapping[str, Reaction] | None
+) -> tuple[Array, Array]:
+    """Return the change of an orbit that makes up for what it lacks, by two slopes.
+
+    The slopes of the balance's own, and those of other bearings along the orbit, or K0 and C0 where none are
+    given.
+    """
+    at = balance.residual(orbit, balance.frequency)
+    step = np.asarray(np.linalg.solve(at.by_series, -at.values))
+    other = -at.values
+    if own is not None:
+        slopes = balance.rotor.answers.on(own).residual(orbit, balance.frequency).by_series
+        other = np.asarray(np.linalg.solve(slopes, -at.values))
+    return balance.in_length(step), balance.in_length(other)
+
+
+def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, Reaction]) -> float:
+    """Return how far the journals go towards contact at the samples; see `contact_place.reach`."""
+    position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
+    return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
+
+
+def _by_bearing(rows: Array) -> Array:
+    """Return (2 m, n) as (m, 2, n)."""
+    return rows.reshape(-1, 2, rows.shape[1])

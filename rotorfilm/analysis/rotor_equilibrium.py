@@ -1,0 +1,438 @@
+"""The static equilibrium of a flexible rotor in several bearings."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping
+from contextlib import suppress
+from copy import copy
+from dataclasses import dataclass, field, replace
+from typing import cast
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from ..bearings.linear import LinearBearing
+from ..bearings.reaction import minimum_film, relative_film
+from ..core.errors import (
+    ConvergenceError,
+    EquilibriumError,
+    FilmContactError,
+    InputError,
+    ValidityWarning,
+    require_number,
+)
+from ..core.inputs import arguments
+from ..core.model import MOST_LEFT, Array, Reaction, Warming, inertial
+from ..core.readable import Readable
+from ..core.results import Coefficients
+from ..rotors import FlexibleRotor, require_flexible
+from ..rotors.structure import Structure, across_planes
+from .equilibrium import equilibrium
+from .modal_reduction import (
+    coefficients_at,
+    counted,
+    film_rows,
+    force_at,
+    models,
+    require_bearings,
+    resists_tilt,
+    slopes_at,
+    tally,
+    usual_frequency,
+)
+
+KELVIN = 1e-7
+"""Change of temperatures [K] below which they are settled."""
+
+WARMINGS = 60
+"""Most rounds of rest at given temperatures and temperatures at given rest."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorEquilibrium(Readable):
+    """A rotor at rest in its bearings.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    coefficients : dict of str to Coefficients
+        Stiffness, damping and journal position of each bearing, by station; of one with an added mass that
+        too, as `InertialCoefficients`.
+    loads : dict of str to ndarray, shape (2,) [N]
+        Static load on each bearing, by station; shape (4,) with the moments about x, y [N m] of one that
+        resists tilts.
+    displacement : ndarray, shape (N,)
+        Coordinates of the rotor.
+    residual : float [1]
+        Largest imbalance of forces / weight; [N] without weight.
+    temperatures : dict of str to float [K]
+        Of the films whose temperature follows from the balance of their heat, by station.
+    work : dict of str to int
+        Steps of Newton's method (newton_steps).
+    """
+
+    speed: float
+    coefficients: dict[str, Coefficients]
+    loads: dict[str, Array]
+    displacement: Array
+    residual: float
+    temperatures: dict[str, float] = field(default_factory=dict)
+    work: dict[str, int] = field(default_factory=dict, compare=False)
+
+
+@arguments
+def rotor_equilibrium(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float
+) -> RotorEquilibrium:
+    """Return where a rotor rests in its bearings under its weight.
+
+    In two bearings the loads follow from statics; in more of them from the stiffness of the shaft as well.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        Its own speed is not used.
+    bearings : mapping of str to Reaction
+        By the name of the station; a station without one is free. Without weight they need not hold the
+        rotor. `TiltingBalls` go into stations that feel tilts.
+    speed : float [rad/s]
+        Angular speed about +z, of either sign.
+
+    Raises
+    ------
+    InputError
+        If there is no such station.
+    EquilibriumError
+        If a film cannot carry its load, the bearings do not hold the rotor, or the search does not converge.
+    UndefinedDerivativeError
+        If a film has no derivative at the equilibrium.
+
+    Warns
+    -----
+    ValidityWarning
+        Where motion at the frequency of the rotation is too fast for the added mass of a film.
+
+    Notes
+    -----
+    With the displacement q of the rotor and p of the journals in their bearings,
+    (K + w H) q = weight + T' F(p) and T q = s p. At s = 0 the bearings are rigid, which gives the
+    first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
+    """
+    require_flexible(rotor)
+    speed = require_number("speed", speed)
+    model = next(models(rotor, usual_frequency(rotor, 0.0)))
+    with counted("newton_steps") as work:
+        at = rest(model.structure, bearings, speed)
+    return replace(
+        at, displacement=model.lifted(at.displacement), work={"newton_steps": work["newton_steps"]}
+    )
+
+
+def rest(
+    structure: Structure,
+    bearings: Mapping[str, Reaction],
+    speed: float,
+    near: RotorEquilibrium | None = None,
+) -> RotorEquilibrium:
+    """Return where a rotor of these matrices rests, from that at another speed on, as `rotor_equilibrium`."""
+    if near is not None and _is_the_same_at_any_speed(structure, bearings):
+        return _at_speed(near, speed)
+    tally("equilibria")
+    require_bearings(bearings)
+    for bearing in bearings.values():
+        if heavy := inertial(bearing):
+            heavy.require_range(abs(speed))
+    system = RestEquations(structure, bearings, speed)
+    found = None if near is None else _from_near(system, near)
+    if found is not None:
+        return found
+    q, loads = system.on_rigid_bearings()
+    alone = system.each_alone(system.split(loads))
+    p = np.concatenate([np.zeros(0), *(position for position, _ in alone)])
+    temperatures = [temperature for _, temperature in alone]
+    for _ in range(WARMINGS):
+        system.warm(temperatures)
+        q, p = system.rest(q, p)
+        last, temperatures = temperatures, system.balanced(p)
+        if _is_settled(last, temperatures):
+            return _result(system, q, p, temperatures)
+    raise EquilibriumError(
+        f"rotor must come to rest at the temperatures of its films, and did not in {WARMINGS} rounds: "
+        f"they changed from {last} to {temperatures} K"
+    )
+
+
+def _is_the_same_at_any_speed(structure: Structure, bearings: Mapping[str, Reaction]) -> bool:
+    """Return whether all bearings are springs and dampers, and no damping that turns presses on them."""
+    turning = structure.hysteresis is not None or abs(structure.circulation).max() > 0.0
+    return not turning and all(type(bearing) is LinearBearing for bearing in bearings.values())
+
+
+def _at_speed(at: RotorEquilibrium, speed: float) -> RotorEquilibrium:
+    found = {name: replace(one, speed=speed) for name, one in at.coefficients.items()}
+    return replace(at, speed=speed, coefficients=found)
+
+
+def _is_settled(last: list[float | None], now: list[float | None]) -> bool:
+    pairs = zip(last, now, strict=True)
+    return all(a is None or b is None or abs(a - b) <= KELVIN for a, b in pairs)
+
+
+def _from_near(system: RestEquations, near: RotorEquilibrium) -> RotorEquilibrium | None:
+    """Return the rest by Newton's method from that at another speed; None where that leads nowhere."""
+    if near.temperatures or len(near.displacement) != len(system.weight):
+        return None
+    places = [np.zeros(0), *(near.coefficients[name].position for name in system.names)]
+    try:
+        q, p = system.solve(near.displacement, np.concatenate(places), 1.0)
+    except (EquilibriumError, FilmContactError):
+        return None
+    return _result(system, q, p, [None] * len(system.names))
+
+
+def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float | None]) -> RotorEquilibrium:
+    forces = system.forces(p)
+    places = dict(zip(system.names, system.split(p), strict=True))
+    films = dict(zip(system.names, system.bearings, strict=True))
+    return RotorEquilibrium(
+        speed=system.speed,
+        coefficients={name: coefficients_at(films[name], at, system.speed) for name, at in places.items()},
+        loads=dict(zip(system.names, system.split(-forces), strict=True)),
+        displacement=q,
+        residual=float(np.abs(system.residual(q, p, 1.0)[0]).max()) / system.size,
+        temperatures={n: T for n, T in zip(system.names, temperatures, strict=True) if T is not None},
+    )
+
+
+# The equations of a flexible rotor at rest in its bearings, and Newton's method for them.
+
+
+TOLERANCE = 1e-10
+"""Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
+
+CONTINUATION = 8
+"""Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
+
+_NEWTON_STEPS = 40
+
+_HALVINGS, _OVERSHOOT, _LEFT = 60, 0.5, 0.9
+
+_SINGULAR = 1e15
+
+
+class RestEquations:
+    """The equations of a rotor at rest: displacements in units of the smallest clearance."""
+
+    def __init__(self, structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> None:
+        unknown = sorted(set(bearings) - set(structure.stations))
+        if unknown:
+            raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
+        self.names = [name for name in structure.stations if name in bearings]
+        self.bare = [name for name in structure.stations if name not in bearings]
+        self.given = [bearings[name] for name in self.names]
+        self.bearings = list(self.given)
+        self.speed = speed
+        self.tilting = [resists_tilt(b) for b in self.given]
+        self.sizes = [4 if tilting else 2 for tilting in self.tilting]
+        rows = [film_rows(structure, *pair) for pair in zip(self.names, self.sizes, strict=True)]
+        self.journals = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
+        self.stiffness = structure.stiffness + speed * structure.circulation
+        if structure.hysteresis is not None:
+            self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
+        self.weight = structure.weight
+        self.size = float(np.abs(structure.weight).sum()) or 1.0
+
+    def split(self, values: Array) -> list[Array]:
+        """Return what a vector over the rows of all bearings has of each."""
+        return np.split(values, np.cumsum(self.sizes)[:-1]) if self.sizes else []
+
+    def on_rigid_bearings(self) -> tuple[Array, Array]:
+        """Return the displacement of the rotor, and the loads on bearings that do not give way."""
+        n, m = len(self.weight), len(self.journals)
+        saddle = np.block([[self.stiffness, self.journals.T], [self.journals, np.zeros((m, m))]])
+        # Rows and columns are scaled alike: stiffness is some 1e6 to 1e9 N/m.
+        largest = max(float(np.abs(self.stiffness).max()), self.size / 1e-4)
+        scale = np.concatenate([np.full(n, largest**-0.5), np.ones(m)])
+        scale[n:] = 1.0 / scale[0]
+        matrix = saddle * np.outer(scale, scale)
+        wanted = scale * np.concatenate([self.weight, np.zeros(m)])
+        if np.linalg.cond(matrix) < _SINGULAR:
+            solved = scale * np.linalg.solve(matrix, wanted)
+            return solved[:n], solved[n:]
+        if not self.weight.any():
+            return np.zeros(n), np.zeros(m)
+        left, sizes, right = np.linalg.svd(matrix)
+        known = sizes > sizes[0] / _SINGULAR
+        if np.linalg.norm(right[~known, :n]) > 0.5:
+            raise self.free()
+        # Bearings of one node share its load, for a start alike.
+        solved = scale * (right[known].T @ ((left.T @ wanted)[known] / sizes[known]))
+        return solved[:n], solved[n:]
+
+    def free(self) -> EquilibriumError:
+        """Return what to raise of bearings that leave the rotor free."""
+        return EquilibriumError(
+            f"bearings must hold the rotor, got {self.names} that leave it free to move{self._without()}"
+        )
+
+    def _without(self) -> str:
+        """Return which stations have no bearing, for a message."""
+        return f"; the stations {self.bare} have no bearing" if self.bare else ""
+
+    def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
+        """Return the position of one journal under its load, and the temperature of a film that warms."""
+        bearing = self.given[k]
+        if resists_tilt(bearing):
+            still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
+            place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
+            return np.append(place, (0.0, 0.0)), None
+        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
+            return np.zeros(2), self._balanced(bearing, np.zeros(2))
+        at = equilibrium(bearing, load, self.speed)
+        return at.position, at.temperature
+
+    def each_alone(self, loads: list[Array]) -> list[tuple[Array, float | None]]:
+        """Return all as `alone` does, what is overloaded in the middle; EquilibriumError if all are."""
+        found, failed = [], []
+        for k, load in enumerate(loads):
+            try:
+                found.append(self.alone(k, load))
+            except EquilibriumError as failure:
+                # As a seal, which carries little: others may have its load.
+                failed.append(failure)
+                found.append((np.zeros(2), self._balanced(self.given[k], np.zeros(2))))
+        if failed and len(failed) == len(loads):
+            raise failed[0]
+        return found
+
+    def warm(self, temperatures: list[float | None]) -> None:
+        """Take the films at these temperatures; None for those that have theirs."""
+        pairs = zip(self.given, temperatures, strict=True)
+        self.bearings = [b if T is None else cast(Warming, b).at_temperature(T) for b, T in pairs]
+
+    def balanced(self, p: Array) -> list[float | None]:
+        """Return the temperatures of the films that warm, for these positions of the journals."""
+        return [self._balanced(b, at) for b, at in zip(self.given, self.split(p), strict=True)]
+
+    def _balanced(self, bearing: Reaction, at: Array) -> float | None:
+        warms = isinstance(bearing, Warming) and bearing.is_warming
+        return bearing.balanced_temperature(at, np.zeros(2), self.speed) if warms else None  # type: ignore[attr-defined]
+
+    def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
+        """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+            with suppress(EquilibriumError):
+                return self.solve(q, p, 1.0)
+            if all(self.tilting):
+                with suppress(EquilibriumError, ConvergenceError):
+                    return self.solve(q, p, 1.0, downhill=True)
+            for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
+                q, p = self.solve(q, p, float(s))
+            return q, p
+
+    def forces(self, p: Array) -> Array:
+        """Return the forces of the bearings, one after the other."""
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.concatenate([np.zeros(0), *(force_at(b, at, self.speed) for b, at in pairs)])
+
+    def slopes(self, p: Array) -> Array:
+        """Return d(forces)/dp, block by block."""
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.asarray(block_diag(np.zeros((0, 0)), *(slopes_at(b, at, self.speed) for b, at in pairs)))
+
+    def residual(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return what is left of the forces on the rotor, and of the displacements of its journals."""
+        forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
+        return forces, self.journals @ q - s * p
+
+    def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
+        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], self.sizes)
+        forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
+        forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
+        misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
+        roundoff = max(len(q), 10) * np.finfo(float).eps
+        allowed = TOLERANCE * self.size + roundoff * forces
+        if self.weight.any():
+            # Where bearings hardly hold the rotor, it moves so far that roundoff is more than its weight.
+            allowed = np.minimum(allowed, MOST_LEFT * self.size)
+        return allowed, TOLERANCE * lengths + roundoff * misfit
+
+    def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
+        """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
+        n = len(q)
+        for _ in range(_NEWTON_STEPS):
+            tally("newton_steps")
+            forces, misfit = self.residual(q, p, s)
+            force_limit, misfit_limit = self.tolerances(q, p, s)
+            if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
+                return q, p
+            slopes = self.slopes(p)
+            matrix = np.block(
+                [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
+            )
+            try:
+                step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+            except np.linalg.LinAlgError:
+                raise self.free() from None
+            share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])
+            q, p = q + share * step[:n], p + share * step[n:]
+        raise EquilibriumError(
+            f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
+            f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight{self._too_far(p)}"
+            f"{self._without()}"
+        )
+
+    def _too_far(self, p: Array) -> str:
+        """Return how far the shaft sags where its journal is closest to contact, if that is out of reach."""
+        if not self.names:
+            return ""
+        films = [relative_film(b, at) for b, at in zip(self.bearings, self.split(p), strict=True)]
+        k = int(np.argmin(films))
+        row, clearance = sum(self.sizes[:k]), self.bearings[k].clearance
+        others = copy(self)
+        others.journals = np.delete(self.journals, np.s_[row : row + self.sizes[k]], axis=0)
+        try:
+            q, _ = others.on_rigid_bearings()
+        except EquilibriumError:
+            return ""
+        sag = math.hypot(*(self.journals[row : row + 2] @ q))
+        if sag <= clearance:
+            return ""
+        return (
+            f"; without the bearing at {self.names[k]!r} the shaft sags {sag:.3g} m there, and its clearance "
+            f"is {clearance:.3g} m"
+        )
+
+    def _downhill(self, q: Array, p: Array, step: Array, s: float) -> float:
+        """Return the part of a step after which the force along it is about gone, as `native/rolling` does.
+
+        Shaft and balls have a convex energy, but for gyroscopic moments: that force only falls. What joins
+        shaft and journals is linear, so that a first whole step makes it fit.
+        """
+        dq, dp = np.split(step, [len(q)])
+        low, high, share = 0.0, 1.0, 1.0
+        if np.any(np.abs(self.residual(q, p, s)[1]) > self.tolerances(q, p, s)[1]):
+            return share
+        full = -float(self.residual(q, p, s)[0] @ dq)
+        for _ in range(_HALVINGS):
+            left = -float(self.residual(q + share * dq, p + share * dp, s)[0] @ dq)
+            if left >= -_OVERSHOOT * full and (share == 1.0 or left <= _LEFT * full):
+                break
+            low, high = (low, share) if left < 0.0 else (share, high)
+            share = 0.5 * (low + high)
+        return share
+
+    def _within(self, p: Array, step: Array) -> float:
+        """Return the part of a step that leaves every journal at least half of its gap."""
+        share = 1.0
+        moves = zip(self.bearings, self.split(p), self.split(step), self.tilting, strict=True)
+        for bearing, at, move, tilting in moves:
+            # Balls push back wherever the shaft goes: no gap, but a way on which their force may change much.
+            gap = bearing.clearance if tilting else float(minimum_film(bearing, at))
+            length = math.hypot(*move[:2])
+            share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
+        return share

@@ -1,0 +1,673 @@
+"""Time integration of a rotor on a film as one system: the monolithic reference of every coupling."""
+
+from __future__ import annotations
+
+import inspect
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import accumulate, pairwise
+from typing import Any, NamedTuple, TypeGuard, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import DenseOutput, OdeSolver, Radau
+
+from ..bearings.reaction import SteppedReaction, WalledReaction, relative_film
+from ..bearings.rub import RubRing
+from ..core.errors import (
+    ContactError,
+    ConvergenceError,
+    FilmContactError,
+    InputError,
+    UndefinedDerivativeError,
+    require_finite,
+    require_inside,
+    require_kind,
+    require_positive,
+)
+from ..core.inputs import arguments
+from ..core.model import (
+    Array,
+    Dynamic,
+    Force,
+    Linearization,
+    Model,
+    Reaction,
+    in_time,
+    prepared_force,
+    require_reaction,
+    require_turned,
+    require_turning,
+    static_linearization,
+    stops,
+)
+from ..core.readable import Readable
+from ..core.results import Trajectory
+from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Signal, indices, names, units
+from ..rotors import MountedRotor, mount
+from ..rotors.mounted import HeavyJournals
+from ..rotors.structure import prefixed, station_names
+from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
+from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
+from .stepped_run import simulate_steps
+
+
+@arguments
+def simulate(
+    rotor: Dynamic,
+    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+    *,
+    duration: float,
+    samples: int = 1001,
+    times: ArrayLike | None = None,
+    initial_state: ArrayLike | None = None,
+    rtol: float = 1e-8,
+    max_step: float = np.inf,
+    method: Callable[..., OdeSolver] | None = None,
+) -> Trajectory:
+    """Return the motion of a rotor on a film from t = 0.
+
+    Rotor and film are connected by the names of their signals and integrated together, with the exact
+    Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
+    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
+    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as
+    `JFOFilm`, with the rotor in one Newton step, by differences of second order.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        With outputs x, y, vx, vy, speed and inputs force_x, force_y.
+    reaction : Reaction, JFOFilm, or mapping of str to either
+        The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
+        balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
+        for each station by name; `mount` takes those of some stations where the last is of another kind.
+    duration : float [s]
+    samples : int
+        Number of samples at equal distance, from 0 to `duration` inclusive.
+    times : array_like, shape (n,) [s], optional
+        Increasing sample times within [0, duration], instead of `samples`.
+    initial_state : array_like, shape (n_states,), optional
+        State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
+    rtol : float [1]
+        Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
+        films that remember `max_step` says how exact it is, and `Trajectory.step_error` how exact it was.
+    max_step : float [s]
+        Longest step of the integrator. With films that remember the length of all steps but those cut short;
+        by default 1/384 of a turn at the highest speed.
+    method : a class derived from scipy.integrate.OdeSolver, optional
+        Stiff methods are given the exact Jacobian. By default the compiled integration where it takes rotor
+        and film (`analysis.compiled_rotor`) and comes to the end, `scipy.integrate.Radau` otherwise.
+
+    Returns
+    -------
+    Trajectory
+        Signals: every output of the rotor, the film force on the journal [N], and of a film with states
+        its further outputs and its states. Work:
+        film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
+        integration also rejected (those and all others cut short); with films that remember steps,
+        newton_steps, film_solutions, restarts.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or the signals do not fit.
+    ContactError
+        If the journal reaches the wall; carries the trajectory until then.
+    ConvergenceError
+        If the integrator gives up or the film force is not finite; carries the trajectory until then.
+    """
+    require_duration(rotor, duration)
+    require_positive("rtol", rtol)
+    require_longest_step(max_step)
+    grid = sample_times(duration, samples, times)
+    if not _none_steps(reaction):
+        if method is not None:
+            raise InputError(f"method must be None for films that step, got {method!r}")
+        stepped = cast(Mapping[str, Reaction | SteppedReaction], reaction)
+        return simulate_steps(rotor, stepped, grid, duration, initial_state, max_step)
+    given = reaction if isinstance(reaction, Mapping) else {"": reaction}
+    by_station = given is reaction
+    films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
+    in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
+    if by_station and method is None and takes_forces(rotor, films.values()):
+        return in_c(mount(rotor, films), initial_state=initial_state)
+    system = Coupled(rotor, films)
+    for film in films.values():
+        require_turning(film, rotor)
+    state = _initial(system, system.initial_state if initial_state is None else initial_state)
+    if not by_station and method is None:
+        run = _compiled(rotor, films[""], partial(in_c, initial_state=state))
+        if run is not None:
+            return run
+    settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
+    kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
+    try:
+        for step in integrate(system, state, stops(rotor, 0.0, duration), settings):
+            for t in grid[len(kept) : int(np.searchsorted(grid, step.end, side="right"))]:
+                kept.append((float(t), step.path(t)))
+                _require_gap(system, *kept[-1])
+            _require_gap(system, step.end, step.state)
+    except ContactError as contact:
+        raise ContactError(str(contact), _trajectory(system, kept)) from contact
+    except ConvergenceError as failure:
+        raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
+    whole = _trajectory(system, kept)
+    for film in films.values():
+        require_turned(film, rotor, whole.signals)
+    return whole
+
+
+def _none_steps(
+    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+) -> TypeGuard[Reaction | Mapping[str, Reaction]]:
+    """Return whether no film steps."""
+    films = reaction.values() if isinstance(reaction, Mapping) else (reaction,)
+    return not any(isinstance(film, SteppedReaction) for film in films)
+
+
+def _compiled(
+    rotor: Dynamic, film: Reaction, in_c: Callable[[MountedRotor], Trajectory]
+) -> Trajectory | None:
+    """Return the compiled motion; None where it does not take rotor and film, or does not come to the end."""
+    mounted = compiled_form(rotor, film)
+    if mounted is None:
+        return None
+    labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
+    try:
+        return _shown(in_c(mounted), labels)
+    except ContactError as contact:
+        raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
+    except ConvergenceError:
+        return None  # scipy gives its own message, if it gives up too
+
+
+def _shown(run: Trajectory, labels: list[str]) -> Trajectory:
+    """Return a trajectory of these of its signals, in this order."""
+    return replace(run, signals={name: run.signals[name] for name in labels})
+
+
+def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
+    """Return the state at t = 0, checked for its shape and for contact."""
+    state = require_finite("initial_state", initial_state)
+    expected = system.initial_state.shape
+    if state.shape != expected:
+        raise InputError(f"initial_state must have shape {expected}, got {state.shape}")
+    _require_gap(system, 0.0, state)
+    return state
+
+
+def _require_gap(system: Coupled, t: float, state: Array) -> None:
+    gap, journal = system.closest(t, state)
+    if gap <= CONTACT_GAP:
+        where = f" of {journal.station!r}" if journal.station else ""
+        raise ContactError(
+            f"journal{where} reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
+            f"{journal.film.clearance!r} m is left"
+        )
+
+
+def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
+    """Return the signals at the kept samples, without one that lies beyond the wall."""
+    inside = [(t, state) for t, state in kept if system.closest(t, state)[0] > 0.0]
+    time = np.array([t for t, _ in inside])
+    outputs = np.array([system.sensed(t, state) for t, state in inside])
+    outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
+    states = np.array([state for _, state in inside]).reshape(len(inside), -1).T
+    film = system.film_outputs(time, outputs, states)
+    known = (*system.rotor.outputs, *system.film_signals())
+    signals = dict(zip(names(known), [*outputs, *film], strict=True))
+    return Trajectory(time=time, signals=signals, work=dict(system.work), units=units(known))
+
+
+# Stiff integration that survives trial states beyond the bearing wall.
+
+
+RETREAT = 0.25
+"""Part of a step that is tried next, after a trial state beyond the wall."""
+
+
+class Integration(NamedTuple):
+    """How to integrate: the method and its accuracy.
+
+    Attributes
+    ----------
+    method : a class derived from scipy.integrate.OdeSolver
+    rtol : float [1]
+        Relative local error; the absolute one is rtol times the magnitude of each state.
+    max_step : float [s]
+    """
+
+    method: Callable[..., OdeSolver] = Radau
+    rtol: float = 1e-8
+    max_step: float = np.inf
+
+
+class Step(NamedTuple):
+    """One accepted step: the state at its end, and the solution along it."""
+
+    start: float
+    end: float
+    state: Array
+    path: DenseOutput
+
+
+def integrate(system: Coupled, state: Array, stops: Sequence[float], settings: Integration) -> Iterator[Step]:
+    """Yield the accepted steps from t = 0 through every stop to the last one.
+
+    A trial state beyond the wall makes the film raise; the integrator is then started again from the
+    last accepted state with a smaller step. Feeding it NaN instead, as is customary, is not safe: scipy's
+    Radau accepts a step whose error estimate is NaN.
+
+    Raises
+    ------
+    ContactError
+        When the journal is at the wall, without a partial result.
+    ConvergenceError
+        When the integrator gives up, without a partial result.
+    """
+    t, first_step = 0.0, None
+    for stop in stops:
+        while t < stop:
+            try:
+                solver = _solver(system, t, state, stop, first_step, settings)
+                for step in _accepted(system, solver):
+                    t, state, first_step = step.end, step.state, step.end - step.start
+                    yield step
+            except FilmContactError as wall:
+                first_step = _retreat(system, t, wall)
+                system.work["restarts"] += 1
+
+
+def _accepted(system: Coupled, solver: OdeSolver) -> Iterator[Step]:
+    """Yield the steps of one solver until it is done."""
+    while solver.status == "running":
+        system.furthest = solver.t
+        message = solver.step()
+        if solver.status == "failed":
+            raise ConvergenceError(f"integration failed at t = {solver.t:.9g} s: {message}")
+        system.work["steps"] += 1
+        yield Step(solver.t_old, solver.t, solver.y.copy(), solver.dense_output())
+
+
+def _solver(
+    system: Coupled, t: float, state: Array, stop: float, first_step: float | None, settings: Integration
+) -> OdeSolver:
+    options: dict[str, Any] = {
+        "max_step": settings.max_step,
+        "rtol": settings.rtol,
+        "atol": settings.rtol * system.scale(),
+    }
+    if first_step is not None:
+        options["first_step"] = min(first_step, stop - t, settings.max_step)
+    # Explicit methods would warn about a Jacobian that they do not use.
+    if "jac" in inspect.signature(settings.method).parameters:
+        options["jac"] = system.jacobian
+    system.furthest = t
+    return settings.method(system.derivative, t, state, stop, **options)
+
+
+def _retreat(system: Coupled, t: float, wall: FilmContactError) -> float:
+    """Return the next step to try after a trial state beyond the wall, unless time can go no further."""
+    step = RETREAT * (system.furthest - t)
+    if step <= 10.0 * np.spacing(t):
+        raise ContactError(f"journal reached the wall at t = {t:.9g} s: {wall}") from wall
+    return step
+
+
+# A rotor and the films at its journals joined into one system of ordinary differential equations.
+
+
+NUDGE = 1e-6
+"""Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
+
+
+class Journal(NamedTuple):
+    """A journal of a rotor and the film around it.
+
+    Attributes
+    ----------
+    station : str
+    film : Reaction
+    dynamic : Dynamic or None
+        The film, if it has a derivative. Kept because checks against protocols are slow.
+    walled : bool
+        Whether the film itself says where the journal touches.
+    call : Force or None
+        Force of a film without states, for plain numbers.
+    motion, force : list of int
+        Rotor outputs that the film takes, and rotor inputs that take its force.
+    inner : slice
+        States of the film in the state of the system.
+    """
+
+    station: str
+    film: Reaction
+    dynamic: Dynamic | None
+    walled: bool
+    call: Force | None
+    motion: list[int]
+    force: list[int]
+    inner: slice
+
+    def value(self, t: float, x: Array, at: Array) -> Array:
+        """Return the force on the journal [N] at the whole state and the motion (x, y, vx, vy, speed)."""
+        if self.call is None:
+            return self.film.output(t, x[self.inner], at)[: len(FORCE_OUTPUTS)]
+        return np.array(self.call(*at.tolist()))
+
+    def slopes(self, t: float, x: Array, at: Array) -> Linearization:
+        """Return the derivatives of the film at the same arguments."""
+        if self.film.states:
+            return self.film.linearization(t, x[self.inner], at)
+        return static_linearization(self.film.jacobian(at[:2], at[2:4], at[4]))
+
+
+def connect(rotor: Dynamic, films: Mapping[str, Reaction]) -> list[Journal]:
+    """Return the journals of a rotor, wired to their films by the names of the signals.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks an output that a film needs or an input for its force, a single film leaves a
+        further input, which nobody would drive, or a film has states and such an input or no derivative.
+    """
+    require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
+    for station, film in films.items():
+        require_reaction(f"reaction[{station!r}]" if station else "reaction", film, heavy=True)
+    inputs, outputs = names(rotor.inputs), names(rotor.outputs)
+    first = FORCE_OUTPUTS[0]
+    named = [name.removesuffix(f"_{first}") for name in inputs if name.endswith(f"_{first}")]
+    if list(films) == [""] and named and first not in inputs:
+        raise InputError(
+            f"reaction must be a mapping with a film for each of the stations {named} of the rotor, such as "
+            f"{{{named[0]!r}: film}}, got {films['']!r}"
+        )
+    counts = [len(rotor.states), *(len(film.states) for film in films.values())]
+    speed = JOURNAL_INPUTS[-1:]
+    journals = []
+    for (station, film), (start, end) in zip(films.items(), pairwise(accumulate(counts)), strict=True):
+        motion, force = station_names(station)
+        dynamic = film if isinstance(film, Dynamic) else None
+        if film.states and dynamic is None:
+            raise InputError(f"reaction must have a derivative for its states, got {film!r}")
+        if film.states and names(film.inputs) != list(JOURNAL_INPUTS):
+            raise InputError(
+                f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(film.inputs)}"
+            )
+        journals.append(
+            Journal(
+                station=station,
+                film=film,
+                dynamic=dynamic if film.states else None,
+                walled=isinstance(film, WalledReaction),
+                call=None if film.states else prepared_force(film),
+                motion=indices("rotor must have the outputs", outputs, [*motion, *speed]),
+                force=indices("rotor must have the inputs", inputs, force),
+                inner=slice(start, end),
+            )
+        )
+    if list(films) == [""] and len(inputs) > len(FORCE_OUTPUTS):
+        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
+    return journals
+
+
+class Coupled:
+    """dx/dt = g(t, x) of a rotor whose inputs are forces of films, with its exact Jacobian.
+
+    x holds the states of the rotor, and after them those of each film that has states.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+    films : mapping of str to Reaction
+        By station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
+
+    Attributes
+    ----------
+    work : Counter
+        Work so far: film_evaluations, jacobians, steps, restarts.
+    furthest : float [s]
+        Latest time at which `derivative` was asked for; reset it at will.
+    """
+
+    def __init__(self, rotor: Dynamic, films: Mapping[str, Reaction]) -> None:
+        self.rotor = rotor
+        self.journals = connect(rotor, films)
+        self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
+        self.furthest = 0.0
+        self._no_force = np.zeros(len(rotor.inputs))
+        self._taken = [k for journal in self.journals for k in journal.force]
+        self._split = len(rotor.states)
+        self._heavy = HeavyJournals(
+            [journal.film for journal in self.journals], [journal.motion for journal in self.journals]
+        )
+
+    @property
+    def initial_state(self) -> Array:
+        """The state of rotor and films at t = 0."""
+        films = [j.dynamic.initial_state for j in self.journals if j.dynamic is not None]
+        return np.concatenate([self.rotor.initial_state, *films])
+
+    def scale(self) -> Array:
+        """Return the magnitude of each state: a film's nominal value where it has the same signal."""
+        nominal = {
+            prefixed(j.station, signal).name: signal.nominal
+            for j in self.journals
+            for signal in j.film.inputs
+        }
+        rotor = [nominal.get(signal.name, signal.nominal) for signal in self.rotor.states]
+        return np.array([*rotor, *(signal.nominal for j in self.journals for signal in j.film.states)])
+
+    def sensed(self, t: float, x: Array) -> Array:
+        """Return the outputs of the rotor at a state."""
+        return self.rotor.output(t, x[: self._split], self._no_force)
+
+    def closest(self, t: float, x: Array) -> tuple[float, Journal]:
+        """Return the least film of all journals, relative to its clearance [1], and the journal."""
+        sensed = self.sensed(t, x)
+        films = [(relative_film(j.film, sensed[j.motion[:2]]), j) for j in self.journals]
+        return min(films, key=lambda each: each[0])
+
+    def derivative(self, t: float, x: Array) -> Array:
+        """Return dx/dt at a state.
+
+        Raises
+        ------
+        FilmContactError
+            If a journal is not inside its clearance.
+        ConvergenceError
+            If a film answers with something that is not finite.
+        """
+        self.furthest = max(self.furthest, t)
+        sensed = self.sensed(t, x)
+        rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, sensed))
+        films = [
+            j.dynamic.derivative(t, x[j.inner], sensed[j.motion])
+            for j in self.journals
+            if j.dynamic is not None
+        ]
+        return np.concatenate([rotor, *films]) if films else rotor
+
+    def jacobian(self, t: float, x: Array) -> Array:
+        """Return d(dx/dt)/dx: the rotor's own, plus those of the films through the wiring."""
+        self.work["jacobians"] += 1
+        sensed = self.sensed(t, x)
+        u = self._input(t, x, sensed)
+        rotor = self.rotor.linearization(t, x[: self._split], u)
+        whole, rows = np.zeros((len(x), len(x))), []
+        whole[: self._split, : self._split] = rotor.A
+        for journal in self.journals:
+            film, motion = self._slopes(journal, t, x, u, sensed), rotor.C[journal.motion]
+            whole[journal.inner, : self._split] = film.B @ motion
+            whole[journal.inner, journal.inner] = film.A
+            row = np.zeros((len(FORCE_OUTPUTS), len(x)))
+            row[:, : self._split] = film.D[: len(row)] @ motion
+            row[:, journal.inner] = film.C[: len(row)]
+            rows.append(row)
+        push, forces = rotor.B[:, self._taken], np.concatenate(rows)
+        if self._heavy:
+            own = x[: self._split]
+            rates, sensed = self.rotor.derivative(t, own, u), self.rotor.output(t, own, u)
+            forces, _ = self._heavy.slopes(rotor, push, push[:, :0], sensed, forces, rates)
+        whole[: self._split] += push @ forces
+        return whole
+
+    def film_outputs(self, time: Array, sensed: Array, states: Array) -> Array:
+        """Return what the films add to a trajectory: their outputs and states, shape (n_signals, n).
+
+        Parameters
+        ----------
+        time, sensed, states : ndarray, shapes (n,), (n_outputs, n) and (n_states, n)
+            The outputs are those of the rotor, the states those of rotor and films.
+        """
+        pulls = zip(time, states.T, sensed.T, strict=True) if self._heavy else ()
+        heavy = [self._input(*moment)[self._taken] for moment in pulls]
+        rows = []
+        for k, journal in enumerate(self.journals):
+            at, inner = sensed[journal.motion], states[journal.inner]
+            if journal.call is None:
+                pairs = zip(time, inner.T, at.T, strict=True)
+                outputs = [journal.film.output(t, x, u) for t, x, u in pairs]
+                shown = np.reshape(outputs, (len(time), len(journal.film.outputs))).T
+            else:
+                shown = np.array(journal.film.force(at[:2], at[2:4], at[4]))
+            if self._heavy:
+                shown[:2] = np.reshape(heavy, (len(time), len(self._taken))).T[2 * k : 2 * k + 2]
+            rows += [shown, inner]
+        return np.concatenate(rows)
+
+    def film_signals(self) -> list[Signal]:
+        """Return the signals of `film_outputs`."""
+        known = []
+        for j in self.journals:
+            outputs = j.film.outputs if j.film.states else j.film.outputs[: len(FORCE_OUTPUTS)]
+            known += [prefixed(j.station, signal) for signal in (*outputs, *j.film.states)]
+        return known
+
+    def _input(self, t: float, x: Array, sensed: Array) -> Array:
+        """Return the rotor's input where its outputs are `sensed`: the forces of the films."""
+        u = self._no_force.copy()
+        for journal in self.journals:
+            at = sensed[journal.motion]
+            if not journal.walled:
+                require_inside(at[:2], journal.film.clearance, f" at t = {t:.9g} s")
+            self.work["film_evaluations"] += 1
+            force = journal.value(t, x, at)
+            if not np.all(np.isfinite(force)):
+                raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
+            u[journal.force] = force
+        return self._with_mass(t, x[: self._split], u) if self._heavy else u
+
+    def _with_mass(self, t: float, x: Array, u: Array) -> Array:
+        """Return the rotor's input with the forces of the films' added masses."""
+        rotor, sensed = self.rotor.linearization(t, x, u), self.rotor.output(t, x, u)
+        push, order = rotor.B[:, self._taken], self._taken
+        whole = u.copy()
+        whole[order] = self._heavy.forces(rotor, push, sensed, u[order], self.rotor.derivative(t, x, u))
+        return whole
+
+    def _slopes(self, journal: Journal, t: float, x: Array, u: Array, sensed: Array) -> Linearization:
+        at = sensed[journal.motion]
+        try:
+            return journal.slopes(t, x, at)
+        except UndefinedDerivativeError:
+            return journal.slopes(t, x, self._nudged(journal, t, x, u, at))
+
+    def _nudged(self, journal: Journal, t: float, x: Array, u: Array, at: Array) -> Array:
+        """Return the journal state with a trace of the velocity that it is about to have.
+
+        A film without source has no derivative, but one along every direction of departure: the journal
+        leaves along its acceleration, read from the change of the outputs along dx/dt.
+        """
+        own = x[: self._split]
+        rotor = self.rotor.linearization(t, own, u)
+        rate = rotor.C[journal.motion] @ self.rotor.derivative(t, own, u)
+        acceleration = rate[2:4]
+        norm = float(np.hypot(*acceleration))
+        direction = acceleration / norm if norm > 0.0 else np.array([1.0, 0.0])
+        nominal = journal.film.inputs[2].nominal
+        nudged = at.copy()
+        nudged[2:4] += NUDGE * nominal * direction
+        return nudged
+
+
+# When a rotor rubbed in its ring, from the samples of a run.
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingContacts(Readable):
+    """The contacts of a rotor with its ring, in their order.
+
+    Attributes
+    ----------
+    begin, end : ndarray, shape (n,) [s]
+        Of each; the first and last sample where a contact goes on beyond them.
+    normal_force : ndarray, shape (n,) [N]
+        Largest normal force among its samples.
+    """
+
+    begin: Array
+    end: Array
+    normal_force: Array
+
+
+@arguments
+def ring_contacts(run: Trajectory, ring: RubRing, station: str = "") -> RingContacts:
+    """Return the contacts of a run, to the fourth order of the distance of its samples.
+
+    Between two samples the motion is the cubic of their positions and velocities; a contact between two
+    samples that are both free is not seen.
+
+    Parameters
+    ----------
+    run : Trajectory
+        With x, y, vx, vy and speed, those of the station by its name.
+    ring : RubRing
+    station : str
+        Name of the station of the ring.
+
+    Raises
+    ------
+    InputError
+        If the run has no such station or no two samples.
+    """
+    require_kind("run", run, Trajectory, "a Trajectory")
+    require_kind("ring", ring, RubRing, "a RubRing")
+    prefix = f"{station}_" if station else ""
+    if missing := [name for name in MOTION_NAMES if prefix + name not in run.signals]:
+        raise InputError(f"run must have the signals {[prefix + name for name in missing]} of the station")
+    if run.time.size < 2:
+        raise InputError(f"run must have two samples at least, got {run.time.size}")
+    x, y, vx, vy = (run.signals[prefix + name] for name in MOTION_NAMES)
+    position, velocity = np.stack([x, y]), np.stack([vx, vy])
+    at = ring.contact(position, velocity, run.signals["speed"])
+    edges = _edges(run.time, position, velocity, ring, at.depth)
+    largest = [float(at.normal_force[(run.time >= a) & (run.time <= b)].max(initial=0.0)) for a, b in edges]
+    begin, end = np.array(edges).reshape(-1, 2).T
+    return RingContacts(begin=begin, end=end, normal_force=np.array(largest))
+
+
+def _edges(
+    time: Array, position: Array, velocity: Array, ring: RubRing, depth: Array
+) -> list[tuple[float, float]]:
+    """Return begin and end of every contact."""
+    # Imported here: most runs want none.
+    from scipy.interpolate import CubicHermiteSpline
+    from scipy.optimize import brentq
+
+    path = CubicHermiteSpline(time, position.T, velocity.T)
+    center = np.array(ring.ring_center)
+
+    def inside(t: float) -> float:
+        return float(np.hypot(*(path(t) - center))) - ring.gap
+
+    touching = depth > 0.0
+    turns = [
+        float(brentq(inside, a, b, xtol=1e-15, rtol=1e-14))
+        for k, (a, b) in enumerate(pairwise(time))
+        if touching[k] != touching[k + 1]
+    ]
+    whole = [float(time[0])] * bool(touching[0]) + turns + [float(time[-1])] * bool(touching[-1])
+    return list(zip(whole[::2], whole[1::2], strict=True))

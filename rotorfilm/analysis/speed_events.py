@@ -1,0 +1,313 @@
+"""The speeds that are asked for of a flexible rotor: what must vanish there, and how it is looked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from ..core.errors import AbsentError, ConvergenceError
+from ..core.model import Array, Reaction
+from ..core.results import Coefficients
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
+from .campbell import critical_speeds
+from .coefficients import coefficients
+from .equilibrium import equilibrium
+from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
+from .rotor_matrices import (
+    CONVERGED,
+    PATIENCE,
+    ROUNDED,
+    coefficients_near,
+    dynamics,
+    journal_rows,
+    rest_near,
+    second_order,
+    whirl_near,
+)
+from .rotor_modes import RotorModes, rotor_modes
+from .rotor_threshold import NEUTRAL, rotor_threshold
+
+NEAR = 1.1
+"""Critical speeds up to so many times the first are followed with it."""
+
+
+SHORTEST = 1e-3
+"""Change of speed [1] below which a secant is mostly roundoff."""
+
+
+class Sighting(NamedTuple):
+    """A speed [rad/s] and the eigenvalue [1/s] of its whirl."""
+
+    speed: float
+    value: complex
+
+
+class SpeedEvent(Protocol):
+    """What happens to a whirl s at the speed that is asked for."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return what vanishes there [1/s]."""
+
+    def rate(self, value_rate: complex) -> float:
+        """Return its derivative by the speed [1], from that of the eigenvalue."""
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return the frequency at which hysteresis is taken [rad/s]."""
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the lowest such speed in a range, and those near it; AbsentError if there is none."""
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return why the first such speed may be another one, from whirls just below it by two models."""
+
+
+@dataclass(frozen=True)
+class Critical:
+    """A whirl has the frequency of the rotation."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return Im s - speed."""
+        return value.imag - speed
+
+    def rate(self, value_rate: complex) -> float:
+        """Return d(Im s)/d speed - 1."""
+        return value_rate.imag - 1.0
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return the speed: the hysteresis of synchronous whirl is the mean of both sides."""
+        return speed
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the first critical speed, and those near it."""
+        found = critical_speeds(rotor, bearings, speeds)
+        if not found:
+            raise AbsentError(
+                f"no critical speed in shaft.speeds, {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s: "
+                "no whirl has the frequency of the rotation there"
+            )
+        return [
+            Sighting(one.speed, one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0))
+            for one in found
+            if one.speed <= NEAR * found[0].speed
+        ]
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that more or fewer whirls are slower than the rotation by the other model."""
+        slow, others = (int(np.sum(modes.frequency < modes.speed)) for modes in (own, other))
+        return "" if slow == others else f"{slow} whirls are slower than the speed, with more modes {others}"
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A whirl begins to grow; a rotor that departs without whirl before that has no such speed."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return Re s."""
+        return value.real
+
+    def rate(self, value_rate: complex) -> float:
+        """Return d(Re s)/d speed."""
+        return value_rate.real
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return that of the whirl."""
+        return value.imag
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the threshold of stability."""
+        span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
+        found = rotor_threshold(rotor, bearings, speeds)
+        if found.speed is None or found.whirl_frequency is None:
+            values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
+            neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
+            reason = "nothing damps or drives a whirl" if neutral else found.reason
+            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
+        if not found.whirl_frequency:
+            raise AbsentError(
+                f"no whirl threshold in shaft.speeds, {span}: the rotor departs without whirl (divergence) "
+                f"from {found.speed:.6g} rad/s on"
+            )
+        return [Sighting(found.speed, 1j * found.whirl_frequency)]
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that a whirl grows already by the other model."""
+        growing = bool(np.any(other.eigenvalues.real > 0.0))
+        return "with more modes another whirl grows first" if growing else ""
+
+
+class FoundSpeed(NamedTuple):
+    """A speed that was looked for.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    slope : float
+        Of the lead over the speed there.
+    solution : object
+        What was found with the lead there.
+    """
+
+    speed: float
+    slope: float
+    solution: Any
+
+
+def secant_speed(
+    lead_at: Callable[[float], tuple[float, Any]],
+    speed: float,
+    slope: float,
+    *,
+    near: float,
+    farthest: float,
+    most: int,
+) -> FoundSpeed:
+    """Return the speed at which a lead vanishes, by secants.
+
+    Parameters
+    ----------
+    lead_at : callable
+        From a speed [rad/s] to the lead, and what else was found with it.
+    speed : float [rad/s]
+        Where the search starts.
+    slope : float
+        Of the lead over the speed there; secants take its place.
+    near : float [1]
+        Change of speed at which the search ends.
+    farthest : float [1]
+        Longest step, as a part of the speed.
+    most : int
+        Steps.
+
+    Raises
+    ------
+    ConvergenceError
+        If the search does not end.
+    """
+    last: tuple[float, float] | None = None
+    for _ in range(most):
+        lead, solution = lead_at(speed)
+        if last is not None and abs(speed - last[0]) > SHORTEST * speed:
+            slope = (lead - last[1]) / (speed - last[0])
+        step = max(-farthest * speed, min(-lead / slope, farthest * speed))
+        if abs(step) <= near * speed:
+            return FoundSpeed(speed, slope, solution)
+        last, speed = (speed, lead), speed + step
+    raise ConvergenceError(
+        f"the speed must be found within {most} steps by secants, and was not near {speed:.6g} rad/s"
+    )
+
+
+# One whirl of a flexible rotor, and the speed at which something happens to it, by inverse iteration.
+
+
+STEP = 1e-3
+"""Relative change of speed over which K and C of films are differentiated."""
+
+_STEPS = 25
+
+
+class RotorFilms(Protocol):
+    """Bearings of a rotor, some of them films."""
+
+    @property
+    def reaction(self) -> dict[str, Reaction]:
+        """All bearings by station."""
+
+    @property
+    def turning(self) -> dict[str, Reaction]:
+        """Those whose K and C change with the speed."""
+
+
+class Start(NamedTuple):
+    """Where a whirl is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
+
+    speed: float
+    value: complex
+    shape: np.ndarray
+
+
+class Whirl(NamedTuple):
+    """A whirl in L(s) = s^2 M + s C + K, all at one speed; K and C are K(s) and its slope of films with it.
+
+    Attributes
+    ----------
+    at : RotorEquilibrium
+    value : complex [1/s]
+        s.
+    right, left : ndarray of complex, shape (N,)
+        L right = 0, left* L = 0.
+    """
+
+    at: RotorEquilibrium
+    value: complex
+    right: np.ndarray
+    left: np.ndarray
+
+
+def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
+    """Return an equilibrium with other K and C of its bearings."""
+    return replace(at, coefficients=found)
+
+
+def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s)."""
+    s, right, left = whirl.value, whirl.right, whirl.left.conj()
+    changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
+    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, s, STEP).items():
+        rows = journal_rows(structure, name)
+        changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
+    _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
+    return complex(-(left @ changed) / (left @ slope @ right))
+
+
+def coefficient_rates(
+    films: RotorFilms, at: RotorEquilibrium, s: complex, step: float
+) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart.
+
+    Of a film with K(s) they are those of its matrices near the exponent s.
+    """
+    rates = {}
+    for name, film in films.turning.items():
+        low, high = (
+            coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
+            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
+        )
+        width = 2.0 * step * at.speed
+        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
+    return rates
+
+
+def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: Start) -> tuple[Whirl, int]:
+    """Return the whirl to which something happens, near another one, and how many speeds that took.
+
+    Raises
+    ------
+    ConvergenceError
+        If Newton's method in the speed does not end.
+    """
+    reactions = films.reaction
+    speed, value, load = start
+    for count in range(1, _STEPS + 1):
+        at = rotor_equilibrium(rotor, reactions, speed)
+        whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
+        lead = event.lead(whirl.value, speed)
+        if abs(lead) < CONVERGED * speed:
+            return whirl, count
+        value, load = whirl.value, whirl.right
+        step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
+        if count > PATIENCE and abs(step) < ROUNDED * speed:
+            return whirl, count
+        speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
+    raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

@@ -1,0 +1,602 @@
+"""The speed at which a rigid rotor on a film starts to whirl."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from ..bearings.reaction import InertialCoefficients, MemoryCoefficients
+from ..core.errors import (
+    AbsentError,
+    ConvergenceError,
+    EquilibriumError,
+    InputError,
+    UnloadedPadWarning,
+    ValidityWarning,
+    require_finite,
+    require_positive,
+    warn_user,
+)
+from ..core.inputs import arguments
+from ..core.model import (
+    Array,
+    Dynamic,
+    JournalForce,
+    Reaction,
+    Remembering,
+    Settling,
+    require_reaction,
+    settled,
+)
+from ..core.readable import Readable
+from ..core.results import Coefficients, Equilibrium, WhirlThreshold
+from .coefficients import coefficients
+from .equilibrium import checked_load, equilibrium
+from .frequency_dependent import mass_borders, rigid_exponents, rigid_growing, whirl_exponent
+
+_POINTS_PER_DECADE = 12
+_SPEED_FACTOR = 100.0
+
+
+@arguments
+def whirl_threshold(
+    reaction: Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None
+) -> WhirlThreshold:
+    """Return the lowest speed at which the static equilibrium loses stability as the speed rises.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
+        of one that conserves its oil, rotor and oil by K(s): the result is a `CountedThreshold`.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, weight included.
+    mass : float [kg]
+        Rigid mass that the bearing carries.
+    speed_range : tuple of two floats, optional [rad/s]
+        Lowest and highest speed searched, both positive; by default 1/100 and
+        100 times sqrt(|load| / (clearance mass)).
+
+    Returns
+    -------
+    WhirlThreshold
+        With speed None and a reason where there is no threshold in the range. Speeds too low for the film
+        to carry the load, below the first with an equilibrium, are passed over; a film that does not carry it
+        at the highest speed carries it at none.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If the equilibrium is lost, or not found, at a higher speed than the first that has one.
+    UndefinedDerivativeError
+        If the film has no derivative at an equilibrium.
+
+    Warns
+    -----
+    ValidityWarning
+        Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
+        and of a threshold beyond it. Not of speeds that are only passed, nor of unloaded pads, which the
+        equilibrium at the threshold tells.
+
+    Notes
+    -----
+    The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
+    stability lost and regained within one step goes unseen.
+    """
+    require_reaction("reaction", reaction, JournalForce)
+    require_positive("mass", mass)
+    force = checked_load(load)
+    low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    passed: list[str] = []
+    search = _settling if isinstance(reaction, Settling) else _searched
+    found = search(reaction, force, mass, (low, high), passed)
+    if found.speed is None and passed:
+        warn_user(f"no threshold was found, but rests that were searched are in doubt: {passed[0]}")
+    return found
+
+
+def speed_parameter(*, speed: float, clearance: float, mass: float, load: ArrayLike) -> float:
+    """Return |speed| sqrt(clearance mass / |load|) [1], the speed in units of the rotor's own.
+
+    Parameters
+    ----------
+    speed : float [rad/s]
+        Angular speed, of either sign.
+    clearance : float [m]
+        Radial clearance.
+    mass : float [kg]
+        Rigid mass that the bearing carries.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, not zero.
+    """
+    return abs(speed) * math.sqrt(clearance * mass / float(np.linalg.norm(load)))
+
+
+def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> tuple[float, float]:
+    if speed_range is None:
+        return natural / _SPEED_FACTOR, natural * _SPEED_FACTOR
+    ends = require_finite("speed_range", speed_range)
+    if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
+        raise InputError(f"speed_range must be (low, high) with 0 < low < high, got {speed_range!r}")
+    return float(ends[0]), float(ends[1])
+
+
+@contextmanager
+def _passing(passed: list[str]) -> Iterator[None]:
+    """Keep what warns of rests that a search only passes through: nobody asked for them."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        warnings.simplefilter("ignore", UnloadedPadWarning)  # of no doubt for a threshold
+        yield
+    for one in caught:
+        if issubclass(one.category, ValidityWarning):
+            passed.append(str(one.message))
+        else:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+
+
+def _searched(
+    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
+) -> WhirlThreshold:
+    """Return the threshold by stiffness and damping at the equilibria."""
+    stable: list[bool] = []
+    before, rests = None, _scan(reaction, load, *ends)
+    while True:
+        with _passing(passed):
+            at = next(rests, None)
+        if at is None:
+            return _none(_why_none(stable, *ends))
+        if damping_has_rank_one(at):
+            return _none(critical_mass(at).reason)
+        stable.append(is_stable(at, mass))
+        if before is not None and stable[-2:] == [True, False]:
+            return _refined(reaction, load, mass, (before, at), passed)
+        before = at
+
+
+def _settling(
+    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
+) -> WhirlThreshold:
+    """Return the threshold by the exponents of rotor and bearing together."""
+
+    def least_damped(at: Equilibrium) -> complex:
+        if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
+            return leading_exponent(reaction, at, mass)
+        film: Settling = settled(reaction, at.position, at.speed)
+        return complex(film.at_rest().modes(at.position, at.speed, mass)[0])
+
+    def growth(speed: float) -> float:
+        with _passing(passed):
+            return least_damped(equilibrium(reaction, load, speed)).real
+
+    speeds = _speeds(*ends)
+    with _passing(passed):
+        first = _first_carried(reaction, load, speeds.tolist())
+    onset, stable = _first_onset(growth, speeds[first:])
+    if onset is None:
+        return _none(_why_none(stable, *ends))
+    with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
+        rest = equilibrium(reaction, load, onset)
+    exponent = least_damped(rest)
+    found = WhirlThreshold(
+        speed=onset,
+        whirl_ratio=abs(exponent.imag) / onset,
+        critical_mass=mass,
+        speed_parameter=speed_parameter(speed=onset, clearance=reaction.clearance, mass=mass, load=load),
+        equilibrium=rest,
+    )
+    if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
+        return counted_threshold(reaction, found)
+    return found  # a film with states has no exponents but those that were found
+
+
+def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:
+    """Return the lowest speed at which growth turns positive, None without, and where it is stable."""
+    stable: list[bool] = []
+    for k, speed in enumerate(speeds.tolist()):
+        stable.append(growth(speed) < 0.0)
+        if stable[-2:] == [True, False]:
+            low, high = np.log(speeds[k - 1 : k + 1]).tolist()
+            return math.exp(brentq(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
+    return None, stable
+
+
+def _speeds(low: float, high: float) -> Array:
+    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
+    return np.geomspace(low, high, points)
+
+
+def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
+    """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
+    speeds = _speeds(low, high).tolist()
+    for speed in speeds[_first_carried(reaction, load, speeds) :]:
+        at = equilibrium(reaction, load, speed)
+        yield coefficients(reaction, at.position, at.speed)
+
+
+def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
+    """Return the place of the lowest speed that carries the load, by bisection; past the end if none does.
+
+    A failed search costs far more than one that finds its equilibrium.
+    """
+
+    def carries(k: int) -> bool:
+        try:
+            equilibrium(reaction, load, speeds[k])
+        except EquilibriumError:
+            return False
+        return True
+
+    if carries(0):
+        return 0
+    below, above = 0, len(speeds) - 1
+    if not carries(above):
+        return len(speeds)
+    while above - below > 1:
+        middle = (below + above) // 2
+        below, above = (below, middle) if carries(middle) else (middle, above)
+    return above
+
+
+def _refined(
+    reaction: Reaction,
+    load: Array,
+    mass: float,
+    bracket: tuple[Coefficients, Coefficients],
+    passed: list[str],
+) -> WhirlThreshold:
+    def margin(log_speed: float) -> float:
+        with _passing(passed):
+            at = equilibrium(reaction, load, math.exp(log_speed))
+            return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
+
+    stable, unstable = bracket
+    if whirl_margin(unstable, mass) > 0.0:
+        return _none(
+            f"static stability is lost (det K <= 0) between {stable.speed:.6g} and {unstable.speed:.6g} rad/s"
+        )
+    root = brentq(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
+    return _threshold(equilibrium(reaction, load, math.exp(root)), reaction, mass)
+
+
+def _threshold(onset: Equilibrium, reaction: Reaction, mass: float) -> WhirlThreshold:
+    border = critical_mass(coefficients(reaction, onset.position, onset.speed))
+    return WhirlThreshold(
+        speed=onset.speed,
+        whirl_ratio=border.whirl_ratio,
+        critical_mass=border.mass,
+        speed_parameter=speed_parameter(
+            speed=onset.speed, clearance=reaction.clearance, mass=mass, load=onset.load
+        ),
+        equilibrium=onset,
+    )
+
+
+def _none(reason: str) -> WhirlThreshold:
+    return WhirlThreshold(
+        speed=None,
+        whirl_ratio=None,
+        critical_mass=None,
+        speed_parameter=None,
+        equilibrium=None,
+        reason=reason,
+    )
+
+
+def _why_none(stable: list[bool], low: float, high: float) -> str:
+    between = f"from {low:.6g} to {high:.6g} rad/s"
+    if not stable:
+        return f"no static equilibrium at any speed {between}"
+    if all(stable):
+        return f"stable at every speed {between}"
+    if not any(stable):
+        return f"unstable at every speed {between}"
+    return f"unstable at low speeds and then stable, with no loss of stability {between}"
+
+
+# The rigid mass at which a film with given stiffness and damping starts to whirl.
+
+
+_RANK_TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True, kw_only=True)
+class CriticalMass(Readable):
+    """The mass at the border of stability, or the reason why there is none.
+
+    Attributes
+    ----------
+    mass : float or None [kg]
+        Lighter rotors are stable, heavier ones whirl; None when there is no such border.
+    whirl_frequency : float or None [rad/s]
+        Frequency of the undamped whirl at the border.
+    whirl_ratio : float or None [1]
+        whirl_frequency / |speed|; None at zero speed too.
+    reason : str
+        Empty, or why there is no critical mass.
+    """
+
+    mass: float | None
+    whirl_frequency: float | None
+    whirl_ratio: float | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CountedMass(CriticalMass):
+    """The mass at the border of stability on a film that remembers, with what grows on both sides of it.
+
+    Attributes
+    ----------
+    growing_below, growing_above : int [1]
+        How many exponents s of det(K(s) + mass s^2) = 0 grow with lighter and with heavier rotors, up to the
+        next border; counted by the phase along all frequencies, so that none is missed. Without a border
+        both are those of any mass.
+    """
+
+    growing_below: int
+    growing_above: int
+
+
+@arguments
+def critical_mass(coefficients: Coefficients) -> CriticalMass:
+    """Return the mass at which the rotor m q'' + C q' + K q = 0 loses stability.
+
+    Parameters
+    ----------
+    coefficients : Coefficients
+        Film stiffness K and damping C; they act on the whole mass. With `MemoryCoefficients`, as
+        `coefficients` returns them of a film that conserves its oil, the border is that of K(s) at the whirl
+        itself, and the result a `CountedMass`.
+
+    Notes
+    -----
+    At the border q = q0 exp(i nu t), so that with k = m nu^2 the matrix K - k I + i nu C is singular. The
+    imaginary and the real part of its determinant give
+
+        k = (Kxx Cyy + Kyy Cxx - Kxy Cyx - Kyx Cxy) / (Cxx + Cyy),
+        nu^2 = ((Kxx - k)(Kyy - k) - Kxy Kyx) / det C,    m = k / nu^2
+
+    (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
+    """
+    if isinstance(coefficients, MemoryCoefficients):
+        return _counted(coefficients)
+    if isinstance(coefficients, InertialCoefficients):
+        raise InputError(
+            f"coefficients must have no added mass, got {coefficients!r}: density 0 leaves it out"
+        )
+    reason = _why_no_border(coefficients)
+    if reason:
+        return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)
+    k = effective_stiffness(coefficients)
+    squared = _shifted_determinant(coefficients, k) / _determinant(coefficients.damping)
+    frequency = math.sqrt(squared)
+    speed = abs(coefficients.speed)
+    return CriticalMass(
+        mass=k / squared,
+        whirl_frequency=frequency,
+        whirl_ratio=frequency / speed if speed else None,
+    )
+
+
+def _counted(film: MemoryCoefficients) -> CountedMass:
+    """Return the lightest mass with which nothing grows below, and something above."""
+    borders = mass_borders(film)
+    if not borders:
+        growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
+        reason = "unstable whatever the mass" if growing else "stable whatever the mass"
+        return _no_counted(reason, growing, growing)
+    masses = [border.mass for border in borders]
+    between = [math.sqrt(one * other) for one, other in pairwise(masses)]
+    counts = [rigid_growing(film, mass) for mass in (0.5 * masses[0], *between, 2.0 * masses[-1])]
+    for border, (below, above) in zip(borders, pairwise(counts), strict=True):
+        if abs(above - below) != 2:
+            raise ConvergenceError(
+                f"one whirl must begin or cease to grow at a mass of {border.mass:.6g} kg, and {below} "
+                f"exponents grow below it, {above} above"
+            )
+        if below == 0:
+            return CountedMass(
+                mass=border.mass,
+                whirl_frequency=border.frequency,
+                whirl_ratio=border.frequency / abs(film.speed),
+                growing_below=below,
+                growing_above=above,
+            )
+    return _no_counted(f"no light rotor is stable: {counts[0]} exponents grow", counts[0], counts[-1])
+
+
+def _no_counted(reason: str, below: int, above: int) -> CountedMass:
+    return CountedMass(
+        mass=None,
+        whirl_frequency=None,
+        whirl_ratio=None,
+        reason=reason,
+        growing_below=below,
+        growing_above=above,
+    )
+
+
+def effective_stiffness(coefficients: Coefficients) -> float:
+    """Return k = m nu^2 [N/m], the stiffness that the whirling rotor feels at the border."""
+    K, C = coefficients.stiffness, coefficients.damping
+    mixed = K[0, 0] * C[1, 1] + K[1, 1] * C[0, 0] - K[0, 1] * C[1, 0] - K[1, 0] * C[0, 1]
+    return float(mixed / (C[0, 0] + C[1, 1]))
+
+
+def damping_has_rank_one(coefficients: Coefficients) -> bool:
+    """Return whether det C vanishes to roundoff, so that stability does not depend on the mass."""
+    C = coefficients.damping
+    # Compared with the whole matrix: products of its entries depend on the axes, and may all be roundoff.
+    return bool(abs(_determinant(C)) <= _RANK_TOLERANCE * np.sum(C**2))
+
+
+def is_stable(coefficients: Coefficients, mass: float) -> bool:
+    """Return whether all roots of det(m s^2 + C s + K) have negative real parts (Routh, Hurwitz)."""
+    return bool(
+        np.trace(coefficients.damping) > 0.0
+        and effective_stiffness(coefficients) > 0.0
+        and _determinant(coefficients.stiffness) > 0.0
+        and whirl_margin(coefficients, mass) > 0.0
+    )
+
+
+def whirl_margin(coefficients: Coefficients, mass: float) -> float:
+    """Return the third Hurwitz determinant, scaled to [-1, 1]: positive if no whirl grows.
+
+    It is k det C - m ((Kxx - k)(Kyy - k) - Kxy Kyx), divided by the sum of the sizes of both terms.
+    """
+    k = effective_stiffness(coefficients)
+    resisting = k * _determinant(coefficients.damping)
+    driving = mass * _shifted_determinant(coefficients, k)
+    return float((resisting - driving) / (abs(resisting) + abs(driving)))
+
+
+def _why_no_border(coefficients: Coefficients) -> str:
+    if damping_has_rank_one(coefficients):
+        return "damping matrix has rank 1 (det C = 0): stability does not depend on the mass"
+    if np.trace(coefficients.damping) <= 0.0 or _determinant(coefficients.damping) < 0.0:
+        return "damping matrix is not positive (trace C <= 0 or det C < 0): no light rotor is stable"
+    if _determinant(coefficients.stiffness) <= 0.0:
+        return "position is statically unstable (det K <= 0) whatever the mass"
+    k = effective_stiffness(coefficients)
+    if k <= 0.0:
+        return "position is unstable whatever the mass (effective stiffness <= 0)"
+    if _shifted_determinant(coefficients, k) <= 0.0:
+        return "stable whatever the mass"
+    return ""
+
+
+def _determinant(matrix: np.ndarray) -> float:
+    return float(matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0])
+
+
+def _shifted_determinant(coefficients: Coefficients, k: float) -> float:
+    return _determinant(coefficients.stiffness - k * np.eye(2))
+
+
+# The onset of whirl on a film that remembers, with the proof that no whirl was missed.
+
+
+BESIDE = 1e-3
+"""Relative change of speed at which exponents are counted beside a threshold."""
+
+STEP, NEAR, MOST = 1.1, 1e-4, 30
+"""Factor of the speed between two that are looked at for a border, relative change at which it is found, and
+most looks. K and C jump a little with the cells of the cavity: a border between two speeds always ends."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CountedThreshold(WhirlThreshold):
+    """The onset of whirl of a rigid rotor on a film that remembers, with what grows on both sides of it.
+
+    Attributes
+    ----------
+    growing_below, growing_above : int [1]
+        How many exponents of rotor and film grow at a speed .1 % lower and higher, counted by the phase of
+        det(K(i nu) - mass nu^2) along all frequencies nu, so that none is missed: 0 and 2.
+    """
+
+    growing_below: int
+    growing_above: int
+
+
+def leading_exponent(reaction: Remembering, at: Equilibrium, mass: float) -> complex:
+    """Return the exponent of a rigid mass [kg] on a film at an equilibrium that grows most [1/s].
+
+    Where the count says that nothing grows it is one that is damped, mostly of the half-speed whirl, and not
+    always the least damped: its sign counts, not its size.
+    """
+    return complex(rigid_exponents(_film(reaction, at), mass).values[0])
+
+
+def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedThreshold:
+    """Return a threshold with the numbers of exponents that grow beside it.
+
+    Raises
+    ------
+    ConvergenceError
+        If they are not 0 below and more above: then another whirl was missed.
+    """
+    speed, at, mass = found.speed, found.equilibrium, found.critical_mass
+    assert speed is not None
+    assert at is not None
+    assert mass is not None
+    beside = (speed * (1.0 - BESIDE), speed * (1.0 + BESIDE))
+    rests = [equilibrium(reaction, at.load, one) for one in beside]  # type: ignore[arg-type]
+    below, above = (rigid_growing(_film(reaction, rest), mass) for rest in rests)
+    if below or not above:
+        raise ConvergenceError(
+            f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below it, "
+            f"{above} above"
+        )
+    return CountedThreshold(
+        speed=speed,
+        whirl_ratio=found.whirl_ratio,
+        critical_mass=mass,
+        speed_parameter=found.speed_parameter,
+        equilibrium=at,
+        growing_below=below,
+        growing_above=above,
+    )
+
+
+def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: float) -> CountedThreshold:
+    """Return the onset of whirl nearest to a speed [rad/s], found by the whirl at about half the speed.
+
+    Only that whirl is followed, so that a speed takes a tenth of what a count does; what grows beside the
+    onset is counted at the end.
+
+    Raises
+    ------
+    AbsentError
+        If there is none within some 17 times that speed.
+    ConvergenceError
+        If the whirl is not followed, or the count says that another one was missed.
+    """
+    from scipy.optimize import brentq
+
+    whole: Any = reaction  # a force at rest, which is what an equilibrium takes
+
+    def exponent(speed: float) -> complex:
+        return whirl_exponent(_film(reaction, equilibrium(whole, load, speed)), mass)
+
+    speed, own = start, exponent(start).real
+    factor = STEP if own < 0.0 else 1.0 / STEP
+    for _ in range(MOST):
+        last, speed = speed, speed * factor
+        if (exponent(speed).real < 0.0) is not (own < 0.0):
+            onset = float(brentq(lambda at: exponent(at).real, min(last, speed), max(last, speed), rtol=NEAR))
+            return counted_threshold(reaction, _counted_threshold(whole, load, mass, onset, exponent(onset)))
+    raise AbsentError(
+        f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
+    )
+
+
+def _counted_threshold(
+    whole: Any, load: ArrayLike, mass: float, speed: float, exponent: complex
+) -> WhirlThreshold:
+    return WhirlThreshold(
+        speed=speed,
+        whirl_ratio=abs(exponent.imag) / speed,
+        critical_mass=mass,
+        speed_parameter=speed * math.sqrt(whole.clearance * mass / float(np.linalg.norm(load))),
+        equilibrium=equilibrium(whole, load, speed),
+    )
+
+
+def _film(reaction: Remembering, at: Equilibrium) -> MemoryCoefficients:
+    film: Any = settled(reaction, at.position, at.speed)  # type: ignore[arg-type]
+    found: MemoryCoefficients = film.coefficients(at.position, at.speed)
+    return found

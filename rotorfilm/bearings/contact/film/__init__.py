@@ -1,1 +1,0 @@
-"""The film of a point contact: equations, scheme, Newton and Krylov solvers."""

@@ -1,1 +1,0 @@
-"""The film of a point contact and its ball over time: steps, runs, loads, files."""

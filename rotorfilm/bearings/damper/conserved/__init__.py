@@ -1,1 +1,0 @@
-"""Squeeze-film dampers whose film conserves its oil, with real supply."""

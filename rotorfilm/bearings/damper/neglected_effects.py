@@ -1,0 +1,238 @@
+"""A damper beside what its models of inertia and of seals leave out: what the estimates of a question ask."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core.model import Array
+from ..films.geometry import FullFilm
+from ..reaction import InertialModel
+from .bearing import SqueezeFilmDamper
+from .squeeze_laws import CONVECTION, FiniteSqueeze, ShortSqueeze, parabola_mean
+
+
+@dataclass(frozen=True, kw_only=True)
+class JudgedDamper(InertialModel):
+    """The forces of a damper on circular orbits, and further ones that its model leaves out.
+
+    - full film: damping and mass in small motion, exact in the frequency, in place of the first order; beyond
+      small motion the second order of a short film;
+    - ruptured: the edge that the inertia moves, and of finite length a mass that grows with the radius;
+    - a ruptured short film with seals: half of what oil that runs around changes in a full one.
+
+    Parameters
+    ----------
+    damper : SqueezeFilmDamper
+        A solid one without feed.
+    frequency : float [rad/s]
+        Of the motion.
+    """
+
+    damper: SqueezeFilmDamper
+    frequency: float
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        return self.damper.clearance
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the damper is meant."""
+        return self.damper.largest_eccentricity_ratio
+
+    @property
+    def nominal_force(self) -> float:
+        """Nominal force of the damper [N]."""
+        return self.damper.nominal_force
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the inertia of the oil counts."""
+        return self.damper.has_inertia
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the added mass of the damper [kg], shape (2, 2, ...)."""
+        return self.damper.mass(position, velocity, speed)
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        return self.damper.mass_slopes(position, velocity, speed)
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the inertia of the damper ends; see `SqueezeFilmDamper`."""
+        self.damper.require_range(frequency)
+
+    def left_out(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+        """Return the force that the damper leaves out in a motion, shape (2, n) [N].
+
+        Parameters
+        ----------
+        position, velocity, acceleration : ndarray, shape (2, n) [m], [m/s], [m/s2]
+        """
+        q, v, a = position, velocity, acceleration
+        e, w, b = q / self.clearance, v / self.clearance, a / self.clearance
+        found = self._short.force(e, w, b, self.frequency)
+        if self._ruptured:
+            pushed = self.damper.convection(q, v)
+            if self.has_inertia:
+                pushed = pushed - np.einsum("ij...,j...->i...", self.damper.mass(q, v), a)
+            return found + self._growth * np.sum(e**2, axis=0) * pushed + self._around(q, v)
+        more, added = self._small
+        centered = self._short.force(np.zeros_like(e), w, b, self.frequency)
+        return np.asarray(found - centered - more * v - added * a)
+
+    def force_along(
+        self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
+        """Return the force in a motion with all of the inertia, shape (2, n) [N]; see `InertialModel`."""
+        own = self.damper.force_along(position, velocity, acceleration, speed)
+        return own + self.left_out(position, velocity, acceleration)
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the force on circular orbits, without that of the added mass; see `StaticReaction`."""
+        q, v = position.reshape(2, -1), velocity.reshape(2, -1)
+        left = self.left_out(q, v, -(self.frequency**2) * q).reshape(position.shape)
+        return self.damper.prepared_force(position, velocity, speed) + left
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the slopes of the damper: near enough for what is small beside it."""
+        return self.damper.prepared_jacobian(position, velocity, speed)
+
+    @property
+    def _ruptured(self) -> bool:
+        return self.damper.squeeze_case.cavitated
+
+    @property
+    def _is_short(self) -> bool:
+        return math.isfinite(self.damper.slenderness_limit)
+
+    @cached_property
+    def _short(self) -> Neglected:
+        """The short film, with what of its length counts."""
+        damper = self.damper
+        share = 1.0 if self._is_short else parabola_mean(damper.slenderness)
+        leak = damper.squeeze_case.end_leak * damper.slenderness
+        inertial = damper.density * damper.radius * damper.length**3
+        seal = 3.0 / leak if self._ruptured else 0.0
+        return Neglected(share * damper.force_scale, share * inertial, seal, self._ruptured)
+
+    @cached_property
+    def _small(self) -> tuple[float, float]:
+        """Damping and mass in small motion at this frequency, less those of slow motion."""
+        at, slow = self.damper.small_motion(self.frequency), self.damper.small_motion(0.0)
+        return at.damping - slow.damping, at.added_mass - slow.added_mass
+
+    @property
+    def _growth(self) -> float:
+        """How the mass of a ruptured film of finite length grows with eps^2 beside that of a short one."""
+        return 0.0 if self._is_short else 2.0 * (1.0 - parabola_mean(self.damper.slenderness))
+
+    def _around(self, position: Array, velocity: Array) -> Array:
+        """Return half of the force that oil which runs around takes from a full film with these seals."""
+        if self.damper.seals is None:
+            return np.zeros_like(position)
+        finite, short = self._full
+        speed = np.zeros(position.shape[1])
+        film = (one.prepared_force(position, velocity, speed) for one in (finite, short))
+        return 0.5 * (next(film) - next(film))
+
+    @cached_property
+    def _full(self) -> tuple[SqueezeFilmDamper, SqueezeFilmDamper]:
+        bare = replace(self.damper, density=0.0, extent=FullFilm(), film=ShortSqueeze())
+        return replace(bare, film=FiniteSqueeze()), bare
+
+
+# What the models of the inertia of a squeeze film leave out: its second order, and the edge that it
+# moves.
+#
+# A full film has the second order in the Reynolds number Re along its velocity,
+#
+# F2 = density radius length^3 Re frequency g(eps) velocity/clearance,
+#
+# g from exact solutions of the Navier-Stokes equations of a short film on circular orbits, where the
+# radial part is of third order (benchmarks/squeeze_inertia.py); g(0) = -pi/8400 is the next term of
+# the impedance. A ruptured film is cut off where the pressures of viscosity and inertia together
+# vanish, not where the viscous one does.
+
+
+SECOND = (-3.74e-4, 4.7e-3, 1.3e-3)
+"""Coefficients of g by powers of eps^2: within 1e-4 to eps = .9 and Re 10."""
+
+NODES = 1440
+"""Around a film that is cut off: within 1e-3 of its force to eps = .9."""
+
+
+class Neglected(NamedTuple):
+    """The numbers of a film that its left-out forces need; lengths in clearances.
+
+    Attributes
+    ----------
+    viscous : float [N s]
+        viscosity radius length^3/clearance^2, that of the length which counts.
+    inertial : float [kg m]
+        density radius length^3, the same.
+    seal : float [1]
+        What the seals of a short film add to h^-3: clearance^3/(2 viscosity G_s length).
+    cavitated : bool
+    """
+
+    viscous: float
+    inertial: float
+    seal: float
+    cavitated: bool
+
+    def force(self, e: Array, w: Array, b: Array, frequency: float) -> Array:
+        """Return the force that is left out, shape (2, n) [N].
+
+        Parameters
+        ----------
+        e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
+            Position, velocity and acceleration / clearance.
+        frequency : float [rad/s]
+            Of the motion.
+        """
+        if self.cavitated:
+            film = _around(e, w, b)
+            return _over(self._pressure(film) * self._moved(film))
+        return self._second(frequency) * np.polynomial.polynomial.polyval(np.sum(e * e, axis=0), SECOND) * w
+
+    def _second(self, frequency: float) -> float:
+        """Return density radius length^3 Re frequency; Re is frequency inertial/viscous."""
+        return self.inertial**2 / self.viscous * frequency**2
+
+    def _pressure(self, film: _Around) -> Array:
+        """Return the integral of the pressure along the axis, times radius, by angle [N]."""
+        viscous = self.viscous * (film.h**-3 + self.seal) * film.s
+        return -viscous - self.inertial * (0.1 * film.t / film.h - CONVECTION * (film.s / film.h) ** 2)
+
+    def _moved(self, film: _Around) -> Array:
+        """Return 1 where only the whole pressure presses, -1 where only the viscous one does."""
+        return np.asarray((self._pressure(film) > 0.0) * 1.0 - (film.s < 0.0))
+
+
+class _Around(NamedTuple):
+    """Directions (2, M); film and its first and second derivative in time, each (M, n)."""
+
+    m: Array
+    h: Array
+    s: Array
+    t: Array
+
+
+def _around(e: Array, w: Array, b: Array) -> _Around:
+    theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
+    m = np.stack([np.cos(theta), np.sin(theta)])
+    return _Around(m, 1.0 + m.T @ e, m.T @ w, m.T @ b)
+
+
+def _over(pressure: Array) -> Array:
+    """Return the force of a pressure (M, n)."""
+    theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
+    return np.asarray(2.0 * np.pi / NODES * np.stack([np.cos(theta), np.sin(theta)]) @ pressure)

@@ -1,0 +1,532 @@
+"""Squeeze films as impedance maps: the potential in a table of its own, evaluated in C.
+
+Without feed the film is the gradient of a potential of degree two in the velocity (docs/map.md), leakage into
+the layer included, because Darcy's law is linear and symmetric. So the journal's map and kernel serve a
+damper too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from scipy.optimize import root
+
+from ...core.errors import ConvergenceError, InputError
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...core.sources import source_digest
+from ...native import MapKernel
+from ..films.kernel_film import BoundKernel
+from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
+from ..films.map_table import VERSION, MapTable, cached_table, table_path
+from ..journal import MapFilm
+from .squeeze_films import (
+    CavitatedSqueezeFilm,
+    FiniteSqueezeFilm,
+    FullSqueezeFilm,
+    LayerModes,
+    PorousLayer,
+    SqueezeFilm,
+    arc_nodes,
+    axial_numbers,
+    layer_modes,
+    leakage,
+    mean_permeability,
+)
+from .squeeze_laws import (
+    FilmInertia,
+    SqueezeCase,
+    SqueezeOptions,
+    finite_film_inertia,
+    sealed_short,
+    short_film_inertia,
+)
+
+# Making the tables of squeeze films: potentials at the nodes of a map, kept in memory and on disk.
+
+
+LARGEST_FINITE = 0.985
+
+LARGEST = 0.99
+"""Eccentricity ratio of the table's last node; beyond, the kernel goes on to the wall, with a warning."""
+
+FULL = 3
+"""Times as many cells over the direction for a full film, whose tension narrows the peak over it."""
+
+RATIO = 1.0
+"""The slenderness that a table of a damper says it is for: the damper's own is in its numbers."""
+
+
+@dataclass(frozen=True)
+class SqueezeTable:
+    """A table and the damper it is for.
+
+    Parameters
+    ----------
+    slenderness : float or None [1]
+        L/D; None for a short film, whose table holds for any.
+    layer : tuple or None
+        The numbers of the PorousLayer; None for a solid cage.
+    cavitated : bool
+        Whether the film ruptures.
+    table : MapTable
+        In units of viscosity * radius * length^3 / clearance^2 per 1/s.
+    """
+
+    slenderness: float | None
+    layer: tuple[float, ...] | None
+    cavitated: bool
+    table: MapTable
+
+    def required(self, slenderness: float | None, layer: PorousLayer | None, cavitated: bool) -> SqueezeTable:
+        """Return this table; raise InputError if it is that of another damper."""
+        own, other = (self.slenderness, self.layer, self.cavitated), (slenderness, layer, cavitated)
+        if own != other:
+            raise InputError(f"table must be that of the damper, {other}, got that of {own}")
+        return self
+
+
+@lru_cache(maxsize=32)
+def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> SqueezeTable:
+    """Return the table of a short film on a layer, in some hundredths of a second.
+
+    Parameters
+    ----------
+    layer : PorousLayer or None
+        None for a solid cage.
+    cavitated : bool
+    cells : (int, int)
+        Over the eccentricity ratio and the direction of the velocity.
+    """
+    modes = layer_modes(layer)
+    if cavitated:
+        table = tabulate_film(
+            _AsJournalFilm(CavitatedSqueezeFilm(modes)),
+            slenderness_range=(RATIO, RATIO),
+            cells=(*cells, 0),
+            largest_eccentricity_ratio=LARGEST,
+        )
+    else:
+        table = _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
+    return SqueezeTable(None, layer and tuple(layer), cavitated, table)
+
+
+@lru_cache(maxsize=16)
+def finite_table(
+    slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
+) -> SqueezeTable:
+    """Return the table of a film of finite length, from disk if it was made before; see `short_table`."""
+    path = squeeze_path(slenderness, layer, cavitated, cells)
+
+    def build() -> MapTable:
+        if cavitated:
+            return _cavitated_table(slenderness, layer, cells)
+        modes = layer_modes(layer)
+        film = FiniteSqueezeFilm(slenderness, layer, modes, np.zeros_like(modes.weight))
+        return _full_table(film, cells, LARGEST_FINITE)
+
+    table = cached_table(MapTable, path, build)
+    return SqueezeTable(slenderness, layer and tuple(layer), cavitated, table)
+
+
+def squeeze_path(
+    slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
+) -> Path:
+    """Return where a table lies; the name is a digest of all that decides its content."""
+    return table_path("damper", (VERSION, source_digest(__name__), slenderness, layer, cavitated, cells))
+
+
+def _cavitated_table(slenderness: float, layer: PorousLayer | None, cells: tuple[int, int]) -> MapTable:
+    potential = CavitatedPotential(slenderness, layer)
+    headings = np.arccos(np.linspace(-1.0, 1.0, cells[1] + 1))
+    nodes = node_eccentricities(LARGEST_FINITE, cells[0])
+    logs = [[np.log(-potential(float(eps), float(turn))) for turn in headings] for eps in nodes[1:]]
+    center = np.full(headings.size, np.log(-potential(0.0, 0.0)))
+    return fit_map_table(
+        np.array([[center, *logs]]),
+        slenderness_range=(RATIO, RATIO),
+        largest_eccentricity_ratio=LARGEST_FINITE,
+    )
+
+
+def _full_table(film: SqueezeFilm, cells: tuple[int, int], largest: float) -> MapTable:
+    """Return the table of a full film: -J = (C_t + (C_r - C_t) cos^2)/2, linear in the velocity."""
+    eps = node_eccentricities(largest, cells[0])
+    none = np.zeros_like(eps)
+    damping = -film.jacobian(np.stack([eps, none]), np.stack([none, none]))[:, 2:]
+    cos2 = np.linspace(-1.0, 1.0, FULL * cells[1] + 1) ** 2
+    radial, tangential = damping[0, 0][:, None], damping[1, 1][:, None]
+    return fit_map_table(
+        np.log(0.5 * (tangential + (radial - tangential) * cos2))[None],
+        slenderness_range=(RATIO, RATIO),
+        largest_eccentricity_ratio=largest,
+        slope=np.zeros(1),
+    )
+
+
+@dataclass(frozen=True)
+class _AsJournalFilm:
+    """A squeeze film under the protocol of journal films, whatever the slenderness."""
+
+    film: SqueezeFilm
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        return self.film.force(eccentricity, source)
+
+
+# Squeeze films as impedance maps: the potential in a table of its own, evaluated in C.
+
+
+SHORT = 1e-6
+"""Length / diameter of a short film, at the wall too."""
+
+
+@quantities
+@dataclass(frozen=True)
+class MapSqueeze(SqueezeOptions):
+    """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
+
+    The table is made at the first use of a damper and kept in memory for dampers of the same layer.
+
+    Parameters
+    ----------
+    cells : tuple of int
+        Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
+        takes three times as many of the latter.
+    table : SqueezeTable, optional
+        Of this damper, as `tabulated` gives it; made by default.
+    """
+
+    slenderness_limit: ClassVar[float] = 0.25
+    """Largest length / diameter for which the film is meant [1]."""
+    largest_eccentricity_ratio: ClassVar[float] = LARGEST
+    """Eccentricity ratio to which the film is meant [1]."""
+
+    cells: tuple[int, int] = (24, 48)
+    table: SqueezeTable | None = None
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; raise InputError for one with feed."""
+        _require_potential(self, case)
+        film = MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
+        return sealed_short(film, case)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return short_film_inertia(case)
+
+    def tabulated(self, case: SqueezeCase) -> MapSqueeze:
+        """Return this law with the table of one damper; see `SqueezeOptions`."""
+        return replace(self, table=self._table(case))
+
+    def _table(self, case: SqueezeCase) -> SqueezeTable:
+        if self.table is None:
+            return short_table(case.layer, case.cavitated, self.cells)
+        return self.table.required(None, case.layer, case.cavitated)
+
+
+@quantities
+@dataclass(frozen=True)
+class FiniteMapSqueeze(SqueezeOptions):
+    """Film of finite length from a table of its potential, flow around the circumference included.
+
+    The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
+
+    Parameters
+    ----------
+    cells : tuple of int
+        Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
+        takes three times as many of the latter.
+    table : SqueezeTable, optional
+        Of this damper, as `tabulated` gives it; made, or found on disk, by default.
+    """
+
+    largest_eccentricity_ratio: ClassVar[float] = LARGEST_FINITE
+    """Eccentricity ratio to which the film is meant [1]."""
+
+    cells: tuple[int, int] = (16, 32)
+    table: SqueezeTable | None = None
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; raise InputError for one with feed or seals."""
+        _require_potential(self, case)
+        if case.is_sealed:
+            raise InputError(
+                "seals must be None for FiniteMapSqueeze(): FullFilm() with FiniteSqueeze() has them, and a "
+                "short film"
+            )
+        return MappedSqueezeFilm(_squeeze_map(self._table(case), case.slenderness), one_slenderness=True)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return finite_film_inertia(case)
+
+    def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
+        """Return this law with the table of one damper; see `SqueezeOptions`."""
+        return replace(self, table=self._table(case))
+
+    def _table(self, case: SqueezeCase) -> SqueezeTable:
+        if self.table is None:
+            return finite_table(case.slenderness, case.layer, case.cavitated, self.cells)
+        return self.table.required(case.slenderness, case.layer, case.cavitated)
+
+
+@dataclass(frozen=True)
+class SqueezeMapFilm(MapFilm):
+    """A map in units of a squeeze film.
+
+    Parameters
+    ----------
+    wall : (float, float) [1]
+        Length / diameter of the film at the wall, as which it goes on beyond the table, and that film's share
+        in units of a journal; zeros where that is not its law.
+    """
+
+    wall: tuple[float, float] = (0.0, 0.0)
+
+    def _kernel(self, slenderness: float) -> MapKernel:
+        return _collapsed(self._table(slenderness), self.wall)
+
+
+@lru_cache(maxsize=64)
+def _collapsed(table: MapTable, wall: tuple[float, float]) -> MapKernel:
+    return MapKernel(*table.at(RATIO), *wall)
+
+
+@dataclass(frozen=True)
+class MappedSqueezeFilm:
+    """A squeeze film on the journal's map: its source is the rate.
+
+    Parameters
+    ----------
+    film : SqueezeMapFilm
+        With a table for one slenderness, `RATIO`, in units of a squeeze film.
+    one_slenderness : bool
+        Whether the table is that of one length / diameter only, as that of a film of finite length.
+    """
+
+    film: SqueezeMapFilm
+    one_slenderness: bool
+
+    def bound(self, *, clearance: float, force_scale: float) -> BoundKernel:
+        """Return the film of one damper in SI units, in C.
+
+        Its speed must be 0, since a damper has no wedge.
+        """
+        return self.film.bind(slenderness=RATIO, clearance=clearance, force_scale=force_scale)
+
+    def native_tables(self) -> Mapping[str, Array]:
+        """Return the tables of the kernel "damper"."""
+        tables = dict(self.film.native(RATIO)[1])
+        return {name: tables[name] for name in ("center", "reach")} | {
+            "coefficients": tables["coefficients"][0],
+            "wall": np.array(self.film.wall),
+        }
+
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
+        return self.film.force(eccentricity, rate, RATIO)
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`.
+
+        Raises
+        ------
+        UndefinedDerivativeError
+            Where the rotor is at rest off the center.
+        """
+        return self.film.jacobian(eccentricity, rate, RATIO)
+
+
+def _squeeze_map(table: SqueezeTable, slenderness: float) -> SqueezeMapFilm:
+    """Return the map of a table; a full film, or one on a porous layer, is another one at the wall."""
+    journal = table.cavitated and table.layer is None
+    return SqueezeMapFilm(table.table, (slenderness, 0.25 / slenderness**2) if journal else (0.0, 0.0))
+
+
+def _require_potential(law: MapSqueeze | FiniteMapSqueeze, case: SqueezeCase) -> None:
+    if np.any(case.feed) or (case.cavitated and np.any(case.ends)):
+        raise InputError(
+            f"feed must be None for {type(law).__name__}(): a film with feed has no potential to tabulate"
+        )
+
+
+# Potential of a cavitated squeeze film of finite length on a porous layer: the free arc, solved spectrally.
+#
+# As in the journal's film the first axial mode decides where the pressure ends (p >= 0, and p and its slope
+# vanish there); the other modes live on that arc. The potential errs by the third power of the error of the
+# ends, the force by the second, so the potential is what goes into a table (docs/map.md).
+
+
+AXIAL_MODES = 10
+FUNCTIONS = 30
+NODES = 128
+HARMONICS = 64
+STARTS = (0.3, 0.0, 0.8)
+"""How far beyond the half circle the search for both ends starts, in L/D [rad]."""
+
+RESIDUAL = 1e-4
+"""Slope of the pressure that an end may keep; the potential errs by its third power."""
+
+FARTHEST = 1.5
+"""How far an end of the film may lie from where the squeeze vanishes [rad]."""
+
+
+class _Basis(NamedTuple):
+    """Trial functions on -1 <= x <= 1 that vanish at both ends; values and slopes at Gauss-Legendre nodes."""
+
+    x: Array
+    weight: Array
+    value: Array
+    slope: Array
+    end_slope: Array
+
+
+class _Film(NamedTuple):
+    """One arc: conductance h^3 + leak, dpsi/dx, source w.u, weights, and harmonics of the trial functions."""
+
+    h: Array
+    stretch: Array
+    source: Array
+    weight: Array
+    harmonics: np.ndarray
+    end_stretch: Array
+    end_h: Array
+
+
+@dataclass(frozen=True)
+class CavitatedPotential:
+    """Least J = (F.w)/2 of a cavitated film, in units viscosity * radius * length^3 / clearance^2 per 1/s.
+
+    Parameters
+    ----------
+    slenderness : float [1]
+        L/D.
+    layer : PorousLayer or None
+        None for a solid cage.
+    """
+
+    slenderness: float
+    layer: PorousLayer | None
+
+    def __call__(self, eps: float, heading: float) -> float:
+        """Return J < 0 for |w| = 1 at `heading` [rad] from the position, whose eccentricity ratio is `eps`.
+
+        Raises
+        ------
+        ConvergenceError
+            If the ends of the film are not found.
+        """
+
+        def slopes(ends: Array) -> Array:
+            film = self._film(eps, heading, ends)
+            P = self._solved(film, 0)[0]
+            return (film.end_h**3 + self._leak) * (_basis().end_slope @ P) / film.end_stretch
+
+        for beyond in STARTS:
+            start = heading + np.array([-0.5, 0.5]) * (np.pi + beyond * self.slenderness)
+            # A search that goes astray may try a film without length; the next start goes on.
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found = root(slopes, start, tol=1e-7)
+            if np.all(np.abs(found.x - start) < FARTHEST) and np.abs(found.fun).max() < RESIDUAL:
+                return self._potential(self._film(eps, heading, found.x))
+        raise ConvergenceError(
+            "ends of the film must be found, and were not at eccentricity ratio "
+            f"{eps:.6g}, direction {heading:.6g} rad"
+        )
+
+    def _potential(self, film: _Film) -> float:
+        power = 0.0
+        for n in range(AXIAL_MODES):
+            P, source = self._solved(film, n)
+            power += 6.0 / axial_numbers()[n] ** 2 * float(source @ P)
+        rest = self._rest
+        conductance = rest.weight @ (1.0 / (film.h**3 + rest.leak[:, None]))
+        return -0.5 * (power + float(film.weight @ (film.source**2 * conductance)))
+
+    def _solved(self, film: _Film, n: int) -> tuple[Array, Array]:
+        """Return the coefficients of the pressure of axial mode n and of its source."""
+        basis, a2 = _basis(), axial_numbers()[n] ** 2
+        cube = film.h**3 + self._along
+        matrix = self.slenderness**2 * (basis.slope.T * (cube / film.stretch * basis.weight)) @ basis.slope
+        matrix += (basis.value.T * (film.weight * (a2 * cube + self._through))) @ basis.value
+        if self._spectral:
+            m = np.arange(HARMONICS + 1.0)
+            taken = self._taken(a2 + (self.slenderness * m) ** 2)
+            taken[1:] *= 2.0
+            matrix += (film.harmonics.conj().T * taken / (2.0 * np.pi) @ film.harmonics).real
+        source = basis.value.T @ (film.weight * film.source)
+        return np.asarray(np.linalg.solve(matrix, source), dtype=np.float64), source
+
+    def _film(self, eps: float, heading: float, ends: Array) -> _Film:
+        basis = _basis()
+        e, first, last = np.asarray(eps), ends[0], ends[1]
+        arc = arc_nodes(e, first, last, self._depth, basis.x, basis.weight)
+        edge = arc_nodes(e, first, last, self._depth, np.array([-1.0, 1.0]), np.ones(2))
+        weighted = arc.weight[:, None] * basis.value
+        powers = (arc.cos - 1j * arc.sin)[:, None] ** np.arange(HARMONICS + 1)
+        source = np.cos(heading) * arc.cos + np.sin(heading) * arc.sin
+        return _Film(
+            arc.h, arc.weight / basis.weight, source, arc.weight, powers.T @ weighted, edge.weight, edge.h
+        )
+
+    @property
+    def _spectral(self) -> bool:
+        """Whether the layer's flux depends on more than the pressure and its second derivative here."""
+        return self.layer is not None and not self.layer.thin
+
+    def _taken(self, k2: Array) -> Array:
+        assert self.layer is not None
+        return leakage(self.layer, k2)
+
+    @cached_property
+    def _along(self) -> float:
+        """What a thin sealed layer adds to h^3 in both directions."""
+        layer = self.layer
+        if layer is None or not layer.thin or layer.vented:
+            return 0.0
+        return 12.0 * layer.permeability_number * mean_permeability(layer.grading) * layer.anisotropy
+
+    @cached_property
+    def _through(self) -> float:
+        """What a thin vented layer takes of any pressure."""
+        if self.layer is None or not (self.layer.thin and self.layer.vented):
+            return 0.0
+        return float(self._taken(np.ones(1))[0])
+
+    @cached_property
+    def _rest(self) -> LayerModes:
+        """The axial modes taken as short."""
+        modes = layer_modes(self.layer)
+        if len(modes.weight) == 1:
+            share = 1.0 - np.sum(6.0 / axial_numbers()[:AXIAL_MODES] ** 4)
+            return modes._replace(weight=np.array([share]))
+        rest = slice(AXIAL_MODES, None)
+        return LayerModes(modes.weight[rest], modes.leak[rest], modes.passage[rest])
+
+    @cached_property
+    def _leak(self) -> float:
+        """Mean leak of the axial modes."""
+        modes = layer_modes(self.layer)
+        return float(modes.weight @ modes.leak)
+
+    @cached_property
+    def _depth(self) -> float:
+        return 0.5 * float(np.cbrt(self._leak))
+
+
+@lru_cache(maxsize=1)
+def _basis() -> _Basis:
+    """Return integrated Legendre polynomials."""
+    x, weight = np.polynomial.legendre.leggauss(NODES)
+    k = np.arange(FUNCTIONS)
+    P = np.polynomial.legendre.legvander(x, FUNCTIONS + 1)
+    scale = 1.0 / np.sqrt(4.0 * k + 6.0)
+    slope = scale * (2.0 * k + 3.0)
+    ends = np.stack([slope * (-1.0) ** (k + 1), slope])
+    return _Basis(x, weight, scale * (P[:, 2:] - P[:, :-2]), slope * P[:, 1:-1], ends)

@@ -1,1 +1,0 @@
-"""The film in two dimensions on a ring of cells."""

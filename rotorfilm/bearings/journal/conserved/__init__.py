@@ -1,1 +1,0 @@
-"""A journal bearing whose film conserves its oil, with real supply."""

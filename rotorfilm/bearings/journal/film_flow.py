@@ -1,0 +1,510 @@
+"""Where the oil of a film goes: the flows through all faces, streamers of the ruptured zone, openings, ends.
+
+All flows are in units of clearance x radius x length/2, that is in 1/s.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.model import Array, Tangent
+from ..films.finite_volumes import Grid, Spans, Stencil, StencilSolution, solve_stencil
+from ..films.law import kinematics
+from ..films.mass_conserving import Fluidity
+from ..reaction import NOMINAL_SPEED, StaticReaction
+
+
+class FilmFlow(NamedTuple):
+    """Flows and heat sources of one film at rest, on N lines of M + 1 cells.
+
+    Attributes
+    ----------
+    dragged, pressed : ndarray, shape (N, M + 1) [1/s]
+        Flow through the face after a line, by the walls and by pressure; streamers are dragged.
+    axial : ndarray, shape (N, M + 1) [1/s]
+        Flow through the face after a cell, towards the bearing's end; that after the last leaves it.
+    entering, leaving : ndarray, shape (N, M + 1) [1/s]
+        What flows into a cell through its faces, and out of it.
+    filled : ndarray, shape (N, M + 1) [1]
+        Share of the gap that oil fills: 1 in the film, less where it has ruptured, 0 in openings.
+    full : ndarray of bool, shape (N, M + 1)
+        Whether a cell is film.
+    shear : ndarray, shape (N, M + 1) [1]
+        Integral of filled/H over the cell.
+    dissipation : ndarray, shape (N, M + 1) [1/s^2]
+        Power of the pressure in the cells / (viscosity radius^3 length/2 / clearance).
+    climb : ndarray, shape (N, M + 1) [1/s]
+        Integral of H times the slope of the pressure around the film over the cells of film.
+    central : ndarray, shape (N,), or None [1/s]
+        Flow from a groove all round at mid-length into the first cells; None without one.
+    """
+
+    dragged: Array
+    pressed: Array
+    axial: Array
+    entering: Array
+    leaving: Array
+    filled: Array
+    full: np.ndarray
+    shear: Array
+    dissipation: Array
+    climb: Array
+    central: Array | None = None
+
+    @property
+    def around(self) -> Array:
+        """Whole flow through the face after a line, shape (N, M + 1) [1/s]."""
+        return self.dragged + self.pressed
+
+    @property
+    def side_flow(self) -> float:
+        """What leaves the film sideways, less what its ends draw in [1/s]."""
+        return float(self.leaked.sum() + np.minimum(self.axial[:, -1], 0.0).sum())
+
+    @property
+    def fresh(self) -> Array:
+        """Oil that a cell of film takes from outside, since its neighbors bring too little [1/s]."""
+        return np.maximum(self.leaving - self.entering, 0.0)
+
+    @property
+    def lost(self) -> Array:
+        """Oil that its neighbors do not take from a cell, and that leaves the bearing [1/s]."""
+        return np.maximum(self.entering - self.leaving, 0.0)
+
+    @property
+    def leaked(self) -> Array:
+        """All oil that leaves the film from a cell [1/s]."""
+        leaked = np.where(self.filled > 0.0, self.lost, 0.0)
+        leaked[:, -1] += np.maximum(self.axial[:, -1], 0.0)
+        return leaked
+
+
+def fed_film(
+    film: FrozenFilm, eccentricity: Array, speed: float, *, full_gap: bool, settled: bool = False
+) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
+    """Return the film whose openings feed it, its solution for a journal at rest, and its flow.
+
+    In a bearing with openings a film starts at an opening or where the streamers fill the gap again, not from
+    nothing: a node at its start that would take more than they bring is left empty, as often as that helps.
+    A film whose empty nodes are `settled` is taken as it is.
+    """
+    cells = film.cells
+    while True:
+        found = film.solve(eccentricity, np.zeros(2), speed)
+        flow = film_flow(film, found, eccentricity, speed, full_gap=full_gap)
+        starved = _starved(cells, flow, speed)
+        if settled or not (cells.held.any() and starved.any()):
+            return film, found, flow
+        film = replace(film, empty=film.empty | starved)
+
+
+def film_flow(
+    film: FrozenFilm, found: FilmSolution, eccentricity: Array, speed: float, *, full_gap: bool
+) -> FilmFlow:
+    """Return the flow of a film for a journal at rest.
+
+    Parameters
+    ----------
+    film : FrozenFilm
+    found : FilmSolution
+    eccentricity : ndarray, shape (2,) [1]
+    speed : float [rad/s]
+    full_gap : bool
+        Whether oil fills the gap in the ruptured zone too.
+    """
+    cells = film.cells
+    full = np.pad(found.solution.full, ((0, 0), (0, 1)), mode="edge")
+    pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
+    H, at_lines = thickness(eccentricity, cells.face), thickness(eccentricity, cells.theta)
+    drag = (
+        speed * _driven(cells, full, H, at_lines, speed) * film.fluidity.mean_at_faces().dragged * cells.width
+    )
+    pressed = np.zeros(cells.shape)
+    pressed[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1]
+    axial = np.zeros(cells.shape)
+    axial[:, :-1] = found.stencil.along * (pressure[:, :-1] - pressure[:, 1:])
+    axial[cells.held] = 0.0
+    dragged = _with_streamers(cells, full, drag, axial, speed)
+    around = dragged + pressed
+    axial[:, -1] = np.where(
+        full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0
+    )
+    entering, leaving = through(around, axial)
+    capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
+    filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
+    climbing = H[:, None] * (np.roll(pressure, -1, axis=0) - pressure)
+    return FilmFlow(
+        dragged=dragged,
+        pressed=pressed,
+        axial=axial,
+        entering=entering,
+        leaving=leaving,
+        filled=filled,
+        full=full,
+        shear=filled * cells.integral_of_inverse(eccentricity)[:, None] * cells.width,
+        dissipation=_dissipation(cells, found, full),
+        climb=0.5 * full * cells.width * (climbing + np.roll(climbing, 1, axis=0)),
+    )
+
+
+def _driven(cells: FilmCells, full: np.ndarray, H: Array, at_lines: Array, speed: float) -> Array:
+    """Return the thickness of what the walls drag through the faces after the lines, shape (N, M + 1).
+
+    Oil that an opening leaves to the ruptured zone is as thick as the gap at the edge of the opening.
+    """
+    shifts = (0, -1) if speed > 0.0 else (-1, 0)
+    giving, taking = (np.roll(cells.held, shift) for shift in shifts)
+    edge = giving & ~taking
+    emptied = edge[:, None] & ~np.roll(full, shifts[1], axis=0)
+    return np.where(emptied, np.roll(at_lines, shifts[0])[:, None], H[:, None])
+
+
+def through(around: Array, axial: Array, central: Array | None = None) -> tuple[Array, Array]:
+    """Return what enters and what leaves each cell by flows as in `FilmFlow`."""
+    before = np.roll(around, 1, axis=0)
+    inward = np.pad(axial, ((0, 0), (1, 0)))[:, :-1]
+    if central is not None:
+        inward[:, 0] = central
+    entering = sum(np.maximum(flow, 0.0) for flow in (before, -around, inward, -axial))
+    leaving = sum(np.maximum(flow, 0.0) for flow in (-before, around, -inward, axial))
+    return np.asarray(entering), np.asarray(leaving)
+
+
+def _with_streamers(cells: FilmCells, full: np.ndarray, drag: Array, axial: Array, speed: float) -> Array:
+    """Return what the walls drag through the faces after the lines, in the ruptured zone what got there."""
+    lines, sense = len(full), 1 if speed > 0.0 else -1
+    here = full | cells.held[:, None]
+    onward = np.roll(full, -sense, axis=0)
+    sideways = np.pad(np.maximum(axial, 0.0), ((0, 0), (1, 0)))[:, :-1] + np.maximum(-axial, 0.0)
+    # Faces by the line that oil comes from, flows along the rotation.
+    drag = sense * (drag if sense > 0 else np.roll(drag, 1, axis=0))
+    first = int(np.argmax(here.sum(axis=1)))
+    rounds = lines if here[first].all() else 2 * lines
+    for step in range(1, rounds):
+        i = (first + sense * step) % lines
+        brought = drag[(i - sense) % lines] + sideways[i]
+        drag[i] = np.where(here[i] | onward[i], drag[i], brought)
+    return sense * (drag if sense > 0 else np.roll(drag, -1, axis=0))
+
+
+def _dissipation(cells: FilmCells, found: FilmSolution, full: np.ndarray) -> Array:
+    """Return the power of the pressure, that of each face shared by the cells of film beside it."""
+    pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
+    weight = film_weight(full, cells.held[:, None])
+    around = np.zeros(full.shape)
+    around[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1] ** 2
+    along = found.stencil.along * (pressure[:, :-1] - pressure[:, 1:]) ** 2
+    return 12.0 * in_cells(around, along, weight)
+
+
+def film_weight(full: np.ndarray, opening: np.ndarray) -> Array:
+    """Return how much of what happens at its faces is a cell's: nothing is that of an opening's."""
+    # Beside an opening under pressure there may be film shorter than a cell.
+    return np.where(opening, 0.0, np.where(full, 1.0, 1e-30))
+
+
+def in_cells(around: Array, along: Array, weight: Array) -> Array:
+    """Return what faces after lines (N, M) and between cells (N, M - 1) have, shared by the cells."""
+    here, there = _shared(around, weight, np.roll(weight, -1, axis=0))
+    total = here + np.roll(there, 1, axis=0)
+    here, there = _shared(along, weight[:, :-1], weight[:, 1:])
+    total[:, :-1] += here
+    total[:, 1:] += there
+    return np.asarray(total)
+
+
+def _shared(amount: Array, first: Array, second: Array) -> tuple[Array, Array]:
+    """Return an amount shared in proportion to two weights; nothing where both are 0."""
+    per_weight = amount / np.where(first + second > 0.0, first + second, 1.0)
+    return per_weight * first, per_weight * second
+
+
+def _starved(cells: FilmCells, flow: FilmFlow, speed: float) -> np.ndarray:
+    """Return the nodes at the start of a film that take more than the streamers bring, shape (N, M)."""
+    sense = 1 if speed > 0.0 else -1
+    behind = np.roll(flow.full | cells.held[:, None], sense, axis=0)
+    starts = flow.full & ~behind
+    short = np.roll(flow.fresh > 1e-9 * np.max(flow.entering), sense, axis=0)
+    return (starts & short)[:, :-1]
+
+
+# The cells of a film that warms: lines at one place of the journal, which then stay where they are.
+
+
+CROWDING = 0.35
+"""The distance of lines at the minimum film falls as its thickness to this power, as in grids/cells.c."""
+
+_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
+
+
+class FilmCells(NamedTuple):
+    """A ring of N lines with M unknown pressures on each and M + 1 cells of oil, the last at the end.
+
+    Attributes
+    ----------
+    theta, face : ndarray, shape (N,) [rad]
+        Angles of the lines, and of the faces after them.
+    start, extent : ndarray, shape (N,) [rad]
+        Cell of a line, from the face before it to that after it; but all film up to the edge of an opening.
+    gap : ndarray, shape (N,) [rad]
+        Angle from a line to the next.
+    width : ndarray, shape (M + 1,)
+        Axial widths of the cells as fractions of half the length; their sum is 1.
+    conductance : ndarray, shape (M,)
+        1/distance to the next node towards the bearing's end.
+    held : ndarray of bool, shape (N,)
+        Lines in an opening or at its edge.
+    value : ndarray, shape (N,) [1/s]
+        The pressure held there.
+    opening : ndarray of int, shape (N,)
+        Opening of a line that is held, -1 of others.
+    slenderness : float [1]
+        Length / diameter.
+    """
+
+    theta: Array
+    face: Array
+    start: Array
+    extent: Array
+    gap: Array
+    width: Array
+    conductance: Array
+    held: np.ndarray
+    value: Array
+    opening: np.ndarray
+    slenderness: float
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Lines, and cells along half the length."""
+        return len(self.theta), len(self.width)
+
+    def normal(self) -> Array:
+        """Return the integral of n = (cos theta, sin theta) over the cells of the lines, shape (2, N)."""
+        before, after = np.roll(self.face, 1), self.face
+        return np.stack([np.sin(after) - np.sin(before), np.cos(before) - np.cos(after)])
+
+    def integral_of_inverse(self, eccentricity: Array) -> Array:
+        """Return the integral of 1/H over the cells of the lines, shape (N,)."""
+        angles = self.start[:, None] + 0.5 * self.extent[:, None] * (1.0 + _GAUSS_NODES)
+        return 0.5 * self.extent * (_GAUSS_WEIGHTS / thickness(eccentricity, angles)).sum(axis=1)
+
+
+def thickness(eccentricity: Array, angle: Array) -> Array:
+    """Return H = 1 - e.n at angles [rad], of their shape."""
+    return np.asarray(1.0 - eccentricity[0] * np.cos(angle) - eccentricity[1] * np.sin(angle))
+
+
+def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array) -> FilmCells:
+    """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,)."""
+    distance = float(eccentricity @ eccentricity)
+    a = complex(eccentricity[0], eccentricity[1]) / (1.0 + (1.0 - distance) ** CROWDING)
+    theta, face = _angles(spans, grid.span, grid.line, a), _angles(spans, grid.span, grid.face, a)
+    held = grid.held > 0
+    after_held, before_held = held & ~np.roll(held, 1), np.roll(held, -1)
+    start = np.where(np.roll(held, 1), np.roll(theta, 1), np.roll(face, 1))
+    end = np.where(before_held, np.roll(theta, -1), face)
+    opening = np.where(held, np.cumsum(after_held) - 1, -1)
+    if held[0] and held[-1] and not held.all() and grid.film[-1] == 0.0:
+        opening[opening == opening.max()] = opening[0]
+    return FilmCells(
+        theta=theta,
+        face=face,
+        start=start,
+        extent=(end - start) % (2.0 * np.pi),
+        gap=(np.roll(theta, -1) - theta) % (2.0 * np.pi),
+        width=np.append(grid.width, 1.0 - grid.width.sum()),
+        conductance=grid.conductance,
+        held=held,
+        value=grid.value,
+        opening=opening,
+        slenderness=slenderness,
+    )
+
+
+def _angles(spans: Spans, span: np.ndarray, place: Array, a: complex) -> Array:
+    """Return the angles of places on spans: exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s)."""
+    start, end = spans.start, spans.start + spans.extent
+    if spans.pinned:
+        start, end = (angle - 2.0 * _bend(-a, angle) for angle in (start, end))
+    s = start[span] + (end - start)[span] * place
+    return np.asarray(s - 2.0 * _bend(a, s))
+
+
+def _bend(a: complex, s: Array) -> Array:
+    return np.angle(1.0 + a.conjugate() * np.exp(1j * s))
+
+
+# The film of a given viscosity field: its force with exact derivatives, at frozen temperature.
+
+
+class FilmSolution(NamedTuple):
+    """A film at one state.
+
+    Attributes
+    ----------
+    stencil : Stencil
+    solution : StencilSolution
+        With the response of the pressure to the two components of the force.
+    normal : ndarray, shape (2, N)
+    """
+
+    stencil: Stencil
+    solution: StencilSolution
+    normal: Array
+
+    def force(self, cells: FilmCells) -> Array:
+        """Return the force on the journal in the film's units [1/s], shape (2,)."""
+        return -12.0 * (self.normal @ (self.solution.pressure @ cells.width[:-1]))
+
+    def pumped(self, cells: FilmCells) -> float:
+        """Return the power of the supply, pressure times flow into the film [1/s^2].
+
+        The flow straight out of the openings at the bearing's end is no part of it.
+        """
+        stencil, pressure = self.stencil, self.solution.pressure
+        flow = stencil.outflow(pressure) - stencil.source
+        flow[:, -1] -= stencil.along[:, -1] * pressure[:, -1]
+        return 12.0 * float((cells.value * cells.held) @ flow.sum(axis=1))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FrozenFilm(StaticReaction):
+    """A journal film whose oil keeps its temperature wherever it is, on cells that keep their place.
+
+    Parameters
+    ----------
+    cells : FilmCells
+        Where the film is looked at.
+    fluidity : Fluidity
+        How easily the oil of each cell flows.
+    empty : ndarray of bool, shape (N, M)
+        Nodes that no film may start at, since no oil gets there.
+    clearance : float [m]
+        Radial clearance.
+    force_per_rate : float [N s]
+        viscosity length radius^3 / clearance^2 of the viscosity that the fluidity is relative to.
+    frozen_at : (float, float) or None [m]
+        Position of the journal at which it was; None of fresh oil.
+    """
+
+    cells: FilmCells
+    fluidity: Fluidity
+    empty: np.ndarray
+    clearance: float
+    force_per_rate: float
+    frozen_at: tuple[float, float] | None = None
+
+    @property
+    def nominal_force(self) -> float:
+        """Typical force [N]."""
+        return self.force_per_rate * NOMINAL_SPEED * min(1.0, self.cells.slenderness**2)
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for float arrays of equal batch shape."""
+        return self._each(position, velocity, speed, slice(0, 1)).reshape(position.shape)
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for float arrays of equal batch shape."""
+        found = self._each(position, velocity, speed, slice(1, 6))
+        return found.reshape(2, 5, *position.shape[1:])
+
+    def _each(self, position: Array, velocity: Array, speed: Array, columns: slice) -> Array:
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), np.ravel(speed)
+        states = zip(q.T, v.T, omega, strict=True)
+        return np.stack([self._response(*state)[:, columns] for state in states], axis=-1)
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, list[float]]:
+            found = self._response(np.array((x, y)), np.array((vx, vy)), speed)
+            force_x, force_y = found[:, 0].tolist()
+            return force_x, force_y, found[:, 1:].ravel().tolist()
+
+        return tangent
+
+    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
+        """Return about where a journal rests [m]: where the film is frozen; see `core.model`."""
+        return self.frozen_at
+
+    def solve(self, eccentricity: Array, squeeze: Array, speed: float) -> FilmSolution:
+        """Return the film of one state.
+
+        Parameters
+        ----------
+        eccentricity : ndarray, shape (2,) [1]
+            Position / clearance.
+        squeeze : ndarray, shape (2,) [1/s]
+            Velocity / clearance.
+        speed : float [rad/s]
+        """
+        cells, normal, faces = self.cells, self.cells.normal(), self.fluidity.mean_at_faces()
+        width, H = cells.width[:-1], thickness(eccentricity, cells.face)
+        across = cells.slenderness**-2 * ((cells.face - np.roll(cells.face, 1)) % (2.0 * np.pi))
+        dragged = speed * H[:, None] * faces.dragged[:, :-1]
+        stencil = Stencil(
+            around=(H**3 / cells.gap)[:, None] * faces.pressed[:, :-1] * width,
+            along=(thickness(eccentricity, cells.theta) ** 3 * across)[:, None]
+            * _to_the_end(self.fluidity.pressed)
+            * cells.conductance,
+            source=width * (np.roll(dragged, 1, axis=0) - dragged + (squeeze @ normal)[:, None]),
+            held=self.empty | cells.held[:, None],
+        )
+        value = np.broadcast_to(cells.value[:, None], stencil.source.shape)
+        unit = normal[:, :, None] * width
+        return FilmSolution(stencil, solve_stencil(stencil, value, stencil.source > 0.0, unit), normal)
+
+    def _response(self, position: Array, velocity: Array, speed: float) -> Array:
+        """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6).
+
+        In the film A P = b, and F = -12 N^T P. With V = A^-1 N, dF = 12 V^T (dA P - db): the pressure and its
+        slope vanish at the edge of a ruptured zone, so moving the edge adds nothing.
+        """
+        e, _ = kinematics(position, velocity, np.asarray(speed), self.clearance)
+        found = self.solve(e, velocity / self.clearance, float(speed))
+        pressure, V = found.solution.pressure, found.solution.answers
+        width = self.cells.width[:-1]
+        response = np.empty((2, 6))
+        response[:, 0] = found.force(self.cells)
+        changes = [
+            *(bent.outflow(pressure) - bent.source for bent in self._bent(e, float(speed), found.stencil)),
+            *(-normal[:, None] * width for normal in found.normal),
+            -self._dragged_in(thickness(e, self.cells.face)),
+        ]
+        response[:, 1:] = 12.0 * np.tensordot(V, np.stack(changes), axes=([1, 2], [1, 2]))
+        response[:, 1:5] /= self.clearance
+        return self.force_per_rate * response
+
+    def _bent(self, e: Array, speed: float, stencil: Stencil) -> list[Stencil]:
+        """Return the derivatives of the stencil by the eccentricity."""
+        bent = []
+        at_face, at_line = (self._directions(angles) for angles in (self.cells.face, self.cells.theta))
+        for n_face, n_line in zip(at_face, at_line, strict=True):
+            bent.append(
+                Stencil(
+                    around=-3.0 * (n_face / thickness(e, self.cells.face))[:, None] * stencil.around,
+                    along=-3.0 * (n_line / thickness(e, self.cells.theta))[:, None] * stencil.along,
+                    source=speed * self._dragged_in(-n_face),
+                    held=stencil.held,
+                )
+            )
+        return bent
+
+    def _directions(self, angles: Array) -> Array:
+        return np.stack([np.cos(angles), np.sin(angles)])
+
+    def _dragged_in(self, H: Array) -> Array:
+        """Return what walls at unit speed drag into each cell, over thickness H (N,) at the faces."""
+        dragged = H[:, None] * self.fluidity.mean_at_faces().dragged[:, :-1] * self.cells.width[:-1]
+        return np.roll(dragged, 1, axis=0) - dragged
+
+
+def _to_the_end(field: Array) -> Array:
+    """Return a field of cells (N, M + 1) at the faces between them, shape (N, M)."""
+    return 0.5 * (field[:, 1:] + field[:, :-1])

@@ -1,0 +1,665 @@
+"""The impedance map of one bearing with axial openings as a table: saving, loading.
+
+With J(e, w) = min over films of the dissipation potential (`native/films/groove_kernel.h`),
+
+    ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
+    X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
+
+e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
+Beside it are shear and flow of the film (`groove_losses.py`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from ...core.errors import InputError
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...core.progress import Report, silent
+from ...native import GrooveMapKernel
+from ...native.loss_kernels import GrooveLossKernel
+from ..films.finite_volumes import (
+    COARSENING,
+    LONG,
+    RingKernel,
+    log_potential,
+    reference,
+    richardson,
+    ring_grids,
+    ring_spans,
+)
+from ..films.geometry import TURN, AlignedOpenings, Complementarity, FilmGeometry, Groove
+from ..films.law import static_rate
+from ..films.map_fit import (
+    MARGIN,
+    batches,
+    cores,
+    even_shares,
+    made_pieces,
+    node_eccentricities,
+    periodic_quintic,
+    periodic_quintic_coefficients,
+    quintic_coefficients,
+    state_errors,
+)
+from ..films.map_table import Layout, Sizes, StoredTable, seal, stretch, unseal, unstretch
+
+MAGIC = b"RFGROOVE"
+VERSION = 3
+"""Since 2 a table has bounds of its error, since 3 shear and flow."""
+
+BANDS = 8
+"""Most bands of eccentricity ratios with a bound each."""
+
+ERRORS = 5
+"""Columns of the bounds: an eccentricity ratio, and errors up to it."""
+
+DIRECTIONS = 192
+"""Nodes of L0 over the direction of the source."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GrooveMapTable(StoredTable):
+    """The potential J of the film of one bearing with openings at ambient pressure.
+
+    Parameters
+    ----------
+    slenderness : float [1]
+        Length / diameter of the bearing.
+    grooves : tuple of Groove
+        Its openings, seen from the axis of `groove_axis.aligned_openings`.
+    reach : float [1]
+        X of the last node; beyond it the kernel continues J to the wall.
+    crowding : float [1]
+        In (0, 1]: how much closer the nodes lie where the source is across the eccentricity.
+    log_center : ndarray, shape (DIRECTIONS,)
+        Spline coefficients of L0, each centered on its node.
+    coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
+        Spline coefficients of M over X, theta and s.
+    shear : ndarray, shape (2, 3, cells_x + 5, cells_e, CELLS + 5)
+        Spline coefficients of shear and side flow over X, theta and s, for both senses of the oil.
+    flows : ndarray, shape (2, 2, openings, cells_x + 5, cells_e)
+        Those of the flows out of the openings, and into them.
+    bounds : ndarray, shape (bands, 5)
+        Largest errors with the journal at rest, found when the map was made (`groove_bounds`): up to which
+        eccentricity ratio, of the force relative to it, of K and C relative to their largest entry, of the
+        shear and of the flow of fresh oil relative to them. None of them where nothing is known.
+
+    Raises
+    ------
+    InputError
+        If the sizes do not fit each other or an entry is not finite or in its range.
+    """
+
+    slenderness: float
+    grooves: tuple[Groove, ...]
+    reach: float
+    crowding: float
+    log_center: Array = field(repr=False)
+    coefficients: Array = field(repr=False)
+    shear: Array = field(repr=False)
+    flows: Array = field(repr=False)
+    bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
+
+    def __post_init__(self) -> None:
+        shape = np.shape(self.coefficients)
+        if len(shape) != 3 or min(shape) < 6 or np.shape(self.log_center) != (DIRECTIONS,):
+            raise InputError(
+                f"coefficients must have shape (x, e, s) of 6 at least and log_center ({DIRECTIONS},), "
+                f"got shapes {shape} and {np.shape(self.log_center)}"
+            )
+        expected = _loss_shapes(shape[0], shape[1], len(self.grooves))
+        if (np.shape(self.shear), np.shape(self.flows)) != expected:
+            raise InputError(
+                f"shear and flows must have shapes {expected[0]} and {expected[1]}, "
+                f"got {np.shape(self.shear)} and {np.shape(self.flows)}"
+            )
+        splines = self.coefficients, self.log_center, self.shear, self.flows
+        if not all(np.isfinite(each).all() for each in splines):
+            raise InputError("coefficients, log_center, shear and flows must be finite")
+        if (
+            np.shape(self.bounds)[1:] != (ERRORS,)
+            or len(self.bounds) > BANDS
+            or not np.all(self.bounds >= 0.0)
+        ):
+            raise InputError(
+                f"bounds must have shape (bands, {ERRORS}), {BANDS} bands at most, and not be negative, "
+                f"got {self.bounds!r}"
+            )
+        if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
+            raise InputError(
+                "slenderness and reach must be positive and crowding in (0, 1], "
+                f"got {self.slenderness!r}, {self.reach!r} and {self.crowding!r}"
+            )
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio of the last node."""
+        return float(unstretch(self.reach))
+
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the largest error [1] of the force at rest, or of K and C; infinite where it is unknown."""
+        return self._bound(eccentricity_ratio, 2 if slopes else 1)
+
+    def loss_bound(self, eccentricity_ratio: float) -> tuple[float, float]:
+        """Return the largest errors [1] of shear, most of the power, and flow; infinite where unknown."""
+        return self._bound(eccentricity_ratio, 3), self._bound(eccentricity_ratio, 4)
+
+    def _bound(self, eccentricity_ratio: float, column: int) -> float:
+        errors = self.bounds[self.bounds[:, 0] >= eccentricity_ratio, column]
+        return float(errors[0]) if len(errors) else math.inf
+
+    def loss_kernel(self, axis: float) -> GrooveLossKernel:
+        """Return shear and flow in compiled code, the axis of the openings being at this angle [rad]."""
+        numbers = self.reach, self.crowding, axis
+        return GrooveLossKernel(self.shear, self.flows, land_edges(self.grooves), numbers)
+
+    def to_bytes(self) -> bytes:
+        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
+        openings = [angle for groove in self.grooves for angle in (groove.center, groove.width)]
+        numbers = [self.slenderness, self.reach, self.crowding, len(self.bounds), *openings]
+        cells_x, cells_e, cells_s = self.coefficients.shape
+        sizes = (cells_x, cells_e, cells_s, len(self.grooves))
+        bands = np.zeros((BANDS, ERRORS))
+        bands[: len(self.bounds)] = self.bounds
+        splines = self.log_center, self.coefficients, self.shear, self.flows
+        return seal(MAGIC, VERSION, sizes, np.array(numbers), bands, *splines)
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> Self:
+        """Return the table that `to_bytes` wrote.
+
+        Raises
+        ------
+        RotorfilmError
+            If the content is not such a table, of another version, truncated or damaged.
+        """
+        sizes, numbers, bands, center, *splines = unseal("groove table", MAGIC, VERSION, _layout, content)
+        shapes = (sizes[:3], *_loss_shapes(sizes[0], sizes[1], sizes[3]))
+        coefficients, shear, flows = (
+            each.reshape(shape) for each, shape in zip(splines, shapes, strict=True)
+        )
+        scalars, openings = np.split(numbers, [4])
+        slenderness, reach, crowding, known = scalars.tolist()
+        return cls(
+            slenderness=slenderness,
+            grooves=tuple(Groove(center=c, width=w) for c, w in openings.reshape(-1, 2).tolist()),
+            reach=reach,
+            crowding=crowding,
+            log_center=center,
+            coefficients=coefficients,
+            shear=shear,
+            flows=flows,
+            bounds=bands.reshape(BANDS, ERRORS)[: int(known)],
+        )
+
+
+def _loss_shapes(cells_x: int, cells_e: int, openings: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the shapes of shear and flows beside M with so many coefficients over X and theta."""
+    return (2, 3, cells_x, cells_e, CELLS + 5), (2, 2, openings, cells_x, cells_e)
+
+
+def _layout(sizes: Sizes) -> Layout:
+    """Return what a table of these sizes holds: numbers and openings, bounds, L0, M, shear and flows."""
+    cells_x, cells_e, cells_s, grooves = sizes
+    if min(sizes) < 1:
+        return ()
+    counts = 4 + 2 * grooves, ERRORS * BANDS, DIRECTIONS, cells_x * cells_e * cells_s
+    losses = (math.prod(shape) for shape in _loss_shapes(cells_x, cells_e, grooves))
+    return tuple(("<f8", count) for count in (*counts, *losses))
+
+
+# Shear and flow of a bearing with openings: their nodes by the two-dimensional film, and their
+# splines.
+#
+# With X and theta as in `groove_table.py`, and for each sense of the oil, forward first, the splines
+# are
+#
+# g Sigma_f, g (Sigma_f + Sigma_r), flow/|w|, g = sqrt(1 - chi^2),
+#
+# over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity
+# to source, and over X and theta, for a journal at rest, the flows out of and into each opening over
+# half the speed. Streamers follow the end at which the film is torn, and the film begins where they
+# bring oil, so that there is a step where the oil turns back: each sense is fitted from its own side.
+
+
+CELLS = 8
+"""Cells over s of the maps of shear and flow."""
+
+CROWDING = 0.6
+"""Crowds the directions across the eccentricity, where the film turns; measured to be the best."""
+
+NEAR = 1e-3
+"""Eccentricity ratio of the first nodes: at the center each direction has a film of its own."""
+
+TURNING = 1e-9
+"""Rate of the oil, for a source of 1/s, where it turns back: its sign alone counts."""
+
+
+def opened_film(grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> RingKernel:
+    """Return the two-dimensional film of a bearing with openings."""
+    geometry = FilmGeometry(grooves=grooves)
+    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
+    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity())
+
+
+def loss_cells(cells: tuple[int, int]) -> tuple[int, int]:
+    """Return the cells of the film at the nodes of the losses: half of those of the potential, about."""
+    around, along = (COARSENING * math.ceil(count / (2 * COARSENING)) for count in cells)
+    return max(around, 16), along
+
+
+def loss_eccentricities(largest_eccentricity_ratio: float, cells_x: int) -> Array:
+    """Return the eccentricity ratios of the nodes, (cells_x + 1,)."""
+    return np.maximum(node_eccentricities(largest_eccentricity_ratio, cells_x), NEAR)
+
+
+def node_losses_between(film: RingKernel, chi: float, theta: float) -> Array:
+    """Return shear of the film, shear, side flow and flows of openings, (3 + 2 openings, 2, CELLS + 1).
+
+    At eccentricity ratio chi in the direction theta, for sources of 1/s in the directions of the nodes: for
+    oil that runs forward, then backward.
+    """
+    s = np.linspace(0.0, np.pi, CELLS + 1)
+    beta = np.arctan2(np.sin(s), CROWDING * np.cos(s)) * np.array([[-1.0], [1.0]])
+    turns = (theta + beta).ravel()
+    e = np.repeat(chi * np.array([[np.cos(theta)], [np.sin(theta)]]), turns.size, axis=1)
+    across = -np.sin(beta).ravel()
+    rate = np.copysign(np.maximum(np.abs(across), TURNING), np.repeat([1.0, -1.0], CELLS + 1)) / chi
+    found = film.losses(e, np.stack([np.cos(turns), np.sin(turns)]), rate)
+    found[1] += found[0]
+    return found.reshape(len(found), 2, CELLS + 1)
+
+
+def fitted_losses(nodes: Array, chi: Array) -> tuple[Array, Array]:
+    """Return the spline coefficients of shear and flow, and of the flows of openings, as a table has them.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (3 + 2 openings, 2, cells_x + 1, cells_e, CELLS + 1)
+        Losses at all nodes.
+    chi : ndarray, shape (cells_x + 1,)
+        Their eccentricity ratios.
+    """
+    scale = np.sqrt((1.0 - chi) * (1.0 + chi)) ** np.array([[1.0], [1.0], [0.0]])
+    shear = (nodes[:3] * scale[:, None, :, None, None]).swapaxes(0, 1)
+    # A journal at rest, with a source of 1/s, has half a speed of 1/chi.
+    flows = nodes[3:, ..., CELLS // 2] * chi[:, None]
+    flows = flows.reshape(2, -1, *flows.shape[1:]).transpose(2, 0, 1, 3, 4)
+    shear, flows = (
+        periodic_quintic_coefficients(quintic_coefficients(each, axis), axis + 1)
+        for each, axis in ((shear, 2), (flows, 3))
+    )
+    return quintic_coefficients(shear, 4), flows
+
+
+def bound_losses(film: RingKernel, e: Array, w: Array) -> Array:
+    """Return shear, side flow and all that arrives at openings, (3, n), of a film at rest in (2, n)."""
+    found = film.losses(e, w, static_rate(e, w))
+    openings = (len(found) - 3) // 2
+    return np.stack([found[0] + found[1], found[2], found[3 + openings :].sum(axis=0)])
+
+
+def loss_errors(kernel: GrooveLossKernel, e: Array, w: Array, exact: Array) -> tuple[Array, Array]:
+    """Return the relative errors, (n,), of shear, and of the flow of fresh oil where openings replace all."""
+    film, streamers, flow = kernel.losses(e, w).losses
+    arriving = kernel.flows(e, static_rate(e, w))[1].sum(axis=0)
+    replaced = exact[1] + 2.0 * exact[2]
+    off = np.abs(flow - exact[1]) + 2.0 * np.abs(arriving - exact[2])
+    return np.abs((film + streamers) / exact[0] - 1.0), off / replaced
+
+
+def opening_runs(grooves: tuple[Groove, ...]) -> list[int]:
+    """Return the groove that each opening is of which a film tells losses; of those that touch, the first."""
+    order = sorted(range(len(grooves)), key=lambda k: (grooves[k].center - 0.5 * grooves[k].width) % TURN)
+    openings = FilmGeometry(grooves=grooves).openings()
+    gaps = [
+        (first.start - last.start) % TURN - last.extent
+        for first, last in zip(openings, openings[-1:] + openings[:-1], strict=True)
+    ]
+    apart = [k for k in range(1, len(order)) if gaps[k] > 0.0]
+    if apart and not gaps[0] > 0.0:
+        apart.pop()
+    return [order[k] for k in (0, *apart)]
+
+
+def images(grooves: tuple[Groove, ...], shift: float, *, mirrored: bool) -> list[int]:
+    """Return the groove at which each one lies after a turn by `shift`, mirrored in the axis before."""
+    places = [(-g.center if mirrored else g.center) + shift for g in grooves]
+    return [nearest(grooves, place) for place in places]
+
+
+def nearest(grooves: tuple[Groove, ...], angle: float) -> int:
+    """Return the number of the groove whose middle is nearest to an angle."""
+    return min(range(len(grooves)), key=lambda k: abs(math.remainder(grooves[k].center - angle, TURN)))
+
+
+def land_edges(grooves: tuple[Groove, ...]) -> Array:
+    """Return where the films between openings begin and end, shape (lands, 2) [rad]."""
+    lands = [span for span in FilmGeometry(grooves=grooves).spans() if span.held is None]
+    return np.array([(land.start, land.end) for land in lands])
+
+
+# How the map of a bearing with openings is made: potentials of the two-dimensional film, and their fit.
+
+
+ORDER = 4
+"""Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
+
+NODE_TIME = 1.4e-7
+"""Time of a node for each cell of the finest grid [s], on a core of 2023."""
+
+CHECK_NODES = 18
+"""Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
+
+LOSS_NODES = 6
+"""Nodes of the potential on a grid that take as long as one of the losses on it, whose film begins anew."""
+
+LOSS_CHECKS = 16
+"""The same of the losses at the states of the bounds."""
+
+TITLE = "map of the grooved bearing"
+
+HARMONICS = 20
+"""Of L0 and of dL/de at the center, over the direction of the source: beyond is the noise of the grid."""
+
+
+class Resolution(NamedTuple):
+    """Grid of the solver and nodes of the map.
+
+    Attributes
+    ----------
+    cells : (int, int)
+        Cells around the film and along half the length.
+    nodes : (int, int, int)
+        Nodes over the eccentricity ratio without the center, over its direction, and over that of the
+        source.
+    largest_eccentricity_ratio : float [1]
+        Of the last node.
+    """
+
+    cells: tuple[int, int]
+    nodes: tuple[int, int, int]
+    largest_eccentricity_ratio: float
+
+
+class _Center(NamedTuple):
+    """Spline coefficients of L0, (DIRECTIONS,), and of dL/de at the center, (DIRECTIONS, 2)."""
+
+    level: Array
+    slope: Array
+
+
+def build_groove_table(
+    openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report = silent
+) -> GrooveMapTable:
+    """Return the map of one bearing, made on all cores, with the bounds of its error.
+
+    Parameters
+    ----------
+    openings : AlignedOpenings
+    slenderness : float [1]
+        Length / diameter.
+    resolution : Resolution
+    report : callable, optional
+        Called with the fraction done and a text that says how long all of it takes, some hundred times.
+
+    Raises
+    ------
+    ConvergenceError
+        If the search for a ruptured zone does not end.
+    """
+    potential = _Solver(openings.grooves, slenderness, resolution.cells)
+    checks = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio)
+    around, along = resolution.cells
+    finer = opened_film(openings.grooves, slenderness, (2 * around, 2 * along))
+    solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
+    columns = [
+        partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
+    ]
+    losses = _Losses(openings, slenderness, resolution)
+    references = [
+        partial(made, film, e, w)
+        for made, film in ((reference, finer), (bound_losses, losses.finer))
+        for e, w in batches(checks.e, checks.w)
+    ]
+    center = _center(potential)
+    pieces: list[Sequence[Callable[[], Array]]] = [columns, losses.columns(solved), references]
+    found = iter(made_pieces([piece for group in pieces for piece in group], report, TITLE))
+    levels, nodes, exact = ([next(found) for _ in group] for group in pieces)
+    M = _exponents(center, np.reshape(levels, (len(solved), resolution.nodes[0], -1)), openings, resolution)
+    splines = _splines(M, resolution)
+    shear, flows = losses.fitted(np.array(nodes), solved)
+    table = GrooveMapTable(
+        slenderness=slenderness,
+        grooves=openings.grooves,
+        reach=float(stretch(resolution.largest_eccentricity_ratio)),
+        crowding=CROWDING,
+        log_center=center.level,
+        coefficients=splines,
+        shear=shear,
+        flows=flows,
+    )
+    half = len(exact) // 2
+    both = np.concatenate([np.concatenate(part, axis=1) for part in (exact[:half], exact[half:])])
+    return replace(table, bounds=checks.bounds(table, both))
+
+
+def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
+    """Return about how long a map takes on all cores of this machine [s], to weigh it against other films."""
+    cells_x, count_e, count_s = resolution.nodes
+    solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
+    states = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio).e.shape[1]
+    work = DIRECTIONS + solved * cells_x * count_s + (CHECK_NODES + LOSS_CHECKS) * states
+    losses = LOSS_NODES * solved * (cells_x + 1) * 2 * (CELLS + 1)
+    cells = math.prod(resolution.cells) * work + math.prod(loss_cells(resolution.cells)) * losses
+    return NODE_TIME * cells / cores()
+
+
+def _splines(M: Array, resolution: Resolution) -> Array:
+    """Return the coefficients of the spline that has M, (cells_x + 1, count_e, count_s), at its nodes."""
+    cells_x, count_e, count_s = resolution.nodes
+    # A step across the center turns e around, and with it the angle from e to w.
+    ghosts = -np.roll(M[:0:-1], (count_e // 2, count_s // 2), axis=(1, 2))
+    coefficients = quintic_coefficients(np.concatenate([ghosts, M]))[cells_x:]
+    for axis in (1, 2):
+        coefficients = periodic_quintic_coefficients(coefficients, axis)
+    return coefficients
+
+
+class _Losses:
+    """Shear and flow of one bearing at the nodes of their maps."""
+
+    def __init__(self, openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> None:
+        self._openings, self._count = openings, resolution.nodes[1]
+        self._film = opened_film(openings.grooves, slenderness, loss_cells(resolution.cells))
+        self.finer = opened_film(openings.grooves, slenderness, resolution.cells)
+        self._chi = loss_eccentricities(resolution.largest_eccentricity_ratio, resolution.nodes[0])
+
+    def columns(self, solved: np.ndarray) -> list[Callable[[], Array]]:
+        """Return the pieces of work for the directions of e that are solved, one for each eccentricity."""
+        turns = (TURN / self._count * solved).tolist()
+        return [partial(node_losses_between, self._film, chi, turn) for turn in turns for chi in self._chi]
+
+    def fitted(self, nodes: Array, solved: np.ndarray) -> tuple[Array, Array]:
+        """Return the splines of `fitted_losses` from losses at the solved nodes, ordered as `columns`."""
+        grooves, chi = self._openings.grooves, self._chi
+        rows, senses, places = nodes.shape[1:]
+        found = nodes.reshape(len(solved), len(chi), rows, senses, places)
+        whole = np.zeros((3 + 2 * len(grooves), senses, len(chi), self._count, places))
+        source, mirrored = symmetric_nodes(self._openings, self._count)
+        runs = np.array(opening_runs(grooves))
+        for j in range(self._count):
+            of = found[np.searchsorted(solved, source[j])].transpose(1, 2, 0, 3)
+            of = of[:, ::-1] if mirrored[j] else of
+            back = -source[j] if mirrored[j] else source[j]
+            at = np.array(images(grooves, TURN / self._count * (j - back), mirrored=bool(mirrored[j])))[runs]
+            whole[:3, :, :, j] = of[:3]
+            whole[3 + at, :, :, j] = of[3 : 3 + len(runs)]
+            whole[3 + len(grooves) + at, :, :, j] = of[3 + len(runs) :]
+        return fitted_losses(whole, chi)
+
+
+class _Solver:
+    """The potential of one bearing by Richardson extrapolation."""
+
+    def __init__(self, grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> None:
+        self._kernel = opened_film(grooves, slenderness, cells)
+
+    def level(self, e: Array, phi: Array) -> Array:
+        """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
+        return log_potential(self._kernel, e, phi)[0]
+
+    def center(self, phi: Array) -> tuple[Array, Array]:
+        """Return ln(-J), (D,), and d ln(-J)/de, (D, 2), of the centered journal."""
+        level, found = log_potential(self._kernel, np.zeros(2), phi, slopes=True)
+        return level, -(richardson(*found.slope[:2]) / np.exp(level)).T
+
+
+def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
+    """Return the angles of e, (count_e,), and those from e to w, (count_s,), of the nodes [rad]."""
+    s = TURN * np.arange(count_s) / count_s
+    return TURN * np.arange(count_e) / count_e, np.arctan2(np.sin(s), CROWDING * np.cos(s))
+
+
+def _center(potential: _Solver) -> _Center:
+    level, slope = (_smooth(each) for each in potential.center(TURN * np.arange(DIRECTIONS) / DIRECTIONS))
+    return _Center(periodic_quintic_coefficients(level), periodic_quintic_coefficients(slope))
+
+
+def _smooth(values: Array) -> Array:
+    """Return periodic values (n, ...) without their high harmonics.
+
+    The edge of the ruptured zone jumps from node to node as the source turns, which the second derivatives
+    would show: a quarter of the error of the damping matrix is left.
+    """
+    spectrum = np.fft.rfft(values, axis=0)
+    spectrum[HARMONICS + 1 :] = 0.0
+    return np.fft.irfft(spectrum, len(values), axis=0)
+
+
+def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
+    """Return e, (2,), and directions of the source, (count_s,), of the nodes in one direction of e."""
+    cells_x, count_e, count_s = resolution.nodes
+    theta, beta = node_angles(count_e, count_s)
+    along = np.array([np.cos(theta[j]), np.sin(theta[j])])
+    chi = node_eccentricities(resolution.largest_eccentricity_ratio, cells_x)
+    return [(eccentricity * along, theta[j] + beta) for eccentricity in chi[1:]]
+
+
+def _exponents(center: _Center, levels: Array, openings: AlignedOpenings, resolution: Resolution) -> Array:
+    """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) at those that were solved.
+
+    Parameters
+    ----------
+    levels : ndarray, shape (solved, cells_x, count_s)
+    """
+    cells_x, count_e, count_s = resolution.nodes
+    theta, beta = node_angles(count_e, count_s)
+    chi = node_eccentricities(resolution.largest_eccentricity_ratio, cells_x)
+    source, mirrored = symmetric_nodes(openings, count_e)
+    M = np.empty((cells_x + 1, count_e, count_s))
+    for j, level in zip(np.unique(source).tolist(), levels, strict=True):
+        turns = (theta[j] + beta) / TURN
+        M[0, j] = periodic_quintic(center.slope, turns) @ [np.cos(theta[j]), np.sin(theta[j])]
+        M[1:, j] = (level - periodic_quintic(center.level, turns)) / chi[1:, None]
+    opposite = -np.arange(count_s) % count_s
+    for j in range(count_e):
+        M[:, j] = M[:, source[j]][:, opposite] if mirrored[j] else M[:, source[j]]
+    return M
+
+
+def symmetric_nodes(openings: AlignedOpenings, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return for each direction of e the first one that is its image, (count,), and whether mirrored."""
+    step = count // openings.fold if count % openings.fold == 0 else count
+    nodes = np.arange(count)
+    source, mirrored = nodes % step, np.zeros(count, dtype=bool)
+    if openings.mirrored:
+        image = -nodes % step
+        mirrored = image < source
+        source = np.minimum(source, image)
+    return source, mirrored
+
+
+# How far a map with openings is off: bounds from a film on twice the cells, for a journal at rest.
+#
+# A journal at rest in a bearing that turns has its source across the eccentricity. The states lie
+# where the film is hardest to follow: towards the upper end of each band of eccentricity ratios, half
+# of them all round the turn and half with the minimum film beside an opening, where the film begins
+# or ends in the thinnest gap.
+
+
+BOUND_BANDS = (0.5, 0.8, 0.9)
+"""Eccentricity ratios between which the largest error is sought; the last band ends with the map."""
+
+STATES = 64
+"""In each band."""
+
+BESIDE = (-0.03, 0.3)
+"""Angles outwards from the edge of an opening, where half of the states have the minimum film [rad]."""
+
+
+class BoundStates:
+    """States of a journal at rest at which a map is compared with a finer film.
+
+    Parameters
+    ----------
+    grooves : tuple of Groove
+        The openings, from the axis of the map.
+    largest_eccentricity_ratio : float [1]
+        Of the map.
+    """
+
+    def __init__(self, grooves: tuple[Groove, ...], largest_eccentricity_ratio: float) -> None:
+        self.reaches = [*(band for band in BOUND_BANDS if band < largest_eccentricity_ratio)]
+        self.reaches.append(largest_eccentricity_ratio)
+        shares, turns = even_shares(STATES, 2)
+        lows = [0.0, *self.reaches[:-1]]
+        chi = np.concatenate(
+            [high - 0.5 * (high - low) * shares**2 for low, high in zip(lows, self.reaches, strict=True)]
+        )
+        half = STATES // 2
+        around = np.concatenate([TURN * turns[:half], _beside(grooves, turns[half:])])
+        theta = np.tile(around, len(self.reaches))
+        sense = np.tile([1.0, -1.0], len(chi) // 2)
+        self.e = chi * np.stack([np.cos(theta), np.sin(theta)])
+        self.w = sense * np.stack([np.sin(theta), -np.cos(theta)])
+
+    def bounds(self, table: GrooveMapTable, exact: Array) -> Array:
+        """Return the bounds of a map; see `GrooveMapTable`.
+
+        Parameters
+        ----------
+        table : GrooveMapTable
+        exact : ndarray, shape (13, n)
+            What `reference` and `bound_losses` return at all states.
+        """
+        kernel = GrooveMapKernel(
+            table.coefficients, table.reach, table.log_center, table.crowding, 0.0, table.slenderness
+        )
+        found = kernel.force(self.e, self.w).values, kernel.jacobian(self.e, self.w).values
+        errors = (
+            *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),
+            *loss_errors(table.loss_kernel(0.0), self.e, self.w, exact[10:]),
+        )
+        worst = (each.reshape(len(self.reaches), -1).max(axis=1) for each in errors)
+        return np.stack([self.reaches, *(MARGIN * each for each in worst)], axis=1)
+
+
+def _beside(grooves: tuple[Groove, ...], shares: Array) -> Array:
+    """Return an angle for each share of `BESIDE`, both senses of rotation and all edges in turn."""
+    edges = [(groove, side) for groove in grooves for side in (-1.0, 1.0)]
+    first, last = BESIDE
+    angles = []
+    for k, share in enumerate(shares.tolist()):
+        groove, side = edges[k // 2 % len(edges)]
+        angles.append(groove.center + side * (0.5 * groove.width + first + (last - first) * share))
+    return np.array(angles)

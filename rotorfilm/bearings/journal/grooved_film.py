@@ -1,0 +1,230 @@
+"""The impedance map of a bearing with axial grooves or several pads as a film law."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.errors import InputError, require_kind, require_number, require_positive
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...core.progress import Report, silent
+from ...core.sources import source_digest
+from ...native import GrooveMapKernel
+from ...native.loss_kernels import GrooveLossKernel
+from ..films.finite_volumes import are_counts, require_cells
+from ..films.geometry import STEPS, TURN, AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
+from ..films.kernel_film import KernelFilm
+from ..films.law import FilmLosses, kernel_losses, require_film, static_rate
+from ..films.map_table import cached_table, table_path, told
+from . import groove_map as groove_build
+from .groove_map import VERSION, GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
+from .map.map_film import MapFilm
+
+SAME = 2e-9
+"""Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""
+
+GROOVED_RANGE = (0.05, 20.0)
+"""Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
+
+
+class _Key(NamedTuple):
+    """What decides the content of a map."""
+
+    openings: AlignedOpenings
+    slenderness: float
+    resolution: Resolution
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class GroovedMapFilm(KernelFilm):
+    """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.
+
+    The openings are at ambient pressure. As in `MapFilm` the force is F = dJ/dw of a tabulated potential
+    J(e, w), here over two angles (`native/films/groove_kernel.h`): the damping matrix is symmetric, and the
+    derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
+    in a plain bearing: by name it is needed for its parameters only.
+
+    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made
+    from some 10^4 solutions of the two-dimensional film on first use, which takes some seconds on all cores,
+    and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
+    `build_groove_map` makes it beforehand and says how far it is.
+
+    Beyond the largest eccentricity ratio J goes on as the film at the wall (`native/films/wall.h`), as far
+    as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an
+    edge.
+
+    Parameters
+    ----------
+    cells : (int, int)
+        Cells of the two-dimensional film around it and along half the length: multiples of 4, at least 16
+        and 4.
+    nodes : (int, int, int)
+        Nodes of the map over the eccentricity ratio (at least 6), and over the directions of the
+        eccentricity and of the source (even, at least 12).
+    largest_eccentricity_ratio : float [1]
+        Of the last node.
+    table : GrooveMapTable, optional
+        The map, where it is there already: nothing is then built nor looked for.
+    geometry : FilmGeometry
+        Set by `fitted`, from the geometry of the bearing.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, an opening is wider than 60 deg, there is a supply pressure,
+        or the table is that of other openings.
+    """
+
+    cells: tuple[int, int] = (192, 12)
+    nodes: tuple[int, int, int] = (12, 72, 48)
+    largest_eccentricity_ratio: float = 0.97
+    table: GrooveMapTable | None = None
+    geometry: FilmGeometry = field(default_factory=FilmGeometry)
+
+    def __post_init__(self) -> None:
+        require_cells(self.cells)
+        if not are_counts(self.nodes, (6, 12, 12), (1, 2, 2)):
+            raise InputError(f"nodes must be at least (6, 12, 12), the last two even, got {self.nodes!r}")
+        if not 0.0 < require_number("largest_eccentricity_ratio", self.largest_eccentricity_ratio) < 1.0:
+            raise InputError(
+                f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"
+            )
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
+        require_kind("table", self.table, GrooveMapTable | None, "a GrooveMapTable")
+        if not self.geometry.plain:
+            require_mappable(self.geometry)
+            if self.table is not None:
+                require_same_openings(self.table, aligned_openings(self.geometry))
+
+    @property
+    def slenderness_range(self) -> tuple[float, float]:
+        """Smallest and largest length/diameter that this film takes."""
+        if self.table is None:
+            return GROOVED_RANGE
+        return self.table.slenderness * (1.0 - SAME), self.table.slenderness * (1.0 + SAME)
+
+    def fitted(self, geometry: FilmGeometry) -> GroovedMapFilm | MapFilm:
+        """Return this film in a bearing of the given geometry; in a plain one that is `MapFilm()`."""
+        if geometry.plain and self.table is None:
+            return MapFilm()
+        if geometry.plain:
+            raise InputError("table must be that of the bearing, got one with openings; take MapFilm()")
+        return dataclasses.replace(self, geometry=geometry)
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
+        tables = self._kernel(slenderness).tables
+        numbers = np.array([slenderness, *tables["map"][1:]])
+        return "grooved_journal", {**tables, "map": numbers}
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow from the maps, with slopes; see `FilmOptions`.
+
+        The film begins, and the streamers run, as those of a journal at rest with the source w; what leaves
+        openings and arrives there is that of a journal at rest, for oil that runs at the rate.
+        """
+        flat = e.reshape(2, -1), w.reshape(2, -1)
+        require_film(flat[0])
+        kernel = self.loss_kernel(slenderness)
+        along = static_rate(e, w) if rate is None else np.broadcast_to(rate, e.shape[1:])
+        openings, aligned = self.geometry.openings(), aligned_openings(self.geometry)
+        middles = [opening.start + 0.5 * opening.extent - aligned.axis for opening in openings]
+        places = [nearest(aligned.grooves, middle) for middle in middles]
+        flows = kernel.flows(flat[0], along.ravel())[:, places].reshape(2, -1, *e.shape[1:])
+        found = kernel_losses(kernel, e, w, self.geometry)
+        return found._replace(inflow=flows[0], arriving=flows[1])
+
+    def loss_kernel(self, slenderness: float) -> GrooveLossKernel:
+        """Return shear and flow of the map in compiled code; see `FilmOptions`."""
+        return _loss_kernel(self, float(slenderness))
+
+    def tabulated(self, slenderness: float) -> GroovedMapFilm:
+        """Return this film with its table; see `FilmOptions`."""
+        return dataclasses.replace(self, table=self.built_table(slenderness)) if self.table is None else self
+
+    def built_table(self, slenderness: float, report: Report = silent) -> GrooveMapTable:
+        """Return the map of this film: the given one, the one on disk, or a new one, which is then kept.
+
+        Parameters
+        ----------
+        slenderness : float [1]
+            Length / diameter; of a new map rounded to nine digits.
+        report : callable, optional
+            Called with the fraction done, 0 to 1, and a text while a map is being made. Without it the log
+            says that one is being made.
+
+        Raises
+        ------
+        InputError
+            If the film has no openings, or the slenderness is outside `slenderness_range`.
+        """
+        require_positive("length/diameter", slenderness)
+        low, high = self.slenderness_range
+        if not low <= slenderness <= high:
+            raise InputError(
+                f"length/diameter must be {low:.9g} to {high:.9g} for this map, got {slenderness!r}"
+            )
+        if self.table is not None:
+            return self.table
+        key = self._key(slenderness)
+        path = cache_path(*key)
+        telling = told(report, f"length/diameter {key.slenderness:.6g}", path.parent)
+        return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
+
+    def making_time(self, slenderness: float) -> float:
+        """Return about how long making the map takes on this machine [s]; 0 where it is there, or on disk."""
+        if self.table is not None:
+            return 0.0
+        key = self._key(slenderness)
+        return 0.0 if cache_path(*key).is_file() else expected_time(key.openings, key.resolution)
+
+    def _key(self, slenderness: float) -> _Key:
+        # So that L/D = 1/3 and its nine digits share a map.
+        rounded = float(f"{slenderness:.9g}")
+        resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
+        return _Key(aligned_openings(self.geometry), rounded, resolution)
+
+    def _kernel(self, slenderness: float) -> GrooveMapKernel:
+        return _kernel(self, float(slenderness))
+
+
+@lru_cache(maxsize=64)
+def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
+    table = film.built_table(slenderness)
+    axis = aligned_openings(film.geometry).axis
+    numbers = table.crowding, axis, table.slenderness
+    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
+
+
+@lru_cache(maxsize=64)
+def _loss_kernel(film: GroovedMapFilm, slenderness: float) -> GrooveLossKernel:
+    return film.built_table(slenderness).loss_kernel(aligned_openings(film.geometry).axis)
+
+
+def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:
+    """Raise InputError unless a table is that of these openings."""
+    same = len(table.grooves) == len(openings.grooves) and all(
+        abs(a.center - b.center) <= SAME and abs(a.width - b.width) <= SAME
+        for a, b in zip(table.grooves, openings.grooves, strict=True)
+    )
+    if not same:
+        raise InputError(f"openings must be those of the table, {table.grooves!r}, got {openings.grooves!r}")
+
+
+# Maps of bearings with openings on disk: found again by what they depend on.
+
+
+def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> Path:
+    """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
+    angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
+    steps = [round(angle / TURN * STEPS) for angle in angles]
+    key = VERSION, source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution
+    return table_path("groove", key)

@@ -1,1 +1,0 @@
-"""The temperature over a journal film, and across it, as a field."""

@@ -1,0 +1,518 @@
+"""A journal film with the temperature of its oil over it, or over and across it (T2 and T3)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core.errors import (
+    ConvergenceError,
+    InputError,
+    require_inside,
+    require_kind,
+    require_number,
+    require_pair,
+)
+from ...core.inputs import arguments, quantities
+from ...core.model import Array
+from ...core.readable import Readable
+from ..films.finite_volumes import require_cells
+from ..films.mass_conserving import Fluidity
+from ..oil import Cooling, Oil
+from .bearing import FilmAtRest, JournalBearing
+from .energy_equation import AdiabaticWalls, Heating, HeatSolution, MeanTemperature, WallResponse, Walls
+from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells
+from .reynolds_film import ReynoldsFilm
+
+# Film and temperature solved in turn until both rest: what films with a field share (T2 and T3).
+
+
+FREE_ROUNDS, PATIENT_ROUNDS, MOST_ROUNDS = 8, 20, 60
+"""Rounds of film and temperature in turn that take each other's answers as they are, that must come to rest,
+and that may come to what a node at the edge of the film is worth."""
+
+SETTLED, ONE_NODE = 1e-5, 2e-3
+"""Largest relative change of force and power, and of position/clearance, of the last round then."""
+
+
+@runtime_checkable
+class FilmProfile(Protocol):
+    """What a film knows of the temperature across it: `MeanTemperature` or `LayeredTemperature`."""
+
+    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
+        """Return the shape of the temperature of some cells (N, M)."""
+
+    def fluidity(self, viscosity: Array) -> Fluidity:
+        """Return how easily oil of a relative viscosity flows."""
+
+    def warm(self, heating: Heating) -> HeatSolution:
+        """Return the temperature of a film."""
+
+
+class HeatRounds:
+    """Rounds of a film that a subclass solves in `_round`, on cells that `_shape` counts."""
+
+    order: ClassVar[int] = 1
+    """Order of convergence of temperature and power in the size of the cells: heat moves upwind."""
+
+    if TYPE_CHECKING:  # fields of a subclass, or its properties
+
+        @property
+        def bearing(self) -> JournalBearing:
+            """The bearing, with oil and cooling."""
+
+        walls: Walls
+        profile: FilmProfile
+
+    def _require_heat(self) -> None:
+        """Raise InputError where a field breaks its rule."""
+        oil_and_cooling(self.bearing)
+        require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
+        require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
+
+    def _shape(self) -> tuple[int, int]:
+        """Return the number of lines, and of cells on each."""
+        raise NotImplementedError
+
+    def _round(
+        self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
+    ) -> HeatedState:
+        """Return one round; arguments are checked, those of `warmed` and the temperature of the viscosity."""
+        raise NotImplementedError
+
+    @property
+    def supply_temperature(self) -> float:
+        """Temperature of the fresh oil [K]."""
+        return oil_and_cooling(self.bearing)[1].supply_temperature
+
+    @arguments
+    def solve(self, position: ArrayLike, speed: float) -> HeatedState:
+        """Return the film with its temperature for a journal at rest.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+            Of the journal's center.
+        speed : float [rad/s]
+            Angular speed about +z, of either sign, not 0.
+
+        Raises
+        ------
+        InputError
+            If an argument breaks its rule.
+        FilmContactError
+            If the journal touches the wall.
+        ConvergenceError
+            If the temperature does not settle.
+        """
+        state = self.warmed(position, speed)
+        for _ in range(MOST_ROUNDS):
+            before, state = state, self.warmed(position, speed, state)
+            if self.is_settled(before, state):
+                return self.warmed(position, speed, state, closing=True)
+        raise _unsettled(state)
+
+    def warmed(
+        self, position: ArrayLike, speed: float, before: HeatedState | None = None, *, closing: bool = False
+    ) -> HeatedState:
+        """Return one round: the film of the viscosity that a state has, and the temperature that it gets.
+
+        Parameters
+        ----------
+        position, speed
+            As in `solve`.
+        before : HeatedState, optional
+            A state of this film nearby; fresh oil by default.
+        closing : bool
+            Whether the heat is that of this viscosity, to the last digit the power of the torque, and not
+            already less where the oil gets warmer. Rounds come to rest slowly with it, or not at all.
+        """
+        T = self._fresh() if before is None else _next_temperature(before)
+        return self._round(*self._checked(position, speed), T, before, closing)
+
+    def warmed_from(
+        self, position: ArrayLike, speed: float, temperature: ArrayLike, *, closing: bool = False
+    ) -> HeatedState:
+        """Return one round that starts from a temperature of the film [K], its shape `profile.shape`, or one.
+
+        Parameters
+        ----------
+        position, speed, closing
+            As in `warmed`.
+        temperature : array_like [K]
+            Such as that of a cheaper film; it broadcasts to the cells.
+        """
+        T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
+        return self._round(*self._checked(position, speed), T, None, closing)
+
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
+        """Return the film of the viscosity at a temperature [K], as it is fed at a position [m]."""
+        raise NotImplementedError
+
+    def following(self, state: HeatedState) -> Any:
+        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
+        return self.frozen(state.position, state.speed, state.oil_temperature)
+
+    def is_settled(self, before: HeatedState, state: HeatedState) -> bool:
+        """Return whether the last round has changed hardly anything."""
+        power = abs(state.power_loss - before.power_loss) / abs(state.power_loss)
+        force = np.hypot(*(state.force - before.force)) / np.hypot(*state.force)
+        moved = np.hypot(*(state.position - before.position)) / self.bearing.clearance
+        allowed = SETTLED if state.rounds <= PATIENT_ROUNDS else ONE_NODE
+        return bool(max(power, force, moved) <= allowed)
+
+    def _checked(self, position: ArrayLike, speed: float) -> tuple[Array, float]:
+        q, omega = require_pair("position", position), require_number("speed", speed)
+        if omega == 0.0:
+            raise InputError("speed must not be 0 for a film that shear warms, got 0")
+        require_inside(q, self.bearing.clearance)
+        return q, omega
+
+    def _fresh(self) -> Array:
+        return np.full(self.profile.shape(self._shape()), self.supply_temperature)
+
+    def _viscosity(self, temperature: Array) -> Array:
+        """Return the viscosity over that of the bearing."""
+        return oil_and_cooling(self.bearing)[0].law.viscosity(temperature) / self.bearing.film_viscosity
+
+    def _heating(
+        self, opening: np.ndarray, flow: FilmFlow, speed: float, temperature: Array, closing: bool
+    ) -> Heating:
+        """Return what warms a film whose cells have a temperature and openings (N, M), walls left out."""
+        bearing, (oil, cooling) = self.bearing, oil_and_cooling(self.bearing)
+        per_gap = volumetric_heat(bearing) * bearing.clearance**2
+        return Heating(
+            opening=opening,
+            flow=flow,
+            speed=speed,
+            viscosity=self._viscosity(temperature),
+            thinning=np.zeros(temperature.shape) if closing else oil.law.thinning(temperature),
+            temperature=temperature - self.supply_temperature,
+            heat_scale=bearing.film_viscosity * bearing.radius**2 / per_gap,
+            diffusion=oil.conductivity / per_gap,
+            carry_over=cooling.carry_over,
+            walls=None,
+        )
+
+    def _walls(self, start: Array, extent: Array) -> WallResponse | None:
+        """Return the response of the walls of lines in the units of the heat equations; None without one."""
+        if self.walls.adiabatic:
+            return None
+        found = self.walls.response(self.bearing.radius, start, extent)
+        unit = heat_unit(self.bearing)
+        along = unit / self.bearing.film_length
+        return found._replace(
+            spread=along * found.spread,
+            take=along * found.take,
+            ambient=found.ambient - self.supply_temperature,
+            shaft_take=unit * found.shaft_take,
+            shaft_ambient=found.shaft_ambient - self.supply_temperature,
+        )
+
+
+def _next_temperature(before: HeatedState) -> Array:
+    """Return the temperature at which the next round takes the viscosity.
+
+    The edge of the ruptured zone moves by whole cells, between two of which rounds may go to and fro: after
+    `FREE_ROUNDS` they take ever smaller shares of the change, and nodes left empty stay so.
+    """
+    share = min(1.0, FREE_ROUNDS / before.rounds)
+    return before.film_temperature + share * (before.oil_temperature - before.film_temperature)
+
+
+def _unsettled(state: HeatedState) -> ConvergenceError:
+    """Return the error of a temperature that changes from round to round."""
+    return ConvergenceError(
+        f"the temperature of the film must settle within {MOST_ROUNDS} rounds, and did not at position "
+        f"{state.position.tolist()} m and speed {state.speed:g} rad/s",
+        state,
+    )
+
+
+# A journal film with the temperature of its oil over it, or over and across it (T2 and T3).
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class HeatedFilm(HeatRounds):
+    """The film of a journal bearing with oil and cooling, its temperature a field.
+
+    The film is that of Reynolds' equation with rupture, on finite volumes, its viscosity that of the oil at
+    the temperature of each cell; the temperature is that of the oil which the same film moves. Both are
+    solved in turn. The fall of heat with temperature is a part of the energy equation, so that few rounds
+    do. Oil starts a film only where there is oil: at an opening, where streamers fill the gap again, and in a
+    bearing without openings where Reynolds' equation says.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
+        housing have no part.
+    walls : Walls
+        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
+    cells : tuple of int
+        Cells around the film and along half the length, as of `ReynoldsFilm`.
+    profile : FilmProfile
+        `MeanTemperature()`, or `LayeredTemperature(...)` for the temperature across the film too.
+
+    Raises
+    ------
+    InputError
+        If the bearing lacks oil or cooling, or another argument breaks its rule.
+
+    Examples
+    --------
+    >>> from rotorfilm.bearings.oil import Cooling, Oil
+    >>> cooling = Cooling(supply_temperature=318.15)
+    >>> size = dict(radius=0.05, length=0.05, clearance=75e-6)
+    >>> bearing = JournalBearing(**size, oil=Oil.iso_vg(46), cooling=cooling)
+    >>> state = HeatedFilm(bearing=bearing).solve(position=[20e-6, -30e-6], speed=314.2)
+    >>> round(state.maximum_temperature - 273.15)
+    78
+    """
+
+    bearing: JournalBearing
+    walls: Walls = field(default_factory=AdiabaticWalls)
+    cells: tuple[int, int] = (80, 8)
+    profile: FilmProfile = field(default_factory=MeanTemperature)
+
+    def __post_init__(self) -> None:
+        require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
+        self._require_heat()
+        self.bearing.geometry.require_whole_length("HeatedFilm", "HeatedJFOFilm")
+        require_cells(self.cells)
+
+    def cold(self) -> FrozenFilm:
+        """Return the film of fresh oil, whose lines are where they are for a centered journal."""
+        return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None)
+
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenFilm:
+        """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
+        e = np.asarray(position) / self.bearing.clearance
+        film = self._frozen(e, np.broadcast_to(temperature, self._fresh().shape))
+        return fed_film(film, e, speed, full_gap=oil_and_cooling(self.bearing)[1].full_gap)[0]
+
+    def _shape(self) -> tuple[int, int]:
+        return self._cells(np.zeros(2)).shape
+
+    def _round(
+        self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
+    ) -> HeatedState:
+        bearing, e, rounds = self.bearing, position / self.bearing.clearance, 1
+        film, settled = self._frozen(e, temperature), False
+        if before is not None:
+            rounds, settled = before.rounds + 1, before.rounds >= FREE_ROUNDS
+            if settled:
+                empty = before.film.empty if film.cells.held.any() else _before_start(before)
+                film = replace(film, empty=empty)
+        full_gap = oil_and_cooling(bearing)[1].full_gap
+        film, found, flow = fed_film(film, e, speed, full_gap=full_gap, settled=settled)
+        cells = film.cells
+        opening = np.broadcast_to(cells.opening[:, None], cells.shape)
+        heating = self._heating(opening, flow, speed, temperature, closing)
+        warm = self.profile.warm(heating._replace(walls=self._walls(cells.start, cells.extent)))
+        seen = FoundFilm(
+            force=bearing.force_scale * found.force(cells),
+            angle=cells.theta % (2.0 * np.pi),
+            axial=0.5 * bearing.length * np.append(0.0, np.cumsum(1.0 / cells.conductance)),
+            pressure=bearing.pressure_scale * np.pad(found.solution.pressure, ((0, 0), (0, 1))),
+            pumped=bearing.force_scale * bearing.clearance * found.pumped(cells),
+            side_flow=bearing.clearance * bearing.radius * bearing.length * flow.side_flow,
+        )
+        return heated_state(
+            bearing, HeatRound(position, speed, rounds, temperature, opening, film, seen, flow, warm)
+        )
+
+    def _cells(self, eccentricity: Array) -> FilmCells:
+        bearing = self.bearing
+        film = ReynoldsFilm(cells=self.cells, geometry=bearing.geometry)
+        spans, grids = film.grids(bearing.slenderness)
+        return film_cells(spans, grids[0], bearing.slenderness, eccentricity)
+
+    def _frozen(self, eccentricity: Array, temperature: Array) -> FrozenFilm:
+        """Return the film of the viscosity that oil has at a temperature."""
+        x, y = eccentricity * self.bearing.clearance
+        cells = self._cells(eccentricity)
+        return FrozenFilm(
+            cells=cells,
+            fluidity=self.profile.fluidity(self._viscosity(temperature)),
+            empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
+            clearance=self.bearing.clearance,
+            force_per_rate=self.bearing.force_scale,
+            frozen_at=(float(x), float(y)),
+        )
+
+
+def _before_start(state: HeatedState) -> np.ndarray:
+    """Return the empty nodes of a plain bearing that no film is before, (N, M): none starts there."""
+    sense = 1 if state.speed > 0.0 else -1
+    full = state.pressure[:, :-1] > 0.0
+    return np.asarray(state.film.empty | ~(full | np.roll(full, sense, axis=0)))
+
+
+# What a film that warms says at one place of the journal: temperatures, forces, and where its heat goes.
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatAccount(Readable):
+    """Where the heat of a bearing comes from and goes to.
+
+    Attributes
+    ----------
+    made : float [W]
+        By shear, and by the flow under pressure.
+    leaked : float [W]
+        Above the temperature of the supply, with the oil that leaves the film sideways.
+    drained : float [W]
+        With the oil that leaves through openings, less what they give to the film again.
+    into_bush, into_journal : float [W]
+        Conducted from the oil.
+    """
+
+    made: float
+    leaked: float
+    drained: float
+    into_bush: float
+    into_journal: float
+
+    @property
+    def missing(self) -> float:
+        """What is not accounted for [W]."""
+        return self.made - self.leaked - self.drained - self.into_bush - self.into_journal
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeatedState(FilmAtRest):
+    """A film with its temperature, for a journal at rest; N lines with M nodes on each.
+
+    Attributes
+    ----------
+    axial : ndarray, shape (M,) [m]
+        Nodes from the middle of the bearing to its end; the film is symmetric.
+    pressure : ndarray, shape (N, M) [Pa]
+        Gauge pressure.
+    filled : ndarray, shape (N, M) [1]
+        Share of the gap that oil fills: 1 in the film, less in the ruptured zone, 0 in openings.
+    oil_temperature : ndarray, shape (N, M) or (N, M, layers) [K]
+        The mean across the film, or that of its layers from the bush to the journal.
+    bush_temperature : ndarray, shape (N,), or None [K]
+        At the bore; None for walls that take no heat.
+    journal_temperature : float or None [K]
+        Of the whole journal.
+    maximum_temperature : float [K]
+        Of the oil in the film.
+    power_loss : float [W]
+        Power of the shaft that becomes heat.
+    friction_torque : float [N m]
+        About +z, that keeps the journal turning.
+    side_flow : float [m3/s]
+        Oil that leaves through both ends of the film.
+    heat : HeatAccount
+    film : FrozenFilm or FrozenJFOFilm
+        The film at frozen temperature: a Reaction with exact derivatives.
+    film_temperature : ndarray, shape of oil_temperature [K]
+        At which the film has its viscosity; that of the oil when the rounds have come to rest.
+    rounds : int
+        Solutions of film and heat in turn until here.
+    """
+
+    axial: Array
+    pressure: Array
+    filled: Array
+    oil_temperature: Array
+    bush_temperature: Array | None
+    journal_temperature: float | None
+    maximum_temperature: float
+    power_loss: float
+    friction_torque: float
+    side_flow: float
+    heat: HeatAccount
+    film: Any
+    film_temperature: Array
+    rounds: int
+
+
+class FoundFilm(NamedTuple):
+    """What a film says without its heat, in units of `HeatedState`; `pumped` is the supply's power [W]."""
+
+    force: Array
+    angle: Array
+    axial: Array
+    pressure: Array
+    pumped: float
+    side_flow: float
+
+
+class HeatRound(NamedTuple):
+    """One round of film and heat: the journal, the temperature of its viscosity, and what it found."""
+
+    position: Array
+    speed: float
+    rounds: int
+    temperature: Array
+    opening: np.ndarray
+    film: Any
+    found: FoundFilm
+    flow: FilmFlow
+    warm: HeatSolution
+
+
+def oil_and_cooling(bearing: JournalBearing) -> tuple[Oil, Cooling]:
+    """Return oil and cooling of a bearing; InputError if one of them is not given."""
+    oil, cooling = bearing.oil, bearing.cooling
+    if oil is None or cooling is None:
+        raise InputError(f"oil and cooling must be given for a film that warms, got {oil!r} and {cooling!r}")
+    return oil, cooling
+
+
+def volumetric_heat(bearing: JournalBearing) -> float:
+    """Return the heat capacity of fresh oil per volume [J/(m^3 K)]."""
+    oil, cooling = oil_and_cooling(bearing)
+    return float(oil.volumetric_heat(cooling.supply_temperature))
+
+
+def heat_unit(bearing: JournalBearing) -> float:
+    """Return the heat flow [W/K] of oil that flows at 1/s in the units of the film, in both its halves."""
+    return volumetric_heat(bearing) * bearing.clearance * bearing.radius * bearing.film_length
+
+
+def heated_state(bearing: JournalBearing, done: HeatRound) -> HeatedState:
+    """Return what a round has found, in SI units."""
+    return HeatedState(**state_fields(bearing, done))
+
+
+def state_fields(bearing: JournalBearing, done: HeatRound) -> dict[str, Any]:
+    """Return the fields of the state that a round has found."""
+    found, warm = done.found, done.warm
+    T_s, unit = oil_and_cooling(bearing)[1].supply_temperature, heat_unit(bearing)
+    made = unit * warm.made
+    power = made - found.pumped
+    return {
+        "position": done.position,
+        "speed": done.speed,
+        "force": found.force,
+        "angle": found.angle,
+        "axial": found.axial,
+        "pressure": found.pressure,
+        "filled": done.flow.filled,
+        "oil_temperature": T_s + warm.oil,
+        "bush_temperature": None if warm.walls is None else T_s + warm.walls.bush,
+        "journal_temperature": None if warm.walls is None else T_s + warm.walls.journal,
+        "maximum_temperature": T_s + float(warm.oil[done.opening < 0].max()),
+        "power_loss": power,
+        "friction_torque": power / done.speed,
+        "side_flow": found.side_flow,
+        "heat": HeatAccount(
+            made=made,
+            leaked=unit * warm.leaked,
+            drained=unit * warm.drained,
+            into_bush=unit * warm.to_bush,
+            into_journal=unit * warm.to_journal,
+        ),
+        "film": done.film,
+        "film_temperature": done.temperature,
+        "rounds": done.rounds,
+    }

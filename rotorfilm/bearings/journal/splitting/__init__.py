@@ -1,1 +1,0 @@
-"""Films by splitting: products of axial and circumferential functions."""

@@ -1,1 +1,0 @@
-"""Ball bearings whose cage turns, and all five degrees of freedom as a model."""

@@ -1,0 +1,187 @@
+"""A ring that a rotor rubs in where its motion is wider than the gap: contact, friction, impacts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.errors import keep_pair, require_each, require_non_negative, require_positive
+from ..core.inputs import quantities
+from ..core.model import Array
+from ..core.signals import Signal, journal_inputs
+from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, input_vector
+
+
+class RubContact(NamedTuple):
+    """A rotor in its ring.
+
+    Attributes
+    ----------
+    depth : ndarray, shape (...) [m]
+        How far it is in the ring; negative without contact.
+    normal_force : ndarray, shape (...) [N]
+        With which the ring pushes it back, never negative.
+    friction_force : ndarray, shape (...) [N]
+        On the rotor, positive about +z.
+    slip : ndarray, shape (...) [m/s]
+        Velocity of its surface along the ring, positive about +z.
+    """
+
+    depth: Array
+    normal_force: Array
+    friction_force: Array
+    slip: Array
+
+
+class _Frame(NamedTuple):
+    """Distance from the center, the directions out and along, the velocities in both, contact or not."""
+
+    distance: Array
+    out: Array
+    along: Array
+    sinking: Array
+    sliding: Array
+    touches: Array
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class RubRing(StaticReaction):
+    """A stator ring around a rotor: a Reaction that is zero within the gap.
+
+    With the depth d = |position - ring_center| - gap > 0 and the slip s of the surface along the ring
+
+        normal force = stiffness d (1 + dissipation d'), not below 0,
+        friction = -friction_coefficient normal force s / sqrt(s^2 + slip_velocity^2).
+
+    Parameters
+    ----------
+    gap : float [m]
+        Radial gap between rotor and ring.
+    stiffness : float [N/m]
+        Of the contact and of what the ring is fixed to, along the depth.
+    radius : float [m]
+        Of the rotor where it touches.
+    friction_coefficient : float [1]
+        Of Coulomb, at full slip.
+    slip_velocity : float [m/s]
+        Slip at which friction has 0.71 of its full size: below it sticking is a slow creep.
+    dissipation : float [s/m]
+        Losses of an impact, which leaves with 1 - (2/3) dissipation * velocity of its velocity, where that is
+        near 1. The force starts from 0 at any velocity (Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445).
+    ring_center : tuple of two floats [m]
+        Of the ring.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+
+    Examples
+    --------
+    >>> ring = RubRing(gap=2e-4, stiffness=1e7, radius=0.05, friction_coefficient=0.1)
+    >>> ring(position=[2.1e-4, 0.0], velocity=[0.0, 0.0], speed=100.0).round(3)
+    array([-100.,  -10.])
+    """
+
+    gap: float
+    stiffness: float
+    radius: float
+    friction_coefficient: float = 0.0
+    slip_velocity: float = 0.01
+    dissipation: float = 0.0
+    ring_center: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "gap", "stiffness", "radius", "slip_velocity")
+        require_each(self, require_non_negative, "friction_coefficient", "dissipation")
+        keep_pair(self, "ring_center")
+
+    @property
+    def clearance(self) -> float:
+        """Infinite: the rotor may go into the ring."""
+        return math.inf
+
+    @property
+    def nominal_force(self) -> float:
+        """Normal force a hundredth of the gap deep [N]."""
+        return 0.01 * self.stiffness * self.gap
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return journal_inputs(self.gap, NOMINAL_SPEED)
+
+    @property
+    def numbers(self) -> Array:
+        """The parameters as the C library reads them (rf_rub of rub.h), shape (8,)."""
+        contact = (self.friction_coefficient, self.slip_velocity, self.dissipation)
+        return np.array([self.gap, self.stiffness, self.radius, *contact, *self.ring_center])
+
+    def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the depth in gaps, shape (1,): contact begins and ends where it changes sign."""
+        values = input_vector(u)
+        away = values[:2] - np.array(self.ring_center)
+        return np.array([math.hypot(*away) / self.gap - 1.0])
+
+    def contact(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> RubContact:
+        """Return depth, forces and slip of a rotor; the arguments are those of `force`."""
+        q, v, omega = broadcast_state(position, velocity, speed)
+        at = self._frame(q, v)
+        slip = at.sliding + self.radius * omega
+        normal = self._normal(at)
+        return RubContact(at.distance - self.gap, normal, -normal * self._rubbed(slip), slip)
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape."""
+        at = self._frame(position, velocity)
+        rubbed = self._rubbed(at.sliding + self.radius * speed)
+        return -self._normal(at) * (at.out + rubbed * at.along)
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape."""
+        at = self._frame(position, velocity)
+        n, t, e = at.out, at.along, at.distance
+        slip = at.sliding + self.radius * speed
+        normal, rubbed, sharper = self._normal(at), self._rubbed(slip), self._sharper(slip)
+        pressed = np.where(normal > 0.0, self.stiffness, 0.0)
+        depth, lost = e - self.gap, self.dissipation
+        by_place = pressed * ((1.0 + lost * at.sinking) * n + depth * lost * at.sliding / e * t)
+        by_rate = pressed * depth * lost * n
+        # The directions turn with the place: dn = t (t.dq)/e, dt = -n (t.dq)/e.
+        turned = normal / e * (t - rubbed * n - sharper * at.sinking * t)
+        slopes = np.zeros((2, 5, *e.shape))
+        push = n + rubbed * t
+        slopes[:, :2] = -push[:, None] * by_place - turned[:, None] * t
+        slopes[:, 2:4] = -push[:, None] * by_rate - (normal * sharper * t)[:, None] * t
+        slopes[:, 4] = -normal * sharper * self.radius * t
+        return slopes
+
+    def _frame(self, position: Array, velocity: Array) -> _Frame:
+        away = position - np.reshape(self.ring_center, (2, *(1,) * (position.ndim - 1)))
+        distance = np.hypot(away[0], away[1])
+        touches = distance > self.gap
+        distance = np.where(touches, distance, np.maximum(distance, np.finfo(float).tiny))
+        out = away / distance
+        along = np.stack([-out[1], out[0]])
+        return _Frame(
+            distance, out, along, np.sum(out * velocity, axis=0), np.sum(along * velocity, axis=0), touches
+        )
+
+    def _normal(self, at: _Frame) -> Array:
+        """Return the normal force, shape (...)."""
+        pressed = self.stiffness * (at.distance - self.gap) * (1.0 + self.dissipation * at.sinking)
+        return np.where(at.touches, np.maximum(pressed, 0.0), 0.0)
+
+    def _rubbed(self, slip: Array) -> Array:
+        """Return the friction per normal force, of the sign of the slip."""
+        return self.friction_coefficient * slip / np.hypot(slip, self.slip_velocity)
+
+    def _sharper(self, slip: Array) -> Array:
+        """Return its derivative by the slip."""
+        v = self.slip_velocity
+        return np.asarray(self.friction_coefficient * v**2 / np.hypot(slip, v) ** 3)

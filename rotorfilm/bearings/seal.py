@@ -1,0 +1,526 @@
+"""The plain annular seal of a pump: what leaks holds the shaft, damps it, and moves along as a mass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike
+
+from ..core.errors import (
+    InputError,
+    require_finite,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+    warn_user,
+)
+from ..core.inputs import in_si, quantities
+from ..core.model import Array
+from ..core.readable import Readable
+from .reaction import InertialModel, broadcast_state, require_size, without_overflow
+
+# The steady flow through a plain annular gap around a shaft in its middle.
+
+
+ROUNDS = 100
+"""Steps of Newton's method, which falls monotonically to the root and needs a few."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class HirsFriction:
+    """Friction of a fluid at a wall: stress = (1/2) density W^2 coefficient Re^exponent, Re = 2 W h/nu.
+
+    W is the mean velocity relative to that wall and h the gap, of which 2 h is the hydraulic diameter (Hirs
+    1973, J. Lubr. Technol. 95, 137-146). The default is that of Blasius for smooth walls, from a Reynolds
+    number of 3000 to 100 000. 24 and -1 are those of laminar flow.
+
+    Parameters
+    ----------
+    coefficient : float [1]
+        Of the wall: friction factor at a Reynolds number of 1.
+    exponent : float [1]
+        From -1 to 0.
+
+    Raises
+    ------
+    InputError
+        If the coefficient is not positive, or the exponent not within -1 to 0.
+    """
+
+    coefficient: float = 0.079
+    exponent: float = -0.25
+
+    def __post_init__(self) -> None:
+        require_positive("coefficient", self.coefficient)
+        if not -1.0 <= self.exponent <= 0.0:
+            raise InputError(f"exponent must be within -1 to 0, got {self.exponent!r}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealFlow(Readable):
+    """The leakage through a seal.
+
+    Attributes
+    ----------
+    axial_velocity : float [m/s]
+        Mean over the gap.
+    leakage_flow : float [m3/s]
+        Volume per time.
+    friction_factor : float [1]
+        lambda: pressure drop along the gap = density axial_velocity^2 lambda length/clearance.
+    reynolds_number : float [1]
+        2 W clearance/nu of the mean velocity W relative to either wall, half-way round.
+    """
+
+    axial_velocity: float
+    leakage_flow: float
+    friction_factor: float
+    reynolds_number: float
+
+
+class SealGap(NamedTuple):
+    """What the flow depends on: dimensions, pressure drop, fluid and friction, as of `AnnularSeal`."""
+
+    radius: float
+    length: float
+    clearance: float
+    pressure_drop: float
+    viscosity: float
+    density: float
+    inlet_loss: float
+    friction: HirsFriction
+
+
+class Stream(NamedTuple):
+    """Steady flow at speeds (...): axial velocity V [m/s], lambda [1], and the share of V^2 in W^2 [1]."""
+
+    velocity: np.ndarray
+    friction: np.ndarray
+    axial: np.ndarray
+
+
+def steady_flow(gap: SealGap, speed: np.ndarray) -> Stream:
+    """Return the flow that takes the pressure drop, in the mean half as fast round as the shaft.
+
+    Parameters
+    ----------
+    gap : SealGap
+    speed : ndarray, shape (...) [rad/s]
+        Complex too: the flow is analytic in it.
+
+    Notes
+    -----
+    pressure drop = density V^2 ((1 + inlet loss)/2 + lambda length/clearance), lambda V^2 = f W V with the
+    friction f of either wall, W^2 = V^2 + (radius speed/2)^2 (Childs 1983, J. Lubr. Technol. 105, 429-436).
+    """
+    half, m = 0.5 * gap.radius * speed, gap.friction.exponent
+    entrance, slender = 0.5 * (1.0 + gap.inlet_loss), gap.length / gap.clearance
+    head = gap.pressure_drop / gap.density
+    scale = gap.friction.coefficient * (2.0 * gap.clearance * gap.density / gap.viscosity) ** m
+    # From above, where all of the pressure accelerates the fluid.
+    velocity = np.sqrt(head / entrance) * np.ones_like(half)
+    for _ in range(ROUNDS):
+        W2 = velocity**2 + half**2
+        rough = scale * W2 ** (0.5 * (1.0 + m))
+        left = entrance * velocity**2 + slender * rough * velocity - head
+        slope = 2.0 * entrance * velocity + slender * rough * (1.0 + (1.0 + m) * velocity**2 / W2)
+        step = left / slope
+        velocity = velocity - step
+        if np.all(np.abs(step) <= 1e-15 * np.abs(velocity)):
+            break
+    W2 = velocity**2 + half**2
+    return Stream(velocity, scale * W2 ** (0.5 * (1.0 + m)) / velocity, velocity**2 / W2)
+
+
+# The plain annular seal of a pump: what leaks holds the shaft, damps it, and moves along as a mass.
+
+
+SHORT = 0.25
+"""Length / diameter to which the short seal is meant."""
+
+TURBULENT = (3e3, 1e5)
+"""Reynolds numbers between which the friction of Blasius holds."""
+
+TRANSIT = 1.0
+"""Largest frequency times length/V, in 1 + inlet loss + sigma B, that the second order follows."""
+
+SMALL = 0.5
+"""Eccentricity ratio to which forces stay about linear (Allaire, Gunter, Lee & Barrett 1978)."""
+
+_STEP = 1e-25
+"""Imaginary part, relative, of a speed: the derivative of an analytic function, to roundoff."""
+
+_PATTERN = np.array([[[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [-1.0, 0.0]]])
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class AnnularSeal(InertialModel):
+    """A plain annular liquid seal about its shaft in the middle: a Reaction with an added mass.
+
+        force = -[[K, k], [-k, K]] position - [[C, c], [-c, C]] velocity,   then - M acceleration
+
+    Parameters
+    ----------
+    radius, length, clearance : float [m]
+        Of the gap.
+    pressure_drop : float [Pa]
+        Across the seal, inlet included; positive.
+    viscosity : float [Pa s]
+        Dynamic viscosity.
+    density : float [kg/m3]
+    inlet_loss : float [1]
+        Pressure lost at the inlet, in (1/2) density V^2; not negative. Sharp edges lose 0.1 to 0.5.
+    inlet_swirl : float [1]
+        Velocity of the fluid round the shaft where it comes in, in radius * speed.
+    friction : HirsFriction
+        Of both walls.
+    added_mass : bool
+        Whether the fluid's mass M moves with the rotor; False leaves it out, for analyses that take none.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+
+    Warns
+    -----
+    ValidityWarning
+        Beyond length / diameter 0.25, and where the flow at rest is outside of what Blasius measured.
+
+    Notes
+    -----
+    The closed form for short seals of Black (1969) and Childs (1983); see `short_seal` for its one addition.
+    Against the perturbed bulk flow with pressure flow round the shaft K, k, C, M are up to 5 % too large at
+    length / diameter 0.2, 25 % at 0.5. Small motion: to half of the clearance.
+    """
+
+    radius: float
+    length: float
+    clearance: float
+    pressure_drop: float
+    viscosity: float
+    density: float
+    inlet_loss: float = 0.1
+    inlet_swirl: float = 0.5
+    friction: HirsFriction = field(default_factory=HirsFriction)
+    added_mass: bool = True
+
+    def __post_init__(self) -> None:
+        require_size(self, "pressure_drop", "viscosity", "density")
+        require_non_negative("inlet_loss", self.inlet_loss)
+        require_number("inlet_swirl", self.inlet_swirl)
+        require_kind("friction", self.friction, HirsFriction, "a HirsFriction")
+        self._warn()
+
+    @property
+    def carries_load(self) -> bool:
+        """Whether it is a bearing: it is none, and no rigid support of a critical speed."""
+        return False
+
+    @property
+    def slenderness(self) -> float:
+        """Length / diameter [1]."""
+        return self.length / (2.0 * self.radius)
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the coefficients are meant: 0.5."""
+        return SMALL
+
+    @property
+    def nominal_force(self) -> float:
+        """Force at half of the clearance, at rest [N]."""
+        return 0.5 * self.clearance * float(self.matrices(0.0).K)
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the fluid's mass is part of the answer."""
+        return self.added_mass
+
+    @in_si
+    def flow(self, speed: float) -> SealFlow:
+        """Return the leakage at a speed.
+
+        Parameters
+        ----------
+        speed : float [rad/s]
+        """
+        stream = steady_flow(self.gap, np.asarray(require_number("speed", speed)))
+        V = float(stream.velocity)
+        return SealFlow(
+            axial_velocity=V,
+            leakage_flow=2.0 * np.pi * self.radius * self.clearance * V,
+            friction_factor=float(stream.friction),
+            reynolds_number=self._reynolds(V / float(np.sqrt(stream.axial))),
+        )
+
+    @property
+    def gap(self) -> SealGap:
+        """What the flow depends on."""
+        own = (self.radius, self.length, self.clearance, self.pressure_drop)
+        return SealGap(*own, self.viscosity, self.density, self.inlet_loss, self.friction)
+
+    def matrices(self, speed: ArrayLike) -> SealMatrices:
+        """Return K, k, C, c, M at speeds (...) [rad/s], each of that shape."""
+        omega = require_finite("speed", speed)
+        return SealMatrices(*self._values(omega)[0])
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the added mass [kg], shape (2, 2, ...), at a speed; see `InertialReaction`."""
+        q, v, omega = broadcast_state(position, velocity, speed)
+        self.require_film(q)
+        if not self.added_mass:
+            return np.zeros((2, 2, *omega.shape))
+        return without_overflow(
+            lambda *_: np.multiply.outer(np.eye(2), self._values(omega)[0][4]), q, v, omega
+        )
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        q, _, omega = broadcast_state(position, velocity, speed)
+        self.require_film(q)
+        slopes = np.zeros((2, 2, 5, *omega.shape))
+        if self.added_mass:
+            slopes[:, :, 4] = np.multiply.outer(np.eye(2), self._values(omega)[1][4])
+        return slopes
+
+    def require_range(self, frequency: float) -> None:
+        """Warn where motion is too fast for the second order in the time that the fluid takes through.
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
+        """
+        stream = steady_flow(self.gap, np.asarray(float(frequency)))
+        m, loss = self.friction.exponent, float(stream.friction) * self.length / self.clearance
+        carried = 1.0 + self.inlet_loss + loss * (1.0 + (1.0 + m) * float(stream.axial))
+        share = abs(frequency) * self.length / float(stream.velocity) / carried
+        if share > TRANSIT:
+            warn_user(
+                f"frequency * transit time of the seal must not exceed {TRANSIT:g} of 1 + inlet_loss + drag, "
+                f"got {share:.3g}: its coefficients follow motion that is slow beside the flow"
+            )
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        K, k, C, c, _ = self._values(speed)[0]
+        return -(_apply(K, k, position) + _apply(C, c, velocity))
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        (K, k, C, c, _), (dK, dk, dC, dc, _) = self._values(speed)
+        by_speed = -(_apply(dK, dk, position) + _apply(dC, dc, velocity))
+        return np.concatenate([-_matrix(K, k), -_matrix(C, c), by_speed[:, None]], axis=1)
+
+    def _values(self, speed: Array) -> tuple[Array, Array]:
+        """Return K, k, C, c, M, shape (5, ...), and their derivatives by the speed."""
+        return _at(self, float(speed)) if np.ndim(speed) == 0 else _values(self, speed)
+
+    def _reynolds(self, velocity: float) -> float:
+        return 2.0 * velocity * self.clearance * self.density / self.viscosity
+
+    def _warn(self) -> None:
+        if self.slenderness > SHORT:
+            warn_user(
+                f"length / diameter must not exceed {SHORT} for a short seal, got {self.slenderness:.6g}: at "
+                "0.5 its stiffness and damping are too large by about 25 %, since pressure drives flow round "
+                "the shaft"
+            )
+        reynolds, (low, high) = self.flow(0.0).reynolds_number, TURBULENT
+        if self.friction == HirsFriction() and not low <= reynolds <= high:
+            warn_user(
+                f"Reynolds number must be within {low:g} to {high:g} for the friction of Blasius, got "
+                f"{reynolds:.4g} at rest: give a HirsFriction, of laminar flow coefficient=24, exponent=-1"
+            )
+
+
+@lru_cache(maxsize=1024)
+def _at(seal: AnnularSeal, speed: float) -> tuple[Array, Array]:
+    return _values(seal, np.asarray(speed))
+
+
+def _values(seal: AnnularSeal, speed: Array) -> tuple[Array, Array]:
+    """Return the coefficients and their derivatives, by a complex step: analytic in the speed."""
+    step = _STEP * np.sqrt(seal.pressure_drop / seal.density) / seal.radius
+    shifted = speed + 1j * step
+    stream = steady_flow(seal.gap, shifted)
+    found = np.stack(short_seal(seal.gap, stream, seal.inlet_swirl, shifted))
+    return found.real, found.imag / step
+
+
+def _apply(direct: Array, cross: Array, vector: Array) -> Array:
+    return np.stack([direct * vector[0] + cross * vector[1], direct * vector[1] - cross * vector[0]])
+
+
+def _matrix(direct: Array, cross: Array) -> Array:
+    whole: Array = np.tensordot(_PATTERN, np.stack([direct, cross]), ([0], [0]))
+    return whole
+
+
+# Stiffness, damping and added mass of a short annular seal in closed form.
+#
+# The bulk flow of Hirs through a gap h (Childs 1983, J. Lubr. Technol. 105, 429-436, eqs. 1-3) is
+# linearized about the shaft in the middle, where V is the axial velocity and the fluid goes round
+# with
+#
+# radius speed (1/2 + v0 e), e = exp(-a z/length).
+#
+# Short: pressure drives no flow round the shaft. With T = length/V, sigma = lambda length/clearance
+# and the displacement r = x + i y, the force is quadratic in the rate of change that the fluid sees
+# on its way,
+#
+# s = p + q e(z), p = T (d/dt - i speed/2), q = -i T speed v0,
+#
+# which is followed to second order, as by Black (1969, J. Mech. Eng. Sci. 11, 206-213) for v0 = 0.
+#
+# What the published solutions leave out is the flow round the shaft that the moving gap disturbs
+# where the fluid still loses its swirl. It acts to the first order in v0 on the cross-coupled
+# stiffness, also of a very short seal, and is included here to that order.
+
+
+_NODES, _WEIGHTS = leggauss(64)
+_CROWDED = 0.5 * (_NODES + 1.0)
+PLACES, WEIGHTS = _CROWDED**4, 2.0 * _WEIGHTS * _CROWDED**3
+"""Gauss's rule over z / length, crowded at the inlet, where swirl decays: polynomials times exp(-a z/length).
+
+Exact to roundoff for a up to 100, as of turbulent flow; 1e-7 at a = 1e4 and 1e-5 at 3e4, as of laminar flow.
+"""
+
+Wide = np.ndarray
+"""Real or complex, of any shape."""
+
+
+class SealMatrices(NamedTuple):
+    """F = -[[K, k], [-k, K]] q - [[C, c], [-c, C]] v - M a of the journal, each (...) of speeds."""
+
+    K: Wide
+    k: Wide
+    C: Wide
+    c: Wide
+    M: Wide
+
+
+class _Numbers(NamedTuple):
+    """Of the flow: sigma, 1 + inlet loss + sigma B, sigma B, a, exponent, rate at which w drags u along."""
+
+    loss: Wide
+    inertance: Wide
+    drag: Wide
+    decay: Wide
+    exponent: float
+    carried: Wide
+
+
+class _Series(NamedTuple):
+    """A constant (...), a linear form in (p, q) (2, ...), and a quadratic one in (pp, pq, qq) (3, ...)."""
+
+    constant: Wide
+    linear: Wide
+    square: Wide
+
+
+def short_seal(gap: SealGap, stream: Stream, swirl: float, speed: Wide) -> SealMatrices:
+    """Return the coefficients of a seal whose fluid comes in with `swirl` times the speed of the surface."""
+    numbers, transit = _numbers(gap, stream), gap.length / stream.velocity
+    found = _impedance(numbers)
+    turn, v0 = speed * transit, swirl - 0.5
+    scale = np.pi * gap.radius * gap.length * gap.density * stream.velocity**2 / gap.clearance
+    (by_p, by_q), (pp, pq, qq) = found.linear, found.square
+    return SealMatrices(
+        K=scale * (found.constant - turn**2 * (0.25 * pp + 0.5 * v0 * pq + v0**2 * qq)),
+        k=scale * turn * (0.5 * by_p + v0 * by_q),
+        C=scale * transit * by_p,
+        c=scale * transit * turn * (pp + v0 * pq),
+        M=scale * transit**2 * pp,
+    )
+
+
+def _numbers(gap: SealGap, stream: Stream) -> _Numbers:
+    m, axial = gap.friction.exponent, stream.axial
+    loss = stream.friction * gap.length / gap.clearance
+    drag = loss * (1.0 + (1.0 + m) * axial)
+    return _Numbers(
+        loss=loss,
+        inertance=1.0 + gap.inlet_loss + drag,
+        drag=drag,
+        decay=loss * (1.0 + (1.0 + m) * (1.0 - axial)),
+        exponent=m,
+        carried=loss * (1.0 + m) * axial * (1.0 - (1.0 - m) * (1.0 - axial)),
+    )
+
+
+def _impedance(n: _Numbers) -> _Series:
+    """Return the mean of the pressure along the seal per displacement, in density V^2/clearance.
+
+    With w = (V/clearance)(W0 + S), S = int s dz, the momentum -p' = (1 - m) sigma + (sigma B + s)(W0 + S) + s
+    from p = -(1 + inlet loss) W0 to 0 gives W0, and int z p' the mean.
+    """
+    e = np.exp(-np.multiply.outer(PLACES, n.decay))
+    j0, j1, j2 = (_over(PLACES**k, e) for k in range(3))
+    one = np.ones_like(j0)
+    end, moment, mean = _pair(one, j0), _pair(0.5 * one, j1), _pair(0.5 * one, j0 - j1)
+    late = _pair(one / 3.0, 0.5 * (j0 - j2))
+    carried = (1.0 - e) / n.decay
+    squares = np.stack([one / 3.0, 2.0 * late[1], _over(1.0, carried**2)])
+    ends = _product(end, end)
+    push, D = (1.0 - n.exponent) * n.loss, n.inertance
+    entry = _entry(_Series(push, n.drag * mean + end, 0.5 * ends), end, D)
+    bare = _Series(
+        0.5 * push + 0.5 * n.drag * entry.constant,
+        0.5 * n.drag * entry.linear + entry.constant * moment + n.drag * late + moment,
+        0.5 * n.drag * entry.square + _product(entry.linear, moment) + 0.5 * (ends - squares),
+    )
+    return _with_swirl_carried(bare, entry, n, e)
+
+
+def _entry(load: _Series, end: Wide, D: Wide) -> _Series:
+    """Return W0 = -load/(D + S(1)) to second order."""
+    constant = -load.constant / D
+    linear = -(load.linear / D - load.constant * end / D**2)
+    square = load.square / D - _product(load.linear, end) / D**2 + load.constant * _product(end, end) / D**3
+    return _Series(constant, linear, -square)
+
+
+def _with_swirl_carried(bare: _Series, entry: _Series, n: _Numbers, e: Wide) -> _Series:
+    """Return the impedance with the disturbed flow round the shaft, U' + (s + a) U = -e[...].
+
+    It changes continuity to W' = s - q U. U = e Y to first order in p, for W = W0 + p z:
+    Y' + p Y = (a - carried) W - (1 - m) a.
+    """
+    z = PLACES.reshape(-1, *(1,) * (e.ndim - 1))
+    gain, D = n.decay - n.carried, n.inertance
+    start = gain * entry.constant - (1.0 - n.exponent) * n.decay
+    first = -e * start * z
+    second = -e * (gain * (entry.linear[0] * z + 0.5 * z**2) - 0.5 * start * z**2)
+    mean, late = _over(1.0 - PLACES, first), _over(0.5 * (1.0 - PLACES**2), first)
+    load = n.drag * mean + _over(1.0, first)
+    loads = n.drag * _over(1.0 - PLACES, second) + _over(1.0, second) + mean
+    half = 0.5 * n.drag
+    by_q = -half * load / D + n.drag * late + _over(PLACES, first)
+    by_pq = -half * (loads / D - load / D**2) - 0.5 * load / D + late
+    by_pq += n.drag * _over(0.5 * (1.0 - PLACES**2), second) + _over(PLACES, second)
+    none = np.zeros_like(by_q)
+    return _Series(
+        bare.constant, bare.linear + _pair(none, by_q), bare.square + np.stack([none, by_pq, none])
+    )
+
+
+def _over(factor: Wide | float, values: Wide) -> Wide:
+    """Return the integral over z / length of a factor (n,) times values (n, ...)."""
+    return np.asarray(np.tensordot(WEIGHTS * factor, values, 1))
+
+
+def _pair(p: Wide, q: Wide) -> Wide:
+    return np.stack([p, q])
+
+
+def _product(u: Wide, v: Wide) -> Wide:
+    return np.stack([u[0] * v[0], u[0] * v[1] + u[1] * v[0], u[1] * v[1]])

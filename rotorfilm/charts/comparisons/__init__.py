@@ -1,1 +1,0 @@
-"""Charts of models side by side: error over cost, verdicts, limits."""

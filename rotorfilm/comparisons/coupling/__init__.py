@@ -1,1 +1,0 @@
-"""Coupling schemes beside the monolithic solution."""

@@ -1,1 +1,0 @@
-"""Journal films beside the reference."""

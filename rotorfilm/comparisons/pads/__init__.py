@@ -1,1 +1,0 @@
-"""Bearings made of pads side by side, and the films of their pads."""

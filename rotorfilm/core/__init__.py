@@ -1,0 +1,1 @@
+"""What every part uses: models and signals, units, errors, results, checked files."""

@@ -1,0 +1,352 @@
+"""Quantities as engineers write them, where public constructors and functions take a float in SI.
+
+A decorated class or function takes for each argument with a unit in its docstring, as `radius : float [m]`,
+also a string such as "50 mm" or a quantity of pint, and `diameter` for twice a `radius`. Inside there are SI
+floats as ever. Python that runs without docstrings (-OO) takes floats alone.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache, wraps
+from itertools import chain, repeat
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+
+from .allowed import checks_of, plain_checks_of, require_allowed, require_named, require_sizes, require_usual
+from .errors import InputError, RotorfilmError, SceneError, UnknownArgumentError, brief, shortened, warn_user
+from .units import DISPLAY_UNITS, UNITS, WEIGHT, parse_quantity, si_name
+
+# Public functions: quantities with their units, and arguments of the wrong kind that name themselves.
+
+
+def arguments(function: Callable[P, R]) -> Callable[P, R]:
+    """Let a public function take quantities with their units, and check the kinds of its arguments.
+
+    Rules of the function itself come first, but absurdly large numbers are refused before it begins. Where it
+    fails by an error of Python, every argument is checked by its annotation. What has all that a function
+    happens to ask of it may go in, as a film without `inputs` in `equilibrium`.
+
+    Raises, from then on
+    --------------------
+    InputError
+        If an argument is of the wrong kind, or as `si_arguments.in_si` says.
+    """
+    return in_si(function)
+
+
+# Quantities as engineers write them, where public constructors and functions take a float in SI.
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+T = TypeVar("T")
+
+ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.+)")
+"""The head of an entry of a numpydoc section."""
+
+UNIT = re.compile(r"[a-df-z%]", re.IGNORECASE)
+"""What every unit has, and no number by itself."""
+
+ANY = ("", float("-inf"), float("inf"))
+
+
+def entry_units(kind: str, count: int) -> list[str]:
+    """Return the units of the names of one entry: one for each, or one for all; empty for none."""
+    found = [unit for text in re.findall(r"\[([^\[\]]+)\]", kind) for unit in text.split(", ")]
+    return found if len(found) == count else [", ".join(dict.fromkeys(found))] * count
+
+
+@cache
+def units_of(documented: Any) -> Mapping[str, str]:
+    """Return the unit of each argument of a class or function that has one, as its docstring spells it."""
+    homes = documented.__mro__ if isinstance(documented, type) else (documented,)
+    found: dict[str, str] = {}
+    for home in homes:
+        for line in inspect.cleandoc(vars(home).get("__doc__") or home.__doc__ or "").splitlines():
+            if match := ENTRY.fullmatch(line):
+                names = match[1].split(", ")
+                for name, unit in zip(names, entry_units(match[2], len(names)), strict=True):
+                    found.setdefault(name, unit)
+    return {name: unit for name, unit in found.items() if si_name(unit) in UNITS}
+
+
+def quantities(cls: type[T]) -> type[T]:
+    """Let a public dataclass take quantities with their units.
+
+    Raises, from then on
+    --------------------
+    InputError
+        If a quantity cannot be read or measures something else, or a radius is given with its diameter.
+
+    Warns, from then on
+    -------------------
+    ValidityWarning
+        If a dimension is far outside of what is built, as `dimensions.BUILT` has it.
+    """
+    cls.__init__ = in_si(cls.__init__, cls)  # type: ignore[method-assign]
+    return cls
+
+
+def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
+    """Return a function that takes quantities with their units, by its docstring or that of its class."""
+    home = documented or function
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    doubled = {name.replace("radius", "diameter"): name for name in names if "radius" in name}
+    bare = 0 if documented is None else 1
+
+    @wraps(function)
+    def taking(*args: Any, **given: Any) -> R:
+        for diameter, radius in doubled.items():
+            if diameter in given:
+                given = _halved(home, diameter, radius, given)
+        odd = False
+        for name, value in given.items():
+            _, least, most = BUILT.get(name, ANY)
+            if value.__class__ is not float or not least <= value <= most:
+                given[name], odd = _read(home, name, value), True
+        if len(args) > bare:
+            args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
+        if documented is None:
+            require_sizes(chain(given.items(), zip(names, args, strict=False)))
+        try:
+            found = function(*args, **given)
+        except (RotorfilmError, OSError, Warning, MemoryError) as error:
+            if isinstance(error, InputError) and documented is not None:
+                require_named(error, plain_checks_of(home), given.items())
+            raise
+        except Exception:
+            _require_arguments(home, given, (*names[bare:], *doubled))
+            every = dict([*zip(names, args, strict=False), *given.items()])
+            require_allowed(checks_of(home, strictly=True), every.items())
+            require_usual(every.items())
+            raise
+        checks = plain_checks_of(home) if documented is None else checks_of(home)
+        require_allowed(checks, chain(given.items(), zip(names, args, strict=False)))
+        if odd:  # of what broke no rule
+            for name in given.keys() & BUILT.keys():
+                warn_of_odd_size(name, given[name], units_of(home).get(name, ""))
+        return found
+
+    return taking
+
+
+def _require_arguments(home: Any, given: Mapping[str, Any], known: tuple[str, ...]) -> None:
+    """Raise UnknownArgumentError where an argument is none of what is called."""
+    for name in given:
+        if name not in known:
+            raise UnknownArgumentError(f"{name} must be an argument of {home.__name__}{nearest(name, known)}")
+
+
+def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return arguments with a radius in place of a diameter."""
+    rest = dict(given)
+    value = rest.pop(diameter)
+    if radius in rest:
+        raise InputError(
+            f"{radius} and {diameter} must not both be given, got {rest[radius]!r} and {value!r}"
+        )
+    value = quantity(diameter, value, units_of(home).get(radius, ""))
+    return {**rest, radius: 0.5 * value if isinstance(value, float | int) else value}
+
+
+@cache
+def temperatures_of(documented: Any) -> frozenset[str]:
+    """Return the arguments that are temperatures, which may be given in degC, and no differences."""
+    homes = documented.__mro__ if isinstance(documented, type) else (documented,)
+    above: set[str] = set()
+    for home in homes:
+        name = ""
+        for line in inspect.cleandoc(vars(home).get("__doc__") or home.__doc__ or "").splitlines():
+            if match := ENTRY.fullmatch(line):
+                name = match[1]
+            elif "above ambient" in line:
+                above.add(name)
+    units = units_of(documented)
+    return frozenset(one for one in units if one.endswith("temperature") and units[one] == "K") - above
+
+
+def _read(home: Any, name: str, value: Any) -> Any:
+    """Return an argument with its quantities in SI; anything else as it is."""
+    unit = units_of(home).get(name)
+    if not unit:
+        return value
+    return quantity(name, value, unit, absolute=name in temperatures_of(home))
+
+
+def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any:
+    """Return a string or a quantity of pint as a float in SI, also inside of lists; anything else as it is.
+
+    An array without dimensions is the number in it.
+
+    Parameters
+    ----------
+    name : str
+        For the messages.
+    value : object
+    unit : str
+        As docstrings spell it, with spaces.
+    absolute : bool
+        Whether it is a temperature, in K or degC, and no difference.
+
+    Raises
+    ------
+    InputError
+        If the quantity cannot be read, or measures something else than `unit`.
+    """
+    if isinstance(value, float):
+        return value
+    if isinstance(value, str):
+        try:
+            found = parse_quantity(value, si_name(unit), absolute=absolute)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+        if unit != "1" and not UNIT.search(value):
+            meant = built_unit(name, found, unit) or unit
+            raise InputError(f"{name} must have its unit, as '{value.strip()} {meant}', got {brief(value)}")
+        return found
+    if isinstance(value, np.ndarray) and not value.ndim:  # a number to its user
+        return quantity(name, value.item(), unit, absolute=absolute)
+    if isinstance(value, list | tuple):
+        if all(isinstance(entry, float) for entry in value):
+            return value
+        read = [quantity(f"{name}[{k}]", entry, unit) for k, entry in enumerate(value)]
+        changed = any(new is not old for new, old in zip(read, value, strict=True))
+        return type(value)(read) if changed else value
+    return _from_pint(name, value, unit) if hasattr(value, "magnitude") else value
+
+
+def _from_pint(name: str, value: Any, unit: str) -> Any:
+    """Return the magnitude of a quantity of pint in SI, a float or an array."""
+    given = str(value.units)
+    rule = f"{name}: quantity must be measured in {unit} or a multiple of it"
+    if "rad" in unit and not re.search("rad|deg|turn|revolution|cycle|rpm", given):
+        # For pint a hertz is one radian per second.
+        raise InputError(f"{rule}, with its angle, got {brief(value)}")
+    try:
+        found = value.to(re.sub(r"(?<=[a-zA-Z])(?=\d)", "**", si_name(unit).replace(".", "*"))).magnitude
+    except (TypeError, ValueError, AttributeError):  # as pint's own errors are
+        weight = WEIGHT if unit == "N" and "gram" in given else ""
+        raise InputError(f"{rule}, got {brief(value)}{weight}") from None
+    return float(found) if np.ndim(found) == 0 else np.asarray(found, dtype=float)
+
+
+# The sizes that machines have, for the warning that a number is in another unit than SI.
+
+
+BUILT: dict[str, tuple[str, float, float]] = {
+    "radius": ("m", 1e-5, 5.0),
+    "outer_radius": ("m", 1e-5, 5.0),
+    "shaft_radius": ("m", 1e-5, 5.0),
+    "outer_diameter": ("m", 1e-5, 10.0),
+    "length": ("m", 1e-6, 20.0),
+    "clearance": ("m", 1e-8, 1e-2),
+    "thickness": ("m", 1e-7, 1.0),
+    "permeability": ("m2", 0.0, 1e-6),
+    "viscosity": ("Pa s", 0.0, 1e3),
+    "pressure_coefficient": ("1/Pa", 0.0, 1e-6),
+    "modulus": ("Pa", 1e5, math.inf),
+    "young_modulus": ("Pa", 1e5, math.inf),
+    "shear_modulus": ("Pa", 1e4, math.inf),
+    "density": ("kg/m3", 0.0, 1e5),
+    "mass": ("kg", 0.0, 1e7),
+    "speed": ("rad/s", 0.0, 1e6),
+}
+"""Unit, smallest and largest size of what is built, by the name of an argument, from micromachines to
+hydrogenerators and from gases to greases. What a study lets go to zero or to infinity, as
+a viscosity or the modulus of a rigid shaft, has no bound there."""
+
+
+def built_unit(name: str, value: float, unit: str) -> str:
+    """Return the first unit in which a number is a size that is built; empty where there is none."""
+    measure, least, most = BUILT.get(name) or BUILT.get(name.replace("diameter", "radius"), ("", 0.0, 0.0))
+    if unit != measure:
+        return ""
+    same = UNITS[si_name(unit)].exponents
+    fitting = (
+        other
+        for other, scale in DISPLAY_UNITS.items()
+        if scale.exponents == same and least <= abs(value) * scale.factor <= most
+    )
+    return next(fitting, "")
+
+
+def warn_of_odd_size(name: str, value: Any, unit: str) -> None:
+    """Warn where a number in this unit is far outside of what is built; say which unit may be meant."""
+    measure, least, most = BUILT[name]
+    if unit != measure or not isinstance(value, float | int):
+        return
+    if value == 0.0 or least <= abs(value) <= most or abs(value) == math.inf:
+        return
+    meant = built_unit(name, value, unit)
+    warn_user(
+        f"{name} should be {least:g} to {most:g} {unit}, got {value:g}"
+        f"{f': {value:g} {meant}?' if meant else ''}"
+    )
+
+
+# What a misspelled name, or a symbol in place of a name, may have been meant to be.
+
+
+SIMILAR = 0.4
+"""Similarity, of 1, from which a known name is worth a hint."""
+
+SAME_WORD = 0.7
+"""Similarity from which an unknown key is the known one with a typo."""
+
+SYMBOLS = {
+    "d": "diameter",
+    "e": "young_modulus",
+    "eta": "viscosity",
+    "g": "shear_modulus",
+    "g_s": "shear_modulus",
+    "id": "diametral_inertia",
+    "idl": "inner_diameter",
+    "idr": "end_inner_diameter",
+    "ip": "polar_inertia",
+    "it": "diametral_inertia",
+    "m": "mass",
+    "mu": "viscosity",
+    "n": "node",
+    "odl": "outer_diameter",
+    "odr": "end_outer_diameter",
+    "omega": "speed",
+    "poisson": "poisson_ratio",
+    "rho": "density",
+}
+"""Names of arguments by the symbols of textbooks and of ROSS, in small letters."""
+
+RADIAL = ("clearance", "pad_clearance", "assembled_clearance")
+"""Arguments that are radial, which a diametral clearance is twice."""
+
+
+def nearest(name: object, known: Iterable[str]) -> str:
+    """Return a hint with the known name nearest to `name`, or an empty string."""
+    if not isinstance(name, str):
+        return ""
+    import difflib  # needed in the face of an error alone
+
+    by_small_letters = {key.lower(): key for key in known}
+    symbol = SYMBOLS.get(name.lower())
+    if symbol in by_small_letters:
+        return f"; did you mean {symbol!r}?"
+    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=SIMILAR)
+    if not close:
+        return ""
+    meant = by_small_letters[close[0]]
+    radial = "diametral" in name.lower() and meant in RADIAL
+    return f"; did you mean {meant!r}{', half of it' if radial else ''}?"
+
+
+def require_no_near_miss(where: str, tag: str, data: Mapping[str, Any]) -> None:
+    """Raise SceneError if a key looks like a misspelled tag."""
+    import difflib
+
+    for key in data:
+        if difflib.SequenceMatcher(None, key.lower(), tag).ratio() >= SAME_WORD:
+            raise SceneError(f"{where}{shortened(key)} is no known key; did you mean {tag!r}?")

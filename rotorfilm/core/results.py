@@ -1,0 +1,299 @@
+"""Results: frozen data that linear, transient and co-simulation analyses return."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import InitVar, dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import RotorfilmError, require_each, require_finite
+from .files import write_whole
+from .readable import Drawable, Item, Readable, Row, rows_of
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingLosses(Readable):
+    """What a film takes from the shaft, and the oil that runs through it; arrays for a batch of states.
+
+    Attributes
+    ----------
+    power_loss : float [W]
+        Heat made in the oil: what the journal gives to the film, its torque times the speed minus force times
+        velocity, and what a supply pressure puts in.
+    friction_torque : float [N m]
+        Torque about +z that keeps the journal turning; of the sign of the speed.
+    bush_torque : float [N m]
+        Torque about +z of the film on the bush. It differs from `friction_torque` by position x force.
+    side_flow : float [m3/s]
+        Oil that leaves the film at both ends, without that straight out of grooves.
+    inflow, arriving : ndarray, shape (openings, ...) [m3/s]
+        Oil that leaves each opening into the films beside it, and that comes to it from films and streamers
+        beside it, in the order of `FilmGeometry.openings`.
+    """
+
+    power_loss: float | Array
+    friction_torque: float | Array
+    bush_torque: float | Array
+    side_flow: float | Array
+    inflow: Array
+    arriving: Array
+
+    def __post_init__(self) -> None:
+        require_each(self, require_finite, *(one.name for one in dataclasses.fields(self)))
+
+
+@runtime_checkable
+class _Lossy(Protocol):
+    def losses(self, position: Array, velocity: Array, speed: float) -> BearingLosses | None: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equilibrium(Readable):
+    """The static position of a journal at which the film balances the load.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+        Journal center from the bearing center.
+    speed : float [rad/s]
+        Angular speed about +z.
+    load : ndarray, shape (2,) [N]
+        External static force on the journal.
+    eccentricity_ratio : float [1]
+        |position| / clearance.
+    attitude_angle : float [rad]
+        Angle from the load line to the journal center, in the sense of rotation.
+    minimum_film : float [m]
+        clearance - |position|.
+    residual : float [1]
+        |film force + load| / |load|.
+    iterations : int
+        Newton steps taken; 0 where balls, which find their rest themselves, left none to take.
+    temperature : float or None [K]
+        Of the film, where it follows from the balance of its heat.
+    reaction : object, optional
+        What was solved for, kept only to tell its `losses`.
+    """
+
+    position: Array
+    speed: float
+    load: Array
+    eccentricity_ratio: float
+    attitude_angle: float
+    minimum_film: float
+    residual: float
+    iterations: int
+    temperature: float | None = None
+    reaction: InitVar[Any] = None
+
+    def __post_init__(self, reaction: Any) -> None:
+        object.__setattr__(self, "_reaction", reaction)
+
+    def to_rows(self) -> list[Row]:
+        """Return names and values with their units; of a film that warms also its power; never warns."""
+        rows = super().to_rows()
+        with warnings.catch_warnings(action="ignore"), suppress(RotorfilmError):
+            if self.temperature is not None and self.losses is not None:
+                rows += rows_of([Item("power_loss", self.losses.power_loss, "W", ())])
+        return rows
+
+    @cached_property
+    def losses(self) -> BearingLosses | None:
+        """Power loss, torques and oil flow of the film, found when first asked for.
+
+        None for a reaction that is no film, or one whose film law does not know them.
+        """
+        reaction = vars(self)["_reaction"]
+        if not isinstance(reaction, _Lossy):
+            return None
+        return reaction.losses(self.position, np.zeros(2), self.speed)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Coefficients(Readable):
+    """Stiffness K = -dF/dq and damping C = -dF/dv of a film at a position, F being the force on the journal.
+
+    Attributes
+    ----------
+    stiffness : ndarray, shape (2, 2) [N/m]
+        Rows: force x, y; columns: position x, y.
+    damping : ndarray, shape (2, 2) [N s/m]
+        Rows: force x, y; columns: velocity x, y.
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    """
+
+    stiffness: Array
+    damping: Array
+    position: Array
+    speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class WhirlThreshold(Readable):
+    """The onset of self-excited whirl of a rigid rotor, or the reason why there is none.
+
+    Attributes
+    ----------
+    speed : float or None [rad/s]
+        Angular speed at onset; None when no threshold exists in the range asked for.
+    whirl_ratio : float or None [1]
+        Whirl frequency / speed at onset.
+    critical_mass : float or None [kg]
+        Mass carried by the bearing at onset.
+    speed_parameter : float or None [1]
+        speed * sqrt(clearance * mass / load) at onset.
+    equilibrium : Equilibrium or None
+        Static equilibrium at onset.
+    reason : str
+        Empty, or why there is no threshold.
+    """
+
+    speed: float | None
+    whirl_ratio: float | None
+    critical_mass: float | None
+    speed_parameter: float | None
+    equilibrium: Equilibrium | None
+    reason: str = ""
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a threshold."""
+        return self.speed is not None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trajectory(Drawable):
+    """Signals over time, from a time integration or a co-simulation.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,) [s]
+        Times of the samples.
+    signals : dict of str to ndarray, shape (n,)
+        One series for each signal name, in the SI unit of the signal.
+    work : dict of str to int
+        Counters of the work done: film evaluations, Jacobians, steps.
+    units : dict of str to str
+        SI unit of each signal, where it is known.
+    step_error : float or None [1]
+        Of a run on films that remember: the local errors of its steps, added up over the clearance.
+    """
+
+    time: Array
+    signals: dict[str, Array]
+    work: dict[str, int]
+    units: dict[str, str] = field(default_factory=dict)
+    step_error: float | None = None
+
+    def _own_units(self) -> dict[str, str]:
+        return self.units
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the series of one signal, shape (n,)."""
+        if name not in self.signals:
+            raise KeyError(f"signal must be one of {', '.join(self.signals)}, got {name!r}")
+        return self.signals[name]
+
+    @property
+    def position(self) -> Array:
+        """Journal position, shape (2, n) [m]."""
+        return np.stack([self.signals["x"], self.signals["y"]])
+
+    @property
+    def velocity(self) -> Array:
+        """Journal velocity, shape (2, n) [m/s]."""
+        return np.stack([self.signals["vx"], self.signals["vy"]])
+
+
+def orbit_distance(
+    own: Trajectory, reference: Trajectory, journals: Sequence[tuple[str, str]] = (("x", "y"),)
+) -> float:
+    """Return the largest distance of the journals between two trajectories [m].
+
+    Compared at the sample times of the first up to the end of the second, which is interpolated linearly
+    between its own.
+
+    Parameters
+    ----------
+    own, reference : Trajectory
+    journals : sequence of (str, str)
+        Names of the signals x and y of each journal.
+    """
+    met = own.time <= reference.time[-1] * (1.0 + 1e-12)
+    largest = 0.0
+    for pair in journals:
+        gaps = [own[name][met] - np.interp(own.time[met], reference.time, reference[name]) for name in pair]
+        largest = max(largest, float(np.hypot(*gaps).max(initial=0.0)))
+    return largest
+
+
+@dataclass(frozen=True, kw_only=True)
+class CircularOrbit(Readable):
+    """A synchronous circular orbit of an unbalanced rotor, about the bearing center.
+
+    Attributes
+    ----------
+    eccentricity_ratio : float [1]
+        Radius of the orbit / clearance.
+    unbalance : float [kg m]
+    speed : float [rad/s]
+        Angular speed of rotor and orbit about +z.
+    phase : float [rad]
+        Angle from the unbalance to the displacement in the sense of rotation; negative when it lags.
+    transmissibility : float [1]
+        Force on the housing / centrifugal force of the unbalance.
+    growth_rate : float [1/s]
+        Largest real part of the four exponents of a small disturbance (Floquet exponents).
+    """
+
+    eccentricity_ratio: float
+    unbalance: float
+    speed: float
+    phase: float
+    transmissibility: float
+    growth_rate: float
+
+    _shown: ClassVar[tuple[str, ...]] = ("stable",)
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return self.growth_rate < 0.0
+
+
+def to_plain(value: Any) -> Any:
+    """Return a result as plain dicts, lists and numbers, ready for JSON."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: to_plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {str(key): to_plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [to_plain(entry) for entry in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    return value
+
+
+def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path:
+    """Write columns of equal length, by their headings, as CSV: floats with nine digits; return the path."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*columns.values(), strict=True):
+        writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
+    return write_whole(path, text.getvalue().encode())

@@ -1,0 +1,215 @@
+"""Signals are data: one source for python-control labels, FMI variables, chart axes and documentation."""
+
+from __future__ import annotations
+
+import keyword
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from .errors import InputError, require_positive
+from .units import UNITS
+
+MOTION_NAMES = ("x", "y", "vx", "vy")
+"""Signals of the journal's motion, which a rotor gives."""
+
+JOURNAL_INPUTS = (*MOTION_NAMES, "speed")
+"""Signals that the inputs of every Reaction begin with."""
+
+FORCE_OUTPUTS = ("force_x", "force_y")
+"""Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
+
+
+MASS_OUTPUTS = ("mass_xx", "mass_xy", "mass_yy")
+"""Signals that follow the force of a Reaction with an added mass."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scalar:
+    """What Signal, NativeParameter and Variable say of one number.
+
+    Parameters
+    ----------
+    name : str
+    unit : str or None
+        SI unit, None where it is not known.
+    nominal : float or None
+        Typical magnitude [unit], None where it is not known.
+    description : str
+        What it is and its sign.
+    minimum, maximum : float
+        Both allowed [unit]; infinite where there is no bound. An FMU tells them; of parameters it enforces
+        them.
+    """
+
+    name: str
+    unit: str | None
+    nominal: float | None
+    description: str
+    minimum: float = -math.inf
+    maximum: float = math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signal(Scalar):
+    """One scalar quantity that enters or leaves a model.
+
+    Parameters
+    ----------
+    name : str
+        Underscore identifier, unique within its model (`force_x`).
+    unit : str
+        SI unit, a key of `rotorfilm.core.units.UNITS` (`"N"`, `"m/s"`, `"1"`).
+    nominal : float
+        Positive typical magnitude [unit]; scales difference steps, tolerances and FMI nominal values.
+    description : str
+        As of a `Scalar`.
+    minimum, maximum : float
+        As of a `Scalar`.
+
+    Raises
+    ------
+    InputError
+        If the name is no identifier, the unit is unknown or the nominal value is not positive.
+    """
+
+    unit: str
+    nominal: float
+
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier() or keyword.iskeyword(self.name):
+            raise InputError(f"name must be an identifier without dots, got {self.name!r}")
+        if self.unit not in UNITS:
+            raise InputError(f"unit must be one of {sorted(UNITS)}, got {self.unit!r}")
+        require_positive("nominal", self.nominal)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variable(Scalar):
+    """One variable of an FMU; its value reference is its place in the list.
+
+    Parameters
+    ----------
+    name : str
+        Structured name, `component.signal`; states are `component.state_signal`.
+    unit : str or None
+        As of a `Scalar`.
+    nominal : float or None
+        As of a `Scalar`.
+    description : str
+        As of a `Scalar`.
+    minimum, maximum : float
+        As of a `Scalar`.
+    causality : str
+        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
+        "independent" (the time), as FMI spells them.
+    start : float or None
+        Start value [unit]; of a state, the initial state. None for what is calculated.
+    tunable : bool
+        Of a parameter: whether it may be set between steps.
+    state : int or None
+        Of the derivative of a state, the index of the state in the list.
+    switch : bool
+        Whether it is the value of a switching function, an event indicator.
+    """
+
+    unit: str | None = None
+    nominal: float | None = None
+    description: str = ""
+    causality: str
+    start: float | None = None
+    tunable: bool = False
+    state: int | None = None
+    switch: bool = False
+
+    @property
+    def variability(self) -> str:
+        """As FMI spells it: "continuous", or "tunable" and "fixed" for parameters."""
+        if self.causality != "parameter":
+            return "continuous"
+        return "tunable" if self.tunable else "fixed"
+
+
+def names(signals: tuple[Signal, ...]) -> list[str]:
+    """Return the names of `signals`, in order: the labels that python-control wants."""
+    return [signal.name for signal in signals]
+
+
+def units(signals: Iterable[Signal]) -> dict[str, str]:
+    """Return the units of `signals`, by name."""
+    return {signal.name: signal.unit for signal in signals}
+
+
+def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
+    """Return where each of the signals `needed` is among those available.
+
+    Parameters
+    ----------
+    owner : str
+        Who must have the signals, for the message: `"rotor must have the outputs"`.
+    available, needed : sequence of str
+        Names of signals.
+
+    Raises
+    ------
+    InputError
+        If a signal is missing.
+    """
+    missing = [name for name in needed if name not in available]
+    if missing:
+        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
+    return [available.index(name) for name in needed]
+
+
+def to_fmi_name(component: str, name: str) -> str:
+    """Return the structured FMI name `component.name`.
+
+    Raises
+    ------
+    InputError
+        If either part is not an identifier, which would make the mapping ambiguous.
+    """
+    for label, part in (("component", component), ("name", name)):
+        if not part.isidentifier():
+            raise InputError(f"{label} must be an identifier without dots, got {part!r}")
+    return f"{component}.{name}"
+
+
+def from_fmi_name(fmi_name: str) -> tuple[str, str]:
+    """Return (component, name) of a structured FMI name: the inverse of `to_fmi_name`."""
+    component, dot, name = fmi_name.partition(".")
+    if not (dot and component.isidentifier() and name.isidentifier()):
+        raise InputError(f"fmi_name must have the form component.name, got {fmi_name!r}")
+    return component, name
+
+
+def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
+    """Return the signals JOURNAL_INPUTS that the inputs of every Reaction begin with.
+
+    Parameters
+    ----------
+    clearance : float
+        Radial clearance [m], the nominal value of positions.
+    nominal_speed : float
+        Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
+    """
+    velocity = clearance * nominal_speed
+    rows = (
+        ("m", clearance, "journal position along x"),
+        ("m", clearance, "journal position along y"),
+        ("m/s", velocity, "journal velocity along x"),
+        ("m/s", velocity, "journal velocity along y"),
+        ("rad/s", nominal_speed, "angular speed about +z"),
+    )
+    return signals_of(*((name, *row) for name, row in zip(JOURNAL_INPUTS, rows, strict=True)))
+
+
+def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
+    """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
+    text = "force on the journal along "
+    return signals_of(*((f"force_{axis}", "N", nominal_force, text + axis) for axis in "xy"))
+
+
+def signals_of(*rows: tuple[str, str, float, str]) -> tuple[Signal, ...]:
+    """Return signals from rows of name, unit, nominal value and description."""
+    return tuple(Signal(name=name, unit=unit, nominal=n, description=text) for name, unit, n, text in rows)

@@ -1,0 +1,164 @@
+"""The source of this package as data: which modules a module imports, a digest, and names that load late.
+
+A package whose names load on first use (PEP 562), so that each caller imports what it needs alone, lists them
+once, as imports that type checkers follow and Python does not execute:
+
+    if TYPE_CHECKING:
+        from .bearing import JournalBearing as JournalBearing
+        from .arc_pressure import tension
+    else:
+        show(__name__)
+
+`as` makes a name public (PEP 484); the others are there for the rest of the package.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import sys
+from collections.abc import Collection, Iterable, Iterator
+from functools import cache
+from importlib import import_module
+from importlib.util import resolve_name
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+PACKAGE = __name__.partition(".")[0]
+ROOT = Path(__file__).parents[1]
+
+
+def import_closure(modules: Iterable[str], shelves: Collection[str] = ()) -> dict[str, bytes]:
+    """Return the source of modules of this package and of all that they import from it, by module name.
+
+    Packages among `shelves` only gather names: they count as empty.
+    """
+    sources: dict[str, bytes] = {}
+    waiting = list(modules)
+    while waiting:
+        name = waiting.pop()
+        if name in sources:
+            continue
+        sources[name] = b"" if name in shelves else source_of(name)
+        waiting += [found for found in imported_names(name, sources[name]) if is_module(found)]
+        waiting += [name.rpartition(".")[0]] if "." in name else []
+    return sources
+
+
+@cache
+def source_digest(module: str, below: str = "bearings") -> str:
+    """Return a digest of a module and of all that it imports from the folder `below`.
+
+    Where it calls the C library, the solvers of films on grids are part of it.
+    """
+    inside = f"{PACKAGE}.{below}."
+    folders = (path.parent.relative_to(ROOT.parent) for path in ROOT.rglob("__init__.py"))
+    deciding = import_closure([module], shelves={".".join(folder.parts) for folder in folders})
+    content = b"".join(deciding[name] for name in sorted(deciding) if name.startswith(inside))
+    if f"{PACKAGE}.native.library" in deciding:
+        content += b"".join(path.read_bytes() for path in sorted((ROOT / "native" / "grids").glob("*.[ch]")))
+    return hashlib.sha256(content).hexdigest()[:12]
+
+
+@cache
+def imported_names(name: str, source: bytes) -> tuple[str, ...]:
+    """Return the names that relative imports in `source` may mean; not all of them are modules."""
+    return tuple(_imported_names(name, source))
+
+
+def _imported_names(name: str, source: bytes) -> Iterator[str]:
+    for base, aliases in _relative_imports(name, ast.walk(ast.parse(source))):
+        yield base
+        yield from (f"{base}.{alias.name}" for alias in aliases)
+
+
+def _relative_imports(name: str, nodes: Iterable[ast.AST]) -> Iterator[tuple[str, list[ast.alias]]]:
+    """Yield module and aliases of each relative import among the nodes of a module."""
+    package = name if module_path(name).endswith("__init__.py") else name.rpartition(".")[0]
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and node.level:
+            yield resolve_name("." * node.level + (node.module or ""), package), node.names
+
+
+def source_of(name: str) -> bytes:
+    """Return the source of a module of this package."""
+    return (ROOT.parent / module_path(name)).read_bytes()
+
+
+def is_module(name: str) -> bool:
+    """Return whether this package has a module of that name."""
+    return (ROOT.parent / module_path(name)).is_file()
+
+
+def module_path(name: str) -> str:
+    """Return the path of a module of this package, below the folder that holds the package."""
+    path = name.replace(".", "/")
+    folder = f"{path}/__init__.py"
+    return folder if (ROOT.parent / folder).is_file() else f"{path}.py"
+
+
+class Home(NamedTuple):
+    """Where a shown name lives.
+
+    Attributes
+    ----------
+    module : str
+        The module that holds it.
+    public : bool
+        Whether the package shows it to everyone.
+    """
+
+    module: str
+    public: bool
+
+
+class LatePackage(ModuleType):
+    """A package that imports a name when it is asked for."""
+
+    @property
+    def __all__(self) -> list[str]:
+        """The public names."""
+        return sorted(name for name, home in homes(self.__name__).items() if home.public)
+
+    def __dir__(self) -> list[str]:
+        return self.__all__
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "__version__":
+            return installed_version()
+        if name not in homes(self.__name__):
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+        found = getattr(import_module(homes(self.__name__)[name].module), name)
+        vars(self)[name] = found
+        return found
+
+    def __setattr__(self, name: str, value: object) -> None:
+        # Python binds every imported submodule to its package: not over a shown name that is the same.
+        if not (isinstance(value, ModuleType) and name in homes(self.__name__)):
+            super().__setattr__(name, value)
+
+
+def show(package: str) -> None:
+    """Let a package show what its source imports for type checkers."""
+    sys.modules[package].__class__ = LatePackage
+
+
+@cache
+def homes(package: str) -> dict[str, Home]:
+    """Return where each name lives that a package shows, those behind its stars included."""
+    tree = ast.parse(source_of(package))
+    found: dict[str, Home] = {}
+    listed = [node for top in tree.body if isinstance(top, ast.If) for node in top.body]
+    for module, aliases in _relative_imports(package, listed):
+        for alias in aliases:
+            one = {alias.name: Home(module, public=alias.name == alias.asname)}
+            found |= homes(module) if alias.name == "*" else one
+    return found
+
+
+def installed_version() -> str:
+    """Return the version of the installed distribution."""
+    from importlib.metadata import version
+
+    return version(PACKAGE)

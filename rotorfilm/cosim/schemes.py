@@ -1,0 +1,657 @@
+"""What a coupling scheme is, and extrapolation from the communication points behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from ..core.errors import ConvergenceError, InputError, require_count, require_positive
+from ..core.inputs import quantities
+from ..core.model import Array, Linearization
+from ..rotors.force_law import ForceLaw, held_law
+from .partner_interface import Bench, Needs, Sample, StationMotion, Wiring
+
+MEMORY = 4
+"""Communication points that a scheme may look back on."""
+
+
+Moment = float | Array
+"""A time [s], or one for each of several runs."""
+
+FIRST = 1.0 / 63.0
+"""First step of a scheme of parabolas, in macro steps: doubled five times, the sum is one."""
+
+
+class Scheme(Hashable, Protocol):
+    """How rotor and films take turns over one macro step.
+
+    Schemes are frozen dataclasses without memory: what they extrapolate from is handed to them.
+    """
+
+    @property
+    def order(self) -> int:
+        """Order of convergence in the macro step."""
+
+    @property
+    def label(self) -> str:
+        """Its name in print."""
+
+    @property
+    def needs(self) -> Needs:
+        """What it asks of its partners."""
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance from t to t + dt [s], or less, and return what was exchanged there.
+
+        Parameters
+        ----------
+        bench : Bench
+            Rotor and films.
+        history : sequence of Sample
+            The latest communication points, the present one last; at least one.
+        t, dt : float [s]
+            Start and length of the step.
+        """
+
+
+def extrapolation(times: Sequence[Moment], values: Sequence[Array]) -> tuple[Array, Array, Array]:
+    """Return the polynomial through the latest values, as value, slope and curvature about the last time.
+
+    Parameters
+    ----------
+    times : sequence of float, or of ndarray that fits the values [s]
+        One to three, rising.
+    values : sequence of ndarray
+        One for each.
+    """
+    value, slope, curvature = values[-1], np.zeros_like(values[-1]), np.zeros_like(values[-1])
+    if len(times) > 1:
+        last = times[-1] - times[-2]
+        slope = (values[-1] - values[-2]) / last
+        if len(times) > 2:
+            before = (values[-2] - values[-3]) / (times[-2] - times[-3])
+            curvature = (slope - before) / (times[-1] - times[-3])
+            slope = slope + curvature * last
+    return value, slope, curvature
+
+
+def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
+    """Return the law of forces extrapolated by a polynomial of this degree, or less at the start."""
+    latest = history[-1 - degree :]
+    if len(latest) == 1:
+        return held_law(latest[-1].time, latest[-1].force)
+    value, slope, curvature = extrapolation([s.time for s in latest], [s.force for s in latest])
+    return held_law(latest[-1].time, value)._replace(slope=slope, curvature=curvature)
+
+
+def started(history: Sequence[Sample], degree: int, dt: float) -> float:
+    """Return the length of a step: parabolas need a past, so a run begins with short steps.
+
+    A force held over the first step would spoil the order for good; over FIRST of it, it does not matter.
+    """
+    if degree < 2:
+        return dt
+    if len(history) < 2:
+        return FIRST * dt
+    return min(dt, 2.0 * (history[-1].time - history[-2].time))
+
+
+def require_degree(degree: int) -> None:
+    """Raise InputError unless forces can be extrapolated by this degree."""
+    if isinstance(degree, bool) or degree not in (0, 1, 2):
+        raise InputError(f"degree must be 0, 1 or 2, got {degree!r}")
+
+
+# Explicit schemes: forces held, or extrapolated from communication points behind.
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Extrapolating:
+    """What the explicit schemes share: a polynomial in time through the latest forces."""
+
+    degree: int = 0
+
+    _name = ""
+
+    def __post_init__(self) -> None:
+        require_degree(self.degree)
+
+    @property
+    def label(self) -> str:
+        """Its name in print."""
+        return f"{self._name} {self.degree}"
+
+    @property
+    def order(self) -> int:
+        """Order of convergence in the macro step."""
+        return self.degree + 1
+
+    @property
+    def needs(self) -> Needs:
+        """A rotor that takes laws, unless the force is held."""
+        return Needs(laws=self.degree > 0)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class GaussSeidel(_Extrapolating):
+    """Rotor first, under extrapolated forces, then the films at the rotor's new state.
+
+    Parameters
+    ----------
+    degree : int
+        Of the polynomial in time through the latest forces: 0 holds the force, 1 and 2 extrapolate it.
+
+    Raises
+    ------
+    InputError
+        If the degree is none of these.
+    """
+
+    _name = "Gauss-Seidel"
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        dt = started(history, self.degree, dt)
+        motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
+        return bench.evaluate(t, dt, motion, False)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Jacobi(_Extrapolating):
+    """Rotor and films in parallel: forces extrapolated for the rotor, its motion for the films.
+
+    Parameters
+    ----------
+    degree : int
+        Of both polynomials in time, 0 to 2.
+
+    Raises
+    ------
+    InputError
+        If the degree is none of these.
+    """
+
+    _name = "Jacobi"
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        dt = started(history, self.degree, dt)
+        seen = bench.evaluate(t, dt, _ahead(history[-1 - self.degree :], t + dt), False)
+        motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
+        return seen._replace(motion=motion)
+
+
+def _ahead(latest: Sequence[Sample], t: float) -> StationMotion:
+    """Return the motion extrapolated to t."""
+    times, elapsed = [sample.time for sample in latest], t - latest[-1].time
+    powers = (1.0, elapsed, elapsed * elapsed)
+
+    def at(series: list[np.ndarray]) -> np.ndarray:
+        parts = extrapolation(times, series)
+        return np.asarray(sum(power * part for power, part in zip(powers, parts, strict=True)))
+
+    return StationMotion(
+        at([sample.motion.position for sample in latest]),
+        at([sample.motion.velocity for sample in latest]),
+        float(at([np.array(sample.motion.speed) for sample in latest])),
+        latest[-1].motion.outputs,
+    )
+
+
+# Linearly implicit schemes: the rotor carries the films' stiffness and damping through the macro step.
+
+
+class _Tangential:
+    """What the linearly implicit schemes share: a law of the films' tangents, and of what they leave over."""
+
+    needs = Needs(derivatives=True, laws=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step; see `Scheme`."""
+        motion = bench.drive(t, dt, tangent_law(history, self.curvature(history)))
+        return bench.evaluate(t, dt, motion, True)
+
+    def curvature(self, history: Sequence[Sample]) -> Array:
+        """Return half the second derivative in time that is left of the force, shape (m,) [N/s2]."""
+        return np.zeros_like(history[-1].force)
+
+
+@dataclass(frozen=True)
+class SIExp(_Tangential):
+    """The rotor integrates F + dF/dq dq + dF/dv dv of its films through the step: one film call, no rollback.
+
+    Stable at every macro step where the coupled system itself is; of second order.
+    """
+
+    order = 2
+    label = "SI-exp"
+
+
+@dataclass(frozen=True)
+class SIExp3(_Tangential):
+    """SI-exp, and the parabola in time that the last step left over: of third order at the same price.
+
+    With s = (t - t_n)/H and D = F_(n-1) - F_n - dF/dq (q_(n-1) - q_n) - dF/dv (v_(n-1) - v_n), derivatives at
+    t_n, what is left of the force between the two points is D s^2 to third order, before t_n and after it.
+    Of first order only with a film that has states of its own, which change where nothing moves (`SIMemory`
+    is for those); and where the speed changes from the start, the first step has not seen it yet.
+    """
+
+    order = 3
+    label = "SI-exp3"
+
+    def curvature(self, history: Sequence[Sample]) -> Array:
+        """Return what the last step left over."""
+        if len(history) < 2:
+            return super().curvature(history)
+        before, now = history[-2:]
+        curvature: Array = defect(before, now) / (now.time - before.time) ** 2
+        return curvature
+
+
+def defect(before: Sample, now: Sample) -> Array:
+    """Return D, what the film's tangents at `now` leave of the force at `before`, shape (m,) [N]."""
+    tangents = now.tangents
+    assert tangents is not None  # the scheme asks for them
+    left: Array = (
+        before.force
+        - now.force
+        + tangents.stiffness @ (before.motion.position - now.motion.position)
+        + tangents.damping @ (before.motion.velocity - now.motion.velocity)
+        - tangents.by_speed_change(before.motion.speed - now.motion.speed, now.force)
+    )
+    return left
+
+
+def tangent_law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
+    """Return the law of the tangents at the present point; a change of the speed is carried on."""
+    now = history[-1]
+    tangents = now.tangents
+    assert tangents is not None  # the scheme asks for them
+    slope = np.zeros_like(now.force)
+    if len(history) > 1:
+        before = history[-2]
+        rate = (now.motion.speed - before.motion.speed) / (now.time - before.time)
+        slope = tangents.by_speed_change(rate, now.force)
+    return ForceLaw(
+        now.time,
+        now.force,
+        slope,
+        curvature,
+        tangents.stiffness,
+        tangents.damping,
+        now.motion.position,
+        now.motion.velocity,
+    )
+
+
+# Integration of a rotor under a force law by the matrix exponential, exact where the rotor is linear.
+#
+# Over a step from (t, x), y = x(t + tau) - x obeys y' = M y + g(tau) + r with M = A + B dF/d(motion)
+# C, the film's stiffness and damping included, g(tau) the rate of the frozen state x at t + tau, and
+# a remainder r that is zero for a linear rotor. g is interpolated by a polynomial, and
+#
+# y(H) = int_0^H exp(M (H - tau)) g(tau) dtau
+#
+# follows from one exponential of an augmented matrix (Van Loan 1978). One more call of the rotor at
+# the end tells whether polynomial and linearity hold; where they do not, the step is halved, and a
+# rotor that is not linear is integrated by Radau's method.
+
+
+DEGREE = 6
+"""Degree of the polynomial of the rates in time."""
+
+NODES = np.concatenate([[0.0], 0.5 - 0.5 * np.cos(np.pi * (2.0 * np.arange(DEGREE) + 1.0) / (2.0 * DEGREE))])
+"""Where the rates are taken, in steps."""
+
+TO_POWERS = np.linalg.inv(np.vander(NODES, increasing=True))
+"""Coefficients of the polynomial from the rates at the nodes."""
+
+TOLERANCE = 1e-9
+"""Of the state at the end of a step, relative to it and to its nominal value."""
+
+HALVINGS = 4
+"""How often a step is halved before the rotor counts as not linear."""
+
+
+class System(Protocol):
+    """A rotor as a system of ordinary differential equations; signals go by their names."""
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the inputs."""
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the outputs."""
+
+    @property
+    def nominals(self) -> Array:
+        """Typical magnitudes of the states, shape (n_states,)."""
+
+    def rates(self, t: float, x: Array, u: Array) -> Array:
+        """Return dx/dt, shape (n_states,)."""
+
+    def outcome(self, t: float, x: Array, u: Array) -> Array:
+        """Return the outputs, shape (n_outputs,)."""
+
+    def matrices(self, t: float, x: Array, u: Array) -> Linearization:
+        """Return the exact derivatives."""
+
+    def next_kink(self, t: float) -> float:
+        """Return the first time after t at which the rates have a kink; infinite without one."""
+
+    def pass_kink(self, t: float, x: Array) -> None:
+        """Go beyond a kink at the time t."""
+
+
+class LawIntegrator:
+    """Advances the state of a rotor under force laws.
+
+    Parameters
+    ----------
+    system : System
+    wiring : Wiring
+    inputs : ndarray, shape (n_inputs,)
+        Values of the inputs that no film drives.
+    """
+
+    def __init__(self, system: System, wiring: Wiring, inputs: Array) -> None:
+        self._system, self._inputs = system, inputs
+        self._at = wiring.places(system.inputs, system.outputs)
+        self._matrices: Linearization | None = None
+
+    def advance(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
+        """Return the state at t + dt.
+
+        Raises
+        ------
+        ConvergenceError
+            If the rotor cannot be integrated.
+        """
+        while dt > 0.0:
+            kink = self._system.next_kink(t)
+            step = min(dt, kink - t)
+            x = self._smooth(t, x, step, law, HALVINGS)
+            if kink <= t + dt:
+                self._system.pass_kink(kink, x)
+                self._matrices = None
+            t, dt = t + step, dt - step if step < dt else 0.0
+        return x
+
+    def _smooth(self, t: float, x: Array, dt: float, law: ForceLaw, halvings: int) -> Array:
+        for fresh in (False, True):
+            if fresh or self._matrices is None:
+                self._matrices = self._system.matrices(t, x, self._inputs)
+            end, error = self._trial(t, x, dt, law, self._matrices)
+            if error <= 1.0:
+                return end
+        if halvings == 0:
+            return self._stiff(t, x, dt, law)
+        middle = self._smooth(t, x, 0.5 * dt, law, halvings - 1)
+        return self._smooth(t + 0.5 * dt, middle, 0.5 * dt, law, halvings - 1)
+
+    def _trial(
+        self, t: float, x: Array, dt: float, law: ForceLaw, matrices: Linearization
+    ) -> tuple[Array, float]:
+        """Return the state after an exponential step, and its error in tolerances."""
+        nominal = self._system.nominals
+        M = self._loop(matrices, law)
+        rates = np.array([self._rates(t + node * dt, x, law) for node in NODES])
+        powers = (TO_POWERS @ rates).T
+        y = nominal * _integral(dt * M * nominal / nominal[:, None], dt * powers / nominal[:, None])
+        # Just before the end, where there may be a kink.
+        found = self._rates(float(np.nextafter(t + dt, t)), x + y, law)
+        defect = found - M @ y - powers.sum(axis=1)
+        allowed = TOLERANCE * (nominal + np.abs(y)) + 1e-14 * np.abs(dt * found)
+        return x + y, float(np.max(np.abs(dt * defect) / allowed, initial=0.0))
+
+    def _stiff(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
+        """Integrate a rotor that is not linear."""
+        found = solve_ivp(
+            lambda time, state: self._rates(time, state, law),
+            (t, t + dt),
+            x,
+            "Radau",
+            jac=lambda time, state: self._loop(self._system.matrices(time, state, self._inputs), law),
+            rtol=TOLERANCE,
+            atol=TOLERANCE * self._system.nominals,
+            first_step=0.5 * dt,
+        )
+        if not found.success:
+            raise ConvergenceError(f"the rotor cannot be integrated from t = {t:.9g} s: {found.message}", x)
+        return np.asarray(found.y[:, -1])
+
+    def _rates(self, t: float, x: Array, law: ForceLaw) -> Array:
+        motion = self._system.outcome(t, x, self._inputs)
+        u = self._inputs.copy()
+        u[self._at.force] = law.at(t, motion[self._at.position], motion[self._at.velocity])
+        return self._system.rates(t, x, u)
+
+    def _loop(self, matrices: Linearization, law: ForceLaw) -> Array:
+        feedback = law.stiffness @ matrices.C[self._at.position] + law.damping @ matrices.C[self._at.velocity]
+        closed: Array = matrices.A - matrices.B[:, self._at.force] @ feedback
+        return closed
+
+
+def _integral(M: Array, powers: Array) -> Array:
+    """Return int_0^1 exp(M (1 - s)) sum_k powers[:, k] s^k ds."""
+    n, count = powers.shape
+    augmented = np.zeros((n + count, n + count))
+    augmented[:n, :n], augmented[:n, n:] = M, powers
+    augmented[n + 1 :, n:-1] += np.diag(np.arange(1.0, count))
+    # Scaled by columns: the polynomial is of order 1, whatever the unit of its coefficients.
+    return np.asarray(expm(augmented)[:n, n])
+
+
+# A linearly implicit scheme for films that remember: their drift is told from two points behind.
+
+
+@dataclass(frozen=True)
+class SIMemory:
+    """SI-exp, and the parabola in time through what the last two steps left over: for films with states.
+
+    A film with states changes where nothing moves, so that what its tangents at t_n leave of the force
+    begins with a slope, left(s) = a s + b s^2, s = t - t_n. Both follow from left(t_(n-1) - t_n) and
+    left(t_(n-2) - t_n). Of third order at the price of SI-exp, with a film that is told, as `JFOFilm`,
+    where the journal is at the end of a step and goes there smoothly; a film whose inputs are held over the
+    step stays of first order. A run begins with short steps, as with forces extrapolated by parabolas.
+    """
+
+    order = 3
+    label = "SI-memory"
+    needs = Needs(derivatives=True, laws=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        dt = started(history, 2, dt)
+        law = tangent_law(history, np.zeros_like(history[-1].force))
+        if len(history) > 2:
+            now = history[-1]
+            lags = np.array([point.time - now.time for point in history[-3:-1]])
+            left = np.array([defect(point, now) for point in history[-3:-1]])
+            columns = np.stack([lags, lags**2], axis=1)
+            slope, curvature = np.linalg.solve(columns, left.reshape(2, -1)).reshape(left.shape)
+            law = law._replace(slope=law.slope + slope, curvature=curvature)
+        return bench.evaluate(t, dt, bench.drive(t, dt, law), True)
+
+
+# The implicit scheme: each macro step is repeated until rotor and films agree at its end.
+
+
+LEAST_PIVOT = 1e-30
+"""Of several runs at once, the smallest force that counts, in the largest."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Newton:
+    """The force of a step is held at the mean of both ends, found by Newton's method with rollback.
+
+    The films tell their derivatives; those of the rotor, by the force, are had from one trial step for each
+    force, in the first step and wherever the length of the step changes, exact for a linear rotor. Needs no
+    more of a rotor than held forces and the way back, so any Co-Simulation FMU with FMU states will do.
+    It damps what is fast hardly at all, and a light journal on an elastic shaft gives it a limit after all.
+
+    Parameters
+    ----------
+    tolerance : float [1]
+        Imbalance of the force that is accepted, relative to it.
+    most : int
+        Iterations before a step counts as failed.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive.
+    """
+
+    tolerance: float = 1e-6
+    most: int = 12
+
+    order = 2
+    label = "Newton"
+    needs = Needs(derivatives=True, rollback=True)
+
+    def __post_init__(self) -> None:
+        require_positive("tolerance", self.tolerance)
+        require_count("most", self.most)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step; see `Scheme`.
+
+        Raises
+        ------
+        ConvergenceError
+            If the iteration does not converge.
+        """
+        now = history[-1]
+        force, sensitivity = _guess(history, t + 0.5 * dt), bench.sensitivity(t, dt)
+        for _ in range(self.most):
+            state = bench.save()
+            found = bench.evaluate(t, dt, bench.drive(t, dt, held_law(t, force)), True)
+            residual = force - 0.5 * (now.force + found.force)
+            size = np.max(np.abs(force) + np.abs(now.force), axis=0)
+            size = np.maximum(size, LEAST_PIVOT * np.max(size))
+            if np.all(np.max(np.abs(residual), axis=0) <= self.tolerance * size):
+                bench.release(state)
+                return found
+            bench.restore(state)
+            force = force - _correction(found, sensitivity, residual)
+        raise ConvergenceError(
+            f"the coupling must converge in {self.most} iterations, got stuck at t = {t:.9g} s with an "
+            f"imbalance of {np.max(np.abs(residual)):.3g} N"
+        )
+
+
+def _guess(history: Sequence[Sample], middle: float) -> Array:
+    """Return the force extrapolated to the middle of the step."""
+    if len(history) < 2:
+        return history[-1].force
+    before, now = history[-2:]
+    ahead = (middle - now.time) / (now.time - before.time)
+    force: Array = now.force + ahead * (now.force - before.force)
+    return force
+
+
+def _correction(found: Sample, sensitivity: Array, residual: Array) -> Array:
+    """Return Newton's step of the held force: the film's tangents through the rotor's sensitivity."""
+    assert found.tangents is not None  # the scheme asks for them
+    m = len(sensitivity) // 2
+    feedback = found.tangents.stiffness @ sensitivity[:m] + found.tangents.damping @ sensitivity[m:]
+    return np.asarray(np.linalg.solve(np.eye(m) + 0.5 * feedback, residual))
+
+
+# Macro steps of the length that the error asks for.
+
+
+SAFETY = 0.8
+LEAST, MOST = 0.3, 2.0
+"""Factors between one step and the next."""
+
+GIVE_UP = 1e-6
+"""Shortest step, in the macro step, before a run counts as failed."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Adaptive:
+    """Another scheme with macro steps of its own choice; that of the run is the longest, and the first.
+
+    What the tangents leave of the force between two points, D, is a free estimate of the local error: a
+    step is accepted where the change of D from the step before, or D itself, is within the tolerance, and
+    is repeated at a shorter length otherwise.
+
+    Parameters
+    ----------
+    tolerance : float [1]
+        Accepted error of the force within a step, relative to the force.
+    scheme : SIExp or SIExp3
+
+    Raises
+    ------
+    InputError
+        If the tolerance is not positive.
+    """
+
+    tolerance: float = 1e-3
+    scheme: Scheme = field(default_factory=SIExp3)
+
+    def __post_init__(self) -> None:
+        require_positive("tolerance", self.tolerance)
+
+    @property
+    def order(self) -> int:
+        """Order of convergence in the tolerance's step."""
+        return self.scheme.order
+
+    @property
+    def label(self) -> str:
+        """Its name in print."""
+        return f"adaptive {self.scheme.label}"
+
+    @property
+    def needs(self) -> Needs:
+        """What the scheme needs, and a way back."""
+        return self.scheme.needs._replace(derivatives=True, rollback=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance from t by dt or less; the sample says how far it got."""
+        shortest = GIVE_UP * dt
+        dt = min(dt, self._proposed(history, dt))
+        while True:
+            state = bench.save()
+            found = self.scheme.step(bench, history, t, dt)
+            error = self._error(history, found)
+            if error <= 1.0:
+                bench.release(state)
+                return found
+            bench.restore(state)
+            dt *= max(LEAST, SAFETY * error ** (-1.0 / self.order))
+            if dt < shortest:
+                raise ConvergenceError(f"the macro step fell below {shortest:.3g} s at t = {t:.9g} s")
+
+    def _proposed(self, history: Sequence[Sample], dt: float) -> float:
+        """Return the length that the last step's error asks for."""
+        if len(history) < 2:
+            return dt
+        last = history[-1].time - history[-2].time
+        error = self._error(history[:-1], history[-1])
+        return last * float(np.clip(SAFETY * max(error, 1e-12) ** (-1.0 / self.order), LEAST, MOST))
+
+    def _error(self, history: Sequence[Sample], found: Sample) -> float:
+        """Return the error of the force in tolerances."""
+        now = history[-1]
+        left = defect(now, found)
+        if self.order > 2 and len(history) > 1:
+            ratio = (found.time - now.time) / (now.time - history[-2].time)
+            left = left - ratio**2 * defect(history[-2], now)
+        size = float(np.linalg.norm(found.force) + np.linalg.norm(now.force)) / 2.0
+        return float(np.linalg.norm(left)) / (self.tolerance * size) if size > 0.0 else 0.0

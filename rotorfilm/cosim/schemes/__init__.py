@@ -1,1 +1,0 @@
-"""Schemes that couple a rotor and its bearings over macro steps."""

@@ -1,1 +1,0 @@
-"""Checks of FMUs: description, calls, states, reference."""

@@ -1,0 +1,419 @@
+"""Checks of an FMU: what `rotorfilm fmu check` answers."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+from scipy.integrate import DOP853
+
+from ..core.errors import FmuError, brief
+from ..core.files import read_text
+from ..core.model import Array
+from .binaries import libraries, require_whole
+from .instance import (
+    ADJOINT_DERIVATIVES,
+    DERIVATIVES,
+    SERIAL_STATES,
+    STATES,
+    Instance,
+    Instance3,
+    extracted,
+    instantiated,
+    known_nominals,
+    knowns_of,
+    nominal_of,
+    provides,
+    reals_of,
+    references_of,
+    starts_of,
+    unknowns_of,
+    variables_of,
+)
+
+REFERENCE_TOLERANCE = 1e-8
+"""Largest accepted deviation from the reference, relative to the largest value of each output."""
+
+DERIVATIVE_TOLERANCE = 1e-7
+"""Largest accepted deviation of a derivative from differences, relative to the largest of its row."""
+
+
+class CheckItem(NamedTuple):
+    """The outcome of one check.
+
+    Attributes
+    ----------
+    check : str
+        What was checked.
+    passed : bool or None
+        None where the FMU does not have what would be checked.
+    figure : float or None
+        What was measured.
+    remark : str
+        What the figure is, or why there is none.
+    """
+
+    check: str
+    passed: bool | None
+    figure: float | None
+    remark: str
+
+
+class _Subject(NamedTuple):
+    """An FMU on its way through the checks: fmpy's description, its files, its reference trajectory."""
+
+    path: str
+    description: Any
+    folder: str
+    reference: Array | None
+
+
+def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
+    """Check an FMU of FMI 2.0 or 3.0.
+
+    Its description by fmpy; whether its libraries, for all platforms, are whole; its directional derivatives
+    against central differences of fourth order with steps scaled by the nominal values; FMU states saved,
+    restored and serialized; and the reference trajectory that a native FMU of this package carries, in
+    Co-Simulation and in Model Exchange.
+
+    Parameters
+    ----------
+    path : path of the .fmu file
+
+    Returns
+    -------
+    list of CheckItem
+
+    Raises
+    ------
+    FmuError
+        If the file cannot be read.
+    """
+    checks: dict[str, Callable[[_Subject], CheckItem]] = {
+        "description": _check_description,
+        "libraries": _check_libraries,
+        "directional derivatives": _check_derivatives,
+        "adjoint derivatives": _check_adjoint,
+        "FMU state": _check_state,
+        "reference, Co-Simulation": _check_steps,
+        "reference, Model Exchange": _check_exchange,
+    }
+    with extracted(path) as (description, folder):
+        subject = _Subject(str(path), description, folder, _reference(description, folder))
+        return [_guarded(name, check, subject) for name, check in checks.items()]
+
+
+def _guarded(name: str, check: Callable[[_Subject], CheckItem], subject: _Subject) -> CheckItem:
+    try:
+        return check(subject)._replace(check=name)
+    except Exception as error:
+        # An FMU may fail in any way; that is the outcome.
+        return CheckItem(name, False, None, " ".join(f"{type(error).__name__}: {error}".split()))
+
+
+def _check_description(subject: _Subject) -> CheckItem:
+    problems = validate_fmu(subject.path)
+    remark = "; ".join(problems) if problems else "problems found by fmpy"
+    return CheckItem("", not problems, float(len(problems)), remark)
+
+
+def _check_libraries(subject: _Subject) -> CheckItem:
+    found = libraries(subject.folder)
+    for path in found:
+        require_whole(path)
+    if not found:
+        return _absent("no compiled library")
+    return CheckItem("", True, float(len(found)), "as long as their headers say")
+
+
+def _check_derivatives(subject: _Subject) -> CheckItem:
+    if not provides(subject.folder, DERIVATIVES):
+        return _absent("no directional derivatives")
+    worst = _visit(subject, derivative_error)
+    return CheckItem("", worst <= DERIVATIVE_TOLERANCE, worst, "largest deviation from central differences")
+
+
+def _check_adjoint(subject: _Subject) -> CheckItem:
+    if not provides(subject.folder, ADJOINT_DERIVATIVES):
+        return _absent("no adjoint derivatives")
+    worst = _visit(subject, adjoint_error)
+    return CheckItem("", worst <= 1e-12, worst, "largest deviation from the directional derivatives")
+
+
+def _check_state(subject: _Subject) -> CheckItem:
+    if subject.description.coSimulation is None or not provides(subject.folder, STATES, SERIAL_STATES):
+        return _absent("no FMU states in Co-Simulation")
+    first = instantiated(subject.description, subject.folder, False)
+    second = instantiated(subject.description, subject.folder, False)
+    try:
+        count = state_differences(subject.description, first, second)
+    finally:
+        first.close()
+        second.close()
+    return CheckItem("", count == 0, float(count), "values that differ after restoring and after serializing")
+
+
+def _check_steps(subject: _Subject) -> CheckItem:
+    return _replayed(subject, replay_steps, subject.description.coSimulation)
+
+
+def _check_exchange(subject: _Subject) -> CheckItem:
+    return _replayed(subject, replay_exchange, subject.description.modelExchange)
+
+
+def _replayed(subject: _Subject, replay: Callable[..., Array], interface: Any) -> CheckItem:
+    if interface is None or subject.reference is None:
+        return _absent("no such interface" if interface is None else "no reference trajectory in the FMU")
+    outputs = len(references_of(subject.description, "output"))
+    expected = subject.reference[:, -outputs:]
+    found = replay(subject.description, subject.folder, subject.reference)
+    nominal = [nominal_of(v) for v in variables_of(subject.description, "output")]
+    largest = np.abs(expected).max(axis=0)
+    worst = float(np.max(np.abs(found - expected) / np.where(largest > 0.0, largest, nominal), initial=0.0))
+    return CheckItem("", worst <= REFERENCE_TOLERANCE, worst, "largest deviation from the trajectory inside")
+
+
+def _visit(subject: _Subject, measure: Callable[[Any, Instance, Array], float]) -> float:
+    """Return the largest of a measure over some states of the FMU, in Model Exchange if it has it."""
+    exchange = subject.description.modelExchange is not None
+    inputs = len(references_of(subject.description, "input"))
+    rows = np.array([starts_of(subject.description, "input")])
+    if subject.reference is not None:
+        rows = subject.reference[:: max(1, len(subject.reference) // 8), 1 : 1 + inputs]
+    instance = instantiated(subject.description, subject.folder, exchange)
+    try:
+        instance.initialize(references_of(subject.description, "input"), rows[0].tolist())
+        return max(measure(subject.description, instance, row) for row in rows)
+    finally:
+        instance.close()
+
+
+def _absent(remark: str) -> CheckItem:
+    return CheckItem("", None, None, remark)
+
+
+def _reference(description: Any, folder: str) -> Array | None:
+    """Return the reference trajectory in the FMU, if it has one whose columns are its signals."""
+    path = Path(folder, "documentation", "reference.csv")
+    if not path.is_file():
+        return None
+    try:
+        header, *rows = csv.reader(io.StringIO(read_text(path), newline=""))
+        table = np.array([[float(cell) for cell in row] for row in rows])
+    except (ValueError, csv.Error) as error:
+        raise FmuError(f"reference.csv must be names and rows of numbers below them, got {error}") from None
+    signals = [*variables_of(description, "input"), *variables_of(description, "output")]
+    if header != ["time", *(variable.name for variable in signals)]:
+        raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {brief(header)}")
+    if table.shape != (len(rows), len(header)) or not rows or not np.isfinite(table).all():
+        raise FmuError(
+            f"reference.csv must have rows of {len(header)} finite numbers, got shape {table.shape}"
+        )
+    return table
+
+
+# What is measured on an FMU: derivatives against differences, FMU states against each other.
+
+
+DIFFERENCE_STEP = 1e-4
+"""Step of the differences in nominal values, where their errors of fourth order and of roundoff balance."""
+
+
+def derivative_error(description: Any, instance: Instance, inputs: Array) -> float:
+    """Return the largest deviation of directional derivatives from differences, relative to its row."""
+    unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
+    instance.set(references_of(description, "input"), inputs.tolist())
+    if description.modelExchange is not None:
+        instance.move(0.0, _states(description))
+    exact, values = _columns(instance, unknowns, knowns), np.abs(instance.get(unknowns))
+    moved = np.stack(
+        [
+            _difference(description, instance, k, DIFFERENCE_STEP * nominal[k], inputs)
+            for k in range(len(knowns))
+        ],
+        axis=1,
+    )
+    instance.set(references_of(description, "input"), inputs.tolist())
+    # What does not depend on anything has differences of roundoff, to be seen beside its value.
+    return _deviation(exact * nominal, moved * nominal, DIFFERENCE_STEP * values)
+
+
+def adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
+    """Return the largest deviation of adjoint from directional derivatives, relative to its row."""
+    assert isinstance(instance, Instance3)
+    unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
+    instance.set(references_of(description, "input"), inputs.tolist())
+    exact = _columns(instance, unknowns, knowns)
+    rows = np.array([instance.adjoint([unknown], knowns, [1.0]) for unknown in unknowns])
+    return _deviation(exact * nominal, rows * nominal, np.zeros(len(unknowns)))
+
+
+def _deviation(exact: Array, other: Array, floor: Array) -> float:
+    """Return the largest deviation relative to the largest entry of its row, or its floor."""
+    scale = np.maximum(np.abs(exact).max(axis=1, initial=0.0), floor)
+    largest = np.abs(other - exact).max(axis=1, initial=0.0)
+    return float(np.max(largest / np.where(scale > 0.0, scale, 1.0), initial=0.0))
+
+
+def _columns(instance: Instance, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
+    return np.stack([instance.directional(unknowns, [known], [1.0]) for known in knowns], axis=1)
+
+
+def _states(description: Any) -> Array:
+    """Return the states for differences: beyond the start values, which may be the end of a range."""
+    nominal = known_nominals(description)[len(references_of(description, "input")) :]
+    return starts_of(description, "local") + 4.0 * DIFFERENCE_STEP * nominal
+
+
+def _difference(description: Any, instance: Instance, known: int, step: float, inputs: Array) -> Array:
+    """Return the derivative by one known from central differences of fourth order."""
+    weights = {-2.0: 1.0, -1.0: -8.0, 1.0: 8.0, 2.0: -1.0}
+    states = _states(description)
+    total = np.zeros(len(unknowns_of(description)))
+    for shift, weight in weights.items():
+        shifted = np.concatenate([inputs, states])
+        shifted[known] += shift * step
+        instance.set(references_of(description, "input"), shifted[: len(inputs)].tolist())
+        if description.modelExchange is not None:
+            instance.move(0.0, shifted[len(inputs) :])
+        total += weight * np.array(instance.get(unknowns_of(description)))
+    if description.modelExchange is not None:
+        instance.move(0.0, np.array(states))
+    return total / (12.0 * step)
+
+
+def state_differences(description: Any, first: Instance, second: Instance) -> int:
+    """Return how many values differ between a run, the same run restored, and it in another instance."""
+    everything = [v.valueReference for v in reals_of(description) if v.causality != "independent"]
+    experiment = description.defaultExperiment
+    step = float(getattr(experiment, "stepSize", None) or 1e-3)
+    first.initialize([], [])
+    second.initialize([], [])
+    for k in range(3):
+        first.step(k * step, step)
+    saved = first.save()
+    content = first.serialize(saved)
+    runs = [_advanced(first, everything, step)]
+    first.restore(saved)
+    runs.append(_advanced(first, everything, step))
+    first.release(saved)
+    copied = second.deserialize(content)
+    second.restore(copied)
+    second.release(copied)
+    runs.append(_advanced(second, everything, step))
+    return sum(a != b for run in runs[1:] for a, b in zip(runs[0], run, strict=True))
+
+
+def _advanced(instance: Instance, references: Sequence[int], step: float) -> list[float]:
+    for k in range(3, 6):
+        instance.step(k * step, step)
+    return instance.get(references)
+
+
+# Running an FMU along a table of inputs, in Co-Simulation and in Model Exchange.
+
+
+STEP_TOLERANCE = 1e-12
+"""Of the time integration inside an FMU in Co-Simulation."""
+
+SHORTER = 1e-3
+"""Of a first step that leads where the model has no derivative, the part that is tried next."""
+
+TOLERANCE = 1e-11
+"""Local error of the integration in Model Exchange, relative to each state and its nominal value."""
+
+
+def replay_steps(description: Any, folder: str, table: Array) -> Array:
+    """Return the outputs (n_rows, n_outputs) of an FMU in Co-Simulation.
+
+    Parameters
+    ----------
+    description : fmpy.model_description.ModelDescription
+    folder : str
+        Where the FMU was extracted.
+    table : ndarray, shape (n_rows, 1 + n_inputs + ...)
+        Columns time and inputs; the inputs of a row are held until the next row.
+    """
+    inputs, outputs = references_of(description, "input"), references_of(description, "output")
+    time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
+    instance = instantiated(description, folder, False)
+    try:
+        instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
+        rows = [instance.get(outputs)]
+        for k in range(1, len(time)):
+            instance.step(float(time[k - 1]), float(time[k] - time[k - 1]))
+            instance.set(inputs, values[k].tolist())
+            rows.append(instance.get(outputs))
+    finally:
+        instance.close()
+    return np.array(rows)
+
+
+def replay_exchange(description: Any, folder: str, table: Array) -> Array:
+    """Return the outputs (n_rows, n_outputs) of an FMU in Model Exchange; see `replay_steps`."""
+    inputs, outputs = references_of(description, "input"), references_of(description, "output")
+    time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
+    nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
+    instance = instantiated(description, folder, True)
+    try:
+        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0])).next_time
+        x = instance.states(len(nominal))
+        rows = [instance.get(outputs)]
+        for k in range(1, len(time)):
+            x, next_event = _between(instance, time[k - 1], x, time[k], nominal, next_event)
+            instance.set(inputs, values[k].tolist())
+            rows.append(instance.get(outputs))
+    finally:
+        instance.close()
+    return np.array(rows)
+
+
+def _between(
+    instance: Instance, t: float, x: Array, end: float, nominal: Array, next_event: float | None
+) -> tuple[Array, float | None]:
+    """Return the state at `end`, and the time of the next event."""
+    while next_event is not None and next_event <= end:
+        x = _integrated(instance, t, x, next_event, nominal)
+        t = next_event
+        next_event = instance.event().next_time
+        if next_event is not None and next_event <= t:
+            raise FmuError(f"the next event must be after t = {t!r} s, got {next_event!r}")
+    return _integrated(instance, t, x, end, nominal), next_event
+
+
+def _integrated(instance: Instance, t: float, x: Array, end: float, nominal: Array) -> Array:
+    if not len(x) or end <= t:
+        instance.move(end, x)
+        return x
+
+    def slope(time: float, state: Array) -> Array:
+        instance.move(time, state)
+        return instance.derivatives(len(state))
+
+    solver = _solver(slope, t, x, end, nominal)
+    while solver.status == "running":
+        solver.step()
+    if solver.status != "finished":
+        raise FmuError(f"the integration must reach t = {end!r} s, got stuck at {solver.t!r} s")
+    instance.move(end, solver.y)
+    return solver.y
+
+
+def _solver(slope: Callable[[float, Array], Array], t: float, x: Array, end: float, nominal: Array) -> Any:
+    """Return the solver after the first step, which is short where a long one leaves the model's states."""
+    for first in (end - t, SHORTER * (end - t), SHORTER**2 * (end - t)):
+        solver = DOP853(slope, t, x, end, rtol=TOLERANCE, atol=TOLERANCE * nominal, first_step=first)  # type: ignore[arg-type]
+        try:
+            solver.step()
+        except FMICallException:
+            continue
+        return solver
+    slope(t, x)
+    raise FmuError(f"the integration must leave t = {t!r} s, got no derivative beside it")

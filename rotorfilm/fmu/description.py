@@ -1,0 +1,716 @@
+"""What a modelDescription.xml says, and the parts of it that FMI 2.0 and 3.0 share."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from typing import NamedTuple, Protocol
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.errors import FmuError, InputError
+from ..core.model import Array, Dynamic, Model, Stepped
+from ..core.signals import Scalar, Variable, names, to_fmi_name
+from ..core.units import DISPLAY_UNITS, UNITS
+
+# Which inputs, states and parameters each output and derivative depends on, for the FMI ModelStructure.
+
+
+SAMPLES = 8
+"""Generic points at which a derivative must vanish exactly before an output counts as independent."""
+
+Flags = NDArray[np.bool_]
+
+
+class Dependencies(NamedTuple):
+    """What the unknowns of a model, first its outputs, then the derivatives of its states, depend on.
+
+    Attributes
+    ----------
+    on_inputs : ndarray of bool, shape (n_unknowns, n_inputs)
+    on_states : ndarray of bool, shape (n_unknowns, n_states)
+    on_time : ndarray of bool, shape (n_unknowns,)
+    bent : ndarray of bool, shape (n_unknowns, n_inputs + n_states)
+        Where the dependence is not linear.
+    delayed : bool
+        Whether inputs act in the next step only: outputs follow from them during initialization alone.
+    """
+
+    on_inputs: Flags
+    on_states: Flags
+    on_time: Flags
+    bent: Flags
+    delayed: bool = False
+
+
+class Unknown(NamedTuple):
+    """One entry of a ModelStructure.
+
+    Attributes
+    ----------
+    reference : int
+        Value reference of the unknown.
+    knowns : tuple of int
+        Value references of what it depends on.
+    kinds : tuple of str
+        How, as FMI spells it.
+    """
+
+    reference: int
+    knowns: tuple[int, ...]
+    kinds: tuple[str, ...]
+
+
+def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
+    """Return the dependencies of `model` from its exact derivatives.
+
+    An unknown counts as independent of an input or state only if that derivative is exactly zero at the
+    start values and at `SAMPLES` generic points about them, as linear only if it is the same at all of them;
+    wherever derivatives are undefined, as where a film at rest has none, the other points decide, and if no
+    point has derivatives, all may depend.
+
+    Parameters
+    ----------
+    model : Model
+    start : ndarray, shape (n_inputs,)
+        Start values of the inputs.
+    times : sequence of float [s]
+        An unknown with the same value at all of them counts as independent of time.
+    """
+    points = _points(model, start)
+    found = [matrix for x, u in points if (matrix := _matrix(model, x, u)) is not None]
+    shape = (len(model.outputs) + len(model.states), len(model.inputs) + len(model.states))
+    nonzero, bent = np.ones(shape, dtype=bool), np.ones(shape, dtype=bool)
+    if found:
+        stack = np.array(found)
+        # NaN is not zero: it counts as a dependency.
+        nonzero = np.any(stack != 0.0, axis=0)
+        bent = nonzero & (np.any(stack != stack[0], axis=0) | (len(found) < SAMPLES))
+    count = len(model.inputs)
+    return Dependencies(nonzero[:, :count], nonzero[:, count:], _on_time(model, points[-1], times), bent)
+
+
+def delayed_dependencies(model: Stepped) -> Dependencies:
+    """Return the dependencies of a model with its own integrator: all outputs follow from all inputs."""
+    shape = len(model.outputs), len(model.inputs)
+    every = np.ones(shape, dtype=bool)
+    return Dependencies(
+        every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True
+    )
+
+
+def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable: bool) -> list[Unknown]:
+    """Return outputs and derivatives with what they depend on while the simulation runs.
+
+    States are among it only where the description shows their derivatives too.
+
+    Parameters
+    ----------
+    variables : sequence of Variable
+    found : Dependencies
+    tunable : bool
+        Whether the model has tunable parameters, which then may be in every linear factor.
+    """
+    if found.delayed:
+        found = found._replace(on_inputs=np.zeros_like(found.on_inputs))
+    linear = "tunable" if tunable else "constant"
+    hidden = set() if derivative_references(variables) else set(references(variables, "local"))
+    unknowns = [
+        (reference, _time(variables, timed) + _marked(variables, row, bent, linear))
+        for reference, row, timed, bent in _rows(variables, found)
+    ]
+    return [Unknown(k, *_split([p for p in pairs if p[0] not in hidden])) for k, pairs in unknowns]
+
+
+def initial_unknowns(variables: Sequence[Variable], found: Dependencies) -> list[Unknown]:
+    """Return outputs and derivatives with what they depend on during initialization, parameters included."""
+    parameters = [(k, "dependent") for k in references(variables, "parameter")]
+    linear = "dependent" if parameters else "constant"
+    return [
+        Unknown(
+            reference,
+            *_split(_time(variables, timed) + parameters + _marked(variables, row, bent, linear)),
+        )
+        for reference, row, timed, bent in _rows(variables, found)
+    ]
+
+
+def _rows(variables: Sequence[Variable], found: Dependencies) -> list[tuple[int, Flags, bool, Flags]]:
+    unknowns = [*references(variables, "output"), *derivative_references(variables)]
+    # A description without derivatives, for co-simulation only, has no use for their rows.
+    depends = np.concatenate([found.on_inputs, found.on_states], axis=1)[: len(unknowns)]
+    return [
+        (unknown, row, bool(found.on_time[k]), found.bent[k])
+        for k, (unknown, row) in enumerate(zip(unknowns, depends, strict=True))
+    ]
+
+
+def _marked(variables: Sequence[Variable], row: Flags, bent: Flags, linear: str) -> list[tuple[int, str]]:
+    knowns = [*references(variables, "input"), *references(variables, "local")]
+    kinds = ["dependent" if flag else linear for flag in bent]
+    return [(known, kind) for known, kind, flag in zip(knowns, kinds, row, strict=True) if flag]
+
+
+def _time(variables: Sequence[Variable], timed: bool) -> list[tuple[int, str]]:
+    return [(known, "dependent") for known in references(variables, "independent") if timed]
+
+
+def _split(pairs: list[tuple[int, str]]) -> tuple[tuple[int, ...], tuple[str, ...]]:
+    return tuple(known for known, _ in pairs), tuple(kind for _, kind in pairs)
+
+
+def _points(model: Model, start: Array) -> list[tuple[Array, Array]]:
+    state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
+    generator = np.random.default_rng(0)
+    points = [(np.asarray(state, dtype=float), start)]
+    for _ in range(SAMPLES):
+        points.append(
+            (
+                state + generator.uniform(-0.5, 0.5, len(model.states)) * _nominal(model.states),
+                start + generator.uniform(-0.5, 0.5, len(model.inputs)) * _nominal(model.inputs),
+            )
+        )
+    return points
+
+
+def _matrix(model: Model, x: Array, u: Array) -> Array | None:
+    """Return d(output, derivative)/d(input, state), or None where there is no such thing."""
+    try:
+        at = model.linearization(0.0, x, u)
+    except Exception:
+        # Whatever a model raises where it has no derivatives, the point says nothing.
+        return None
+    return np.block([[at.D, at.C], [at.B, at.A]])
+
+
+def _on_time(model: Model, point: tuple[Array, Array], times: Sequence[float]) -> Flags:
+    try:
+        values = np.array([_unknowns(model, t, *point) for t in times])
+    except Exception:
+        return np.ones(len(model.outputs) + len(model.states), dtype=bool)
+    return np.any(values != values[0], axis=0)
+
+
+def _unknowns(model: Model, t: float, x: Array, u: Array) -> Array:
+    slopes = model.derivative(t, x, u) if isinstance(model, Dynamic) else np.zeros(0)
+    return np.concatenate([model.output(t, x, u), slopes])
+
+
+def _nominal(signals: tuple) -> Array:
+    return np.array([signal.nominal for signal in signals])
+
+
+# What a modelDescription.xml says, and the parts of it that FMI 2.0 and 3.0 share.
+
+
+QUANTITIES = {
+    "m": "Length",
+    "s": "Time",
+    "kg": "Mass",
+    "rad": "Angle",
+    "m/s": "Velocity",
+    "m/s2": "Acceleration",
+    "rad/s": "AngularVelocity",
+    "rad/s2": "AngularAcceleration",
+    "N": "Force",
+    "N/m": "Stiffness",
+    "N.s/m": "Damping",
+    "Pa": "Pressure",
+    "Pa.s": "DynamicViscosity",
+    "kg.m": "Unbalance",
+}
+"""Names of the types, by unit; a unit that is not here has a type without a name."""
+
+SHOWN = {"m": "um", "rad": "deg", "rad/s": "rpm", "N": "kN", "Pa.s": "mPa s", "kg.m": "g mm"}
+"""The unit in which a tool should show values of a unit."""
+
+
+class Description(NamedTuple):
+    """What the XML says.
+
+    Attributes
+    ----------
+    identifier : str
+        C identifier; name of the binary.
+    title : str
+        One line on the model.
+    tool : str
+        Generation tool with versions.
+    copyright : str
+    interfaces : mapping of str to mapping
+        Attributes of ModelExchange and CoSimulation, as the FMI version spells them.
+    categories : mapping of str to str
+        Log categories and what they log.
+    variables : tuple of Variable
+    dependencies : Dependencies
+    stop_time, step_size : float [s]
+        Default experiment.
+    sources : tuple of str
+        C files below `sources/` that make the binary.
+    author : str
+        Who made the model; empty where nobody is named.
+    structured : bool
+        Whether names are `component.signal`.
+    """
+
+    identifier: str
+    title: str
+    tool: str
+    copyright: str
+    interfaces: Mapping[str, Mapping[str, str]]
+    categories: Mapping[str, str]
+    variables: tuple[Variable, ...]
+    dependencies: Dependencies
+    stop_time: float
+    step_size: float
+    sources: tuple[str, ...] = ()
+    author: str = ""
+    structured: bool = True
+
+    @property
+    def tunable(self) -> bool:
+        """Whether a parameter may change while the simulation runs."""
+        return any(variable.variability == "tunable" for variable in self.variables)
+
+
+class Dialect(Protocol):
+    """How one FMI version writes what both say."""
+
+    version: str
+    token: str
+
+    def add_interface(self, root: Element, name: str, description: Description) -> None:
+        """Add ModelExchange or CoSimulation."""
+
+    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
+        """Add the type of a quantity."""
+
+    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
+        """Add a variable."""
+
+    def add_structure(self, structure: Element, description: Description) -> None:
+        """Add what the unknowns depend on."""
+
+
+def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
+    """Return modelDescription.xml; equal arguments give equal bytes.
+
+    Parameters
+    ----------
+    description : Description
+    dialect : Dialect
+    token : str
+        What FMI 2.0 calls guid, FMI 3.0 instantiationToken.
+    """
+    root = Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": dialect.version,
+            "modelName": description.identifier,
+            dialect.token: token,
+            "description": description.title,
+            **({"author": description.author} if description.author else {}),
+            "copyright": description.copyright,
+            "license": "MIT, see documentation/licenses",
+            "generationTool": description.tool,
+            **_generated(),
+            "variableNamingConvention": "structured" if description.structured else "flat",
+        },
+    )
+    for name in description.interfaces:
+        dialect.add_interface(root, name, description)
+    _add_units(root, description.variables)
+    types = SubElement(root, "TypeDefinitions")
+    for attributes in _type_attributes(description.variables):
+        dialect.add_type(types, attributes)
+    categories = SubElement(root, "LogCategories")
+    for name, text in description.categories.items():
+        SubElement(categories, "Category", name=name, description=text)
+    experiment = {"stopTime": repr(description.stop_time), "stepSize": repr(description.step_size)}
+    SubElement(root, "DefaultExperiment", {"startTime": "0.0", **experiment})
+    variables = SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(description.variables):
+        dialect.add_variable(variables, reference, variable)
+    dialect.add_structure(SubElement(root, "ModelStructure"), description)
+    return to_bytes(root)
+
+
+def _generated() -> dict[str, str]:
+    """Return when the FMU was made, as SOURCE_DATE_EPOCH says, so that equal builds are equal to the byte."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not seconds:
+        return {}
+    try:
+        made = datetime.fromtimestamp(int(seconds), tz=UTC)
+    except (ValueError, OverflowError, OSError):
+        raise InputError(
+            f"SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, got {seconds!r}"
+        ) from None
+    return {"generationDateAndTime": made.strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def _add_units(root: Element, variables: tuple[Variable, ...]) -> None:
+    """Add the units in use, each with its SI base units and the unit to show it in."""
+    definitions = SubElement(root, "UnitDefinitions")
+    for name in sorted({variable.unit for variable in variables if variable.unit is not None}):
+        unit = SubElement(definitions, "Unit", name=name)
+        exponents = UNITS[name].exponents
+        SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if name in SHOWN:
+            factor = UNITS[name].factor / DISPLAY_UNITS[SHOWN[name]].factor
+            SubElement(unit, "DisplayUnit", name=SHOWN[name], factor=repr(factor))
+
+
+def _type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
+    """Return the attributes of the types in use: quantity, unit and display unit, sorted by name."""
+    units = {v.unit for v in variables if v.unit in QUANTITIES}
+    types = [{"quantity": QUANTITIES[unit], "unit": unit, **_shown(unit)} for unit in units if unit]
+    return sorted(types, key=lambda attributes: attributes["quantity"])
+
+
+def value_attributes(variable: Variable) -> dict[str, str]:
+    """Return type, unit, bounds, nominal and start value of a variable."""
+    attributes = {} if variable.unit not in QUANTITIES else {"declaredType": QUANTITIES[variable.unit]}
+    if variable.unit is not None:
+        attributes |= {"unit": variable.unit, **_shown(variable.unit)}
+    bounds = {"min": variable.minimum, "max": variable.maximum}
+    numbers = {name: bound for name, bound in bounds.items() if math.isfinite(bound)}
+    rest = {"nominal": variable.nominal, "start": variable.start}
+    numbers |= {name: value for name, value in rest.items() if value is not None}
+    return attributes | {name: repr(float(value)) for name, value in numbers.items()}
+
+
+def variable_attributes(variable: Variable, reference: int) -> dict[str, str]:
+    """Return what is said of a variable besides its values."""
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.description,
+        "causality": variable.causality,
+        "variability": variable.variability,
+    }
+    if variable.causality in ("input", "independent"):  # where FMI fixes `initial`
+        return attributes
+    return {**attributes, "initial": "calculated" if variable.start is None else "exact"}
+
+
+def unknown_attributes(unknown: Unknown, first: int) -> dict[str, str]:
+    """Return what an unknown depends on, by places among the variables that count from `first`."""
+    return {
+        "dependencies": " ".join(str(known + first) for known in unknown.knowns),
+        "dependenciesKind": " ".join(unknown.kinds),
+    }
+
+
+def to_bytes(root: Element) -> bytes:
+    """Return the document, indented."""
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+
+
+def _shown(unit: str) -> dict[str, str]:
+    return {"displayUnit": SHOWN[unit]} if unit in SHOWN else {}
+
+
+# The FMI variables of a model: one list, from which the description, the slave and the tables follow.
+
+
+ELEMENT = re.compile(r"[A-Za-z_]\w*\[\d+\]", re.ASCII)
+"""An element of an array, as FMI spells it: python-control's default labels."""
+
+QUOTABLE = re.compile(r"[\w!#$%&()*+,\-./:;<>=?@\[\]^{}|~ ]+", re.ASCII)
+"""What may stand between the quotes of an FMI name."""
+
+
+def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, float]) -> tuple[Variable, ...]:
+    """Return the inputs, outputs and states of `model` as FMI variables, in this order.
+
+    Parameters
+    ----------
+    model : Model or Stepped
+        A Stepped model shows no states.
+    component : str
+        Identifier in front of the dot of every name; empty for flat names.
+    start : mapping of str to float
+        Start values of inputs by signal name, in their units; 0 where none is given.
+
+    Raises
+    ------
+    FmuError
+        If two variables would have the same name.
+    """
+    initial = model.initial_state if isinstance(model, Dynamic) else ()
+    states = model.states if isinstance(model, Model) else ()
+    variables = (
+        *(labelled(component, "input", s, float(start.get(s.name, 0.0))) for s in model.inputs),
+        *(labelled(component, "output", s) for s in model.outputs),
+        *(labelled(component, "local", s, float(value)) for s, value in zip(states, initial, strict=True)),
+    )
+    require_unique(variables)
+    return variables
+
+
+def labelled(component: str, causality: str, signal: Scalar, start: float | None = None) -> Variable:
+    """Return the variable of a signal of `component`; the name of a state begins with `state_`."""
+    prefix = "state_" if causality == "local" else ""
+    return Variable(
+        name=structured_name(component, prefix + signal.name),
+        causality=causality,
+        unit=signal.unit,
+        nominal=signal.nominal,
+        description=signal.description,
+        minimum=signal.minimum,
+        maximum=signal.maximum,
+        start=start,
+    )
+
+
+def structured_name(component: str, label: str) -> str:
+    """Return `component.label`, the label quoted where FMI wants it; without a component the label alone.
+
+    Raises
+    ------
+    FmuError
+        If the label has characters that no FMI name may have.
+    """
+    if label.isidentifier() and label.isascii():
+        return to_fmi_name(component, label) if component else label
+    before = f"{component}." if component else ""
+    if ELEMENT.fullmatch(label):
+        return f"{before}{label}"
+    if not QUOTABLE.fullmatch(label):
+        raise FmuError(
+            f"signal names must be of ASCII letters, digits and !#$%&()*+,-./:;<>=?@[]^{{}}|~, got {label!r}"
+        )
+    return f"{before}'{label}'"
+
+
+def require_unique(variables: Sequence[Variable]) -> None:
+    """Raise FmuError where two variables have the same name."""
+    names = [variable.name for variable in variables]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise FmuError(f"model must have signals of different names in an FMU, got {twice} twice")
+
+
+def references(variables: Sequence[Variable], causality: str) -> list[int]:
+    """Return the value references of a causality; of "local" those of the states."""
+    return [
+        k for k, v in enumerate(variables) if v.causality == causality and v.state is None and not v.switch
+    ]
+
+
+def derivative_references(variables: Sequence[Variable]) -> list[int]:
+    """Return the value references of the derivatives of the states."""
+    return [k for k, v in enumerate(variables) if v.state is not None]
+
+
+def switch_references(variables: Sequence[Variable]) -> list[int]:
+    """Return the value references of the event indicators."""
+    return [k for k, v in enumerate(variables) if v.switch]
+
+
+# Terminals of FMI 3.0, section 2.4.9: the signals of a journal as one plug, for bearing and rotor
+# alike.
+#
+# A bearing and a rotor have a terminal for each journal with the same members: position, velocity,
+# speed and force, each an input of the one and an output of the other. The force is that on the
+# journal on both sides, so all members are signals, which are equal in connected terminals.
+
+
+FORCE = re.compile(r"(?:(\w+)_)?force_[xyz]", re.ASCII)
+"""The force at a station, which has a name or none."""
+
+MOTION = ("x", "y", "z", "vx", "vy", "vz")
+MEMBERS = (*MOTION, "speed", "force_x", "force_y", "force_z")
+
+KIND = "_rotorfilm.Mechanical.Translational.Journal"
+"""Kinds that a tool defines begin with its name."""
+
+RULE = "bus"
+"""Members are matched by name; a damper has no speed, and connects all the same."""
+
+FMI = "3.0"
+"""The version whose schema the file follows. FMI 2.0.4 and later take it too."""
+
+
+class Terminal(NamedTuple):
+    """The signals of one journal.
+
+    Attributes
+    ----------
+    name : str
+        That of the station; of an FMU with one journal that of the component.
+    members : dict of str to str
+        Variables by the names that they have in every terminal, as `force_x`.
+    """
+
+    name: str
+    members: dict[str, str]
+
+
+def terminals(
+    component: str, prefix: str, inputs: Sequence[str], outputs: Sequence[str]
+) -> tuple[Terminal, ...]:
+    """Return the terminals of a model: a station has force and motion, the one as input, the other as output.
+
+    Parameters
+    ----------
+    component : str
+        Name of the FMU.
+    prefix : str
+        What stands before the dot of its variables; empty where their names are flat.
+    inputs, outputs : sequence of str
+        Names of the signals.
+    """
+    found, known = [], {*inputs, *outputs}
+    for station in _stations((*inputs, *outputs)):
+        own = {member: f"{station}_{member}" if station else member for member in MEMBERS}
+        if own["speed"] not in known:
+            own["speed"] = "speed"
+        given = {member: name for member, name in own.items() if name in known}
+        # A motion that comes in and a force that goes out are one side of a journal, the reverse the other.
+        sides = {
+            (name in inputs) == (member in MOTION) for member, name in given.items() if member != "speed"
+        }
+        if len(sides) == 1 and not set(MOTION).isdisjoint(given):
+            named = {member: structured_name(prefix, name) for member, name in given.items()}
+            found.append(Terminal(station or component, named))
+    return tuple(found)
+
+
+def terminal_files(model: Model | Stepped, component: str, prefix: str, icon: bool) -> dict[str, bytes]:
+    """Return terminalsAndIcons.xml by its path; nothing where there are neither terminals nor an icon."""
+    found = terminals(component, prefix, names(model.inputs), names(model.outputs))
+    path = "terminalsAndIcons/terminalsAndIcons.xml"
+    return {path: terminals_and_icons(found, icon)} if found or icon else {}
+
+
+def _stations(labels: Sequence[str]) -> list[str]:
+    """Return the stations with a force, in order; the empty name is that of the only one."""
+    matches = [FORCE.fullmatch(label) for label in labels]
+    return list(dict.fromkeys(match[1] or "" for match in matches if match))
+
+
+def terminals_and_icons(found: Sequence[Terminal], icon: bool) -> bytes:
+    """Return terminalsAndIcons.xml: the size of icon.png on a diagram, if there is one, and the terminals."""
+    root = Element("fmiTerminalsAndIcons", fmiVersion=FMI)
+    if icon:
+        corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+        graphics = SubElement(root, "GraphicalRepresentation")
+        SubElement(graphics, "CoordinateSystem", {**corners, "suggestedScalingFactorTo_mm": "0.1"})
+        SubElement(graphics, "Icon", corners)
+    if found:
+        parent = SubElement(root, "Terminals")
+        for terminal in found:
+            _add(parent, terminal)
+    return to_bytes(root)
+
+
+def _add(parent: Element, terminal: Terminal) -> None:
+    said = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
+    element = SubElement(parent, "Terminal", {"name": terminal.name, "matchingRule": RULE, **said})
+    for member, variable in terminal.members.items():
+        own = {"variableName": variable, "memberName": member}
+        SubElement(element, "TerminalMemberVariable", {**own, "variableKind": "signal"})
+
+
+# modelDescription.xml of FMI 2.0.
+
+
+class Dialect2:
+    """How FMI 2.0 writes it; see `Dialect`."""
+
+    version, token = "2.0", "guid"
+
+    def add_interface(self, root: Element, name: str, description: Description) -> None:
+        """Add an interface with its sources; the number of event indicators is said at the root."""
+        if switches := switch_references(description.variables):
+            root.set("numberOfEventIndicators", str(len(switches)))
+        attributes = {"modelIdentifier": description.identifier, **description.interfaces[name]}
+        interface = SubElement(root, name, attributes)
+        if description.sources:
+            files = SubElement(interface, "SourceFiles")
+            for source in description.sources:
+                SubElement(files, "File", name=source)
+
+    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
+        """Add a type."""
+        SubElement(SubElement(parent, "SimpleType", name=attributes["quantity"]), "Real", dict(attributes))
+
+    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
+        """Add a variable."""
+        scalar = SubElement(parent, "ScalarVariable", variable_attributes(variable, reference))
+        slope = {} if variable.state is None else {"derivative": str(variable.state + 1)}
+        SubElement(scalar, "Real", value_attributes(variable) | slope)
+
+    def add_structure(self, structure: Element, description: Description) -> None:
+        """Add outputs, derivatives and initial unknowns, by places that count from 1."""
+        variables = description.variables
+        slopes = set(derivative_references(variables))
+        running = running_unknowns(variables, description.dependencies, description.tunable)
+        _add_unknowns(structure, "Outputs", [u for u in running if u.reference not in slopes])
+        if slopes:
+            _add_unknowns(structure, "Derivatives", [u for u in running if u.reference in slopes])
+        _add_unknowns(structure, "InitialUnknowns", initial_unknowns(variables, description.dependencies))
+
+
+def _add_unknowns(structure: Element, name: str, unknowns: Sequence[Unknown]) -> None:
+    parent = SubElement(structure, name)
+    for unknown in unknowns:
+        index = {"index": str(unknown.reference + 1)}
+        SubElement(parent, "Unknown", {**index, **unknown_attributes(unknown, 1)})
+
+
+# modelDescription.xml and buildDescription.xml of FMI 3.0.
+
+
+VERSION = "3.0"
+
+
+class Dialect3:
+    """How FMI 3.0 writes it; see `Dialect`."""
+
+    version, token = VERSION, "instantiationToken"
+
+    def add_interface(self, root: Element, name: str, description: Description) -> None:
+        """Add an interface."""
+        SubElement(root, name, {"modelIdentifier": description.identifier, **description.interfaces[name]})
+
+    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
+        """Add a type."""
+        SubElement(parent, "Float64Type", {"name": attributes["quantity"], **attributes})
+
+    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
+        """Add a variable."""
+        slope = {} if variable.state is None else {"derivative": str(variable.state)}
+        attributes = variable_attributes(variable, reference) | value_attributes(variable) | slope
+        SubElement(parent, "Float64", attributes)
+
+    def add_structure(self, structure: Element, description: Description) -> None:
+        """Add outputs, derivatives, initial unknowns and event indicators."""
+        variables = description.variables
+        slopes = set(derivative_references(variables))
+        running = running_unknowns(variables, description.dependencies, description.tunable)
+        unknowns = [("ContinuousStateDerivative" if u.reference in slopes else "Output", u) for u in running]
+        initial = initial_unknowns(variables, description.dependencies)
+        for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
+            attributes = {"valueReference": str(unknown.reference), **unknown_attributes(unknown, 0)}
+            SubElement(structure, name, attributes)
+        for reference in switch_references(variables):
+            SubElement(structure, "EventIndicator", valueReference=str(reference))
+
+
+def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
+    """Return buildDescription.xml: which files below `sources/` make the binary."""
+    root = Element("fmiBuildDescription", fmiVersion=VERSION)
+    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
+    files = SubElement(configuration, "SourceFileSet", language="C99")
+    for name in sources:
+        SubElement(files, "SourceFile", name=name)
+    return to_bytes(root)

@@ -1,1 +1,0 @@
-"""The model descriptions of FMI 2 and 3."""

@@ -1,1 +1,0 @@
-"""The border: what public constructors and functions take, made SI floats and checked before it goes in."""

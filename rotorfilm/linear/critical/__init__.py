@@ -1,1 +1,0 @@
-"""Critical speeds, with a proof that the list is complete."""

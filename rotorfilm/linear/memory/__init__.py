@@ -1,1 +1,0 @@
-"""Films whose stiffness K(s) depends on the motion: exponents, their count, critical masses, state spaces."""

@@ -1,1 +1,0 @@
-"""The search for the place of a journal under a load."""

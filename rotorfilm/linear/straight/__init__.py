@@ -1,1 +1,0 @@
-"""Motion of a shaft along its axis and about it, beside its bending."""

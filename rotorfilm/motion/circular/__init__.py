@@ -1,1 +1,0 @@
-"""Synchronous circular orbits of a rotor in a damper, in closed form."""

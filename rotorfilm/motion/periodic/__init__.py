@@ -1,1 +1,0 @@
-"""Periodic orbits: harmonic balance, continuation, stability, basins."""

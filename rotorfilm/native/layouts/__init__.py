@@ -1,1 +1,0 @@
-"""The structures of the C library, as ctypes reads them."""

@@ -1,1 +1,0 @@
-"""Bearings of tilting pads in compiled code."""

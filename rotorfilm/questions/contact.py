@@ -1,0 +1,742 @@
+"""What rolling balls bring to scenes and questions."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..bearings.contact import HERTZ_LOAD, ContactLaw, FixedSteps, SineLoad, SmallMotion, reduce_contact, ride
+from ..core.answers import (
+    DISAGREEMENT,
+    ISOTHERMAL,
+    BaseRung,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    Rung,
+    Work,
+    WorkUnit,
+)
+from ..core.errors import ConvergenceError, InputError
+from ..core.model import Array
+from ..scenes.contact_motions import (
+    INLETS,
+    OUTLET,
+    REACH,
+    SPACINGS,
+    RestingFilms,
+    ShakenBall,
+    contact_motion,
+    contact_remarks,
+    natural_frequency,
+    unknowns,
+)
+from ..scenes.contact_table import ContactTable
+from ..scenes.families import Family
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
+
+# Film and approach of a rolling ball at rest: a formula, ever finer grids, and the rectangle around them.
+
+
+QUANTITIES = tuple(REACH)
+"""Quantities of a contact, all of them lengths [m]."""
+
+CELLS = (32, 48, 64)
+"""Cells along each side of the plain rungs."""
+
+COARSER = {32: 24, 48: 32, 64: 48}
+"""Cells of the companion that an order increment takes."""
+
+NOISE = 0.012
+"""Error of a film on 32 x 32 cells below which an order increment says nothing: it may change its sign.
+
+Falls with the square of the cells; that of the approach is ten times smaller. Measured on random balls.
+"""
+
+SMALLEST_NOISE = 0.03
+"""The same of the smallest film, which jumps from cell to cell; falls with their power 3/2."""
+
+FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
+"""Largest error of the formulas in `FORMULA_RANGE`, measured on random balls (docs/contact.md)."""
+
+FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
+"""V and Q0 in which that was measured."""
+
+HARD = (0.08, 12.0)
+"""V and Q0 above both of which Newton's method needs continuation on fine grids: the longest is left out."""
+
+DENSE = (96, 64)
+"""Cells along each side of the shortest rectangle from which an unbounded film is extrapolated."""
+
+FORMULAS = WorkUnit("formulas")
+
+LEFT = 0.3
+"""Share of an extrapolation that may be wrong."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormulaRung(BaseRung):
+    """The film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    """
+
+    films: RestingFilms
+
+    name = "formula of Nijenbanning et al."
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One formula."""
+        return FORMULAS
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity [m]; the dry contact has the approach -2, in Hertzian units."""
+        film = self.films.ball.published_films.nijenbanning_venner_moes
+        dry = 2.0 * self.films.ball.film_scale
+        return Found(film if self.films.quantity == "central_film" else film - dry, {self.unit: 1})
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the measured bound, where it was measured."""
+        ball = self.films.ball
+        inside = all(
+            low <= x <= high for (low, high), x in zip(FORMULA_RANGE, (ball.V, ball.Q0), strict=True)
+        )
+        doubt = "" if inside else f"V = {ball.V:.3g}, Q0 = {ball.Q0:.3g} are outside of its measured range"
+        bound = FORMULA_BOUNDS[self.films.quantity]
+        return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GridRung(BaseRung):
+    """A stationary contact on one grid of the shortest rectangle.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    cells : int
+        Along each side.
+    """
+
+    films: RestingFilms
+    cells: int
+
+    @property
+    def name(self) -> str:
+        """Cells of the grid."""
+        return f"grid {self.cells} x {self.cells}"
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity [m]."""
+        work: dict[WorkUnit, int] = {}
+        value = self.films.value(self.cells, work)
+        return Found(value * self.films.ball.film_scale, work)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the order increment from less cells, and that from two rectangles on coarse grids.
+
+        The smallest film jumps from cell to cell, so that its increment is overestimated: the whole is taken.
+        """
+        work: dict[WorkUnit, int] = {}
+        bound = self.films.quantity == "minimum_film"
+        try:
+            about = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
+        except ConvergenceError as error:
+            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+        doubt = "the grids disagree on the film: it is too thin for them" if bound and about > 0.5 else ""
+        how = "overestimated: whole increment of cells, order increment of rectangle"
+        method = how if bound else "order increments of cells and rectangle"
+        return ErrorEstimate(about, method, work, bound, doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return the number of unknowns."""
+        return {unknowns(self.cells): self.cells**2}
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnboundedRung(BaseRung):
+    """A grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    place : int
+        Of the rectangle in `INLETS`.
+    cells : int
+        Along each side.
+    """
+
+    films: RestingFilms
+    place: int
+    cells: int
+
+    @property
+    def name(self) -> str:
+        """Cells of the grid."""
+        return f"grid {self.cells} x {self.cells}, unbounded"
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity [m], extrapolated in the length of the rectangle and in the cells."""
+        work: dict[WorkUnit, int] = {}
+        short, longer = INLETS[self.place - 1 : self.place + 1]
+        wide = self.films.value(self.cells, work, longer)
+        before_it = self.films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
+        reach = (wide - before_it) / ((longer / short) ** REACH[self.films.quantity] - 1.0)
+        fine, coarse = (self.films.value(cells, work) for cells in DENSE)
+        spacing = (fine - coarse) / (1.0 - (DENSE[1] / DENSE[0]) ** 2)
+        value = wide + reach + spacing
+        parts = abs(reach / value), abs(spacing / value)
+        return Found(value * self.films.ball.film_scale, work, parts)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return a share of the two extrapolations, chosen to overestimate what is wrong with them."""
+        error = max(LEFT * sum(found.solution), noise_of(self.films, DENSE[0]))
+        return ErrorEstimate(error, f"overestimated: {LEFT:.0%} of the extrapolations", bound=True)
+
+    def expected(self, done: Work) -> Work:
+        """Return the number of unknowns."""
+        return {unknowns(self.cells): self.cells**2, unknowns(DENSE[0]): DENSE[0] ** 2}
+
+
+def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> float:
+    """Return the relative error of a quantity by the cells, from less of them; more of the smallest film.
+
+    Raises
+    ------
+    ConvergenceError
+        If there is no solution on less cells.
+    """
+    coarse = COARSER[cells]
+    fine, rough = (films.value(n, work) for n in (cells, coarse))
+    order = films.contact(cells).scheme.order
+    whole = films.quantity == "minimum_film"
+    gain = 1.0 if whole else (cells / coarse) ** order - 1.0
+    return max(abs(fine - rough) / gain / abs(fine), noise_of(films, cells))
+
+
+def noise_of(films: RestingFilms, cells: int) -> float:
+    """Return the relative error below which an increment says nothing."""
+    if films.quantity == "minimum_film":
+        return SMALLEST_NOISE * (CELLS[0] / cells) ** 1.5
+    return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
+
+
+def rectangle_error(films: RestingFilms, work: dict[WorkUnit, int]) -> float:
+    """Return the relative error of a quantity by the end of the rectangle."""
+    change = films.beyond(work)
+    near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == 1.0)
+    return abs(change / (near + change))
+
+
+def contact_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a contact at rest, or in motion where its load jumps or swings.
+
+    Raises
+    ------
+    InputError
+        If the scene has no contact, or an excitation that is no step or sine of the load.
+    """
+    if scene.contact is None:
+        raise InputError(f"contact is required for {quantity}, got no such table")
+    films = RestingFilms(table=scene.contact, quantity=quantity)
+    table = scene.contact
+    remarks = contact_remarks(
+        films.ball, scene.lubricant.properties, roelands=table.roelands, compressible=table.compressible
+    )
+    if scene.excitation is not None:
+        return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)
+    formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
+    grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
+    wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
+    hard = HARD[0] < films.ball.V and HARD[1] < films.ball.Q0
+    rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
+    return Ladder(rungs=rungs, unit="m", remarks=remarks, within=ISOTHERMAL)
+
+
+# What rolling balls bring to scenes and questions.
+
+
+FAMILY = Family(
+    table=ContactTable,
+    ladders={
+        **dict.fromkeys(QUANTITIES, contact_ladder),
+    },
+    command="rotorfilm contact",
+)
+
+
+# The approach of a rolling ball on its reduced law, over time.
+
+
+LAW_CELLS, LAW_FINE = 32, 64
+"""Cells along each side of the film that the law is made of, and of a finer one that tells its error."""
+
+RIDE, LAW = WorkUnit("motions on a reduced law"), WorkUnit("reduced laws")
+
+ELSEWHERE = 0.7
+"""Where between rest and the extreme load a second law is made, of which the difference tells the error."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LawRung(BaseRung):
+    """The motion on the law of the contact under its static load.
+
+    Attributes
+    ----------
+    films : RestingFilms
+        Of the approach.
+    shaken : ShakenBall
+        Load over time, and motion asked for.
+    """
+
+    films: RestingFilms
+    shaken: ShakenBall
+
+    name = "reduced law over time"
+
+    @property
+    def order(self) -> int:
+        """States of the law."""
+        return self.films.table.order
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the deepest approach [m]."""
+        mass = self.films.table.mass
+        if not mass > 0.0:
+            raise InputError(f"contact.mass must be positive for a motion on a reduced law, got {mass!r} kg")
+        law = reduce_contact(self.films.contact(LAW_CELLS), self.order)
+        deepest, carried = self._motion(law)
+        return Found(deepest * self.films.ball.film_scale, {LAW: 1, RIDE: 1}, (law, deepest, carried))
+
+    def _motion(self, law: ContactLaw) -> tuple[float, tuple[float, float]]:
+        """Return the deepest approach and the range of the force, in the units of the contact."""
+        start = float(law.approach(1.0))
+        motion = ride(
+            law,
+            mass=self.films.ball.W / HERTZ_LOAD,
+            load=self.shaken.load,
+            start=start,
+            duration=self.shaken.duration,
+        )
+        force = motion["force_z"]
+        return float(motion["z"].min()), (float(force.min()), float(force.max()))
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the errors of grid and rectangle at rest, of the fit, and of the law's one load."""
+        law, deepest, carried = found.solution
+        work: dict[WorkUnit, int] = {}
+        load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
+        try:
+            lacking = self.films.lacking(LAW_CELLS, LAW_FINE, work, load)
+            other = reduce_contact(self.films.contact(LAW_CELLS), self.order, load=self._elsewhere())
+            elsewhere = abs(self._motion(other)[0] - deepest) / abs(deepest)
+        except ConvergenceError as error:
+            return ErrorEstimate(1.0, "law about another load", work, doubt=f"no companion: {error}")
+        fit = law.static_error / law.exponent
+        work |= {LAW: 1, RIDE: 1}
+        method = "order increments at rest; law about another load"
+        return ErrorEstimate(lacking + fit + elsewhere, method, work, doubt=self._doubt(law, carried))
+
+    def _elsewhere(self) -> float:
+        least, most = self.shaken.extremes
+        far = most if most > 1.0 else least
+        return 1.0 + ELSEWHERE * (max(far, 0.3) - 1.0)
+
+    def _doubt(self, law: ContactLaw, carried: tuple[float, float]) -> str:
+        low, high = law.load_range
+        if carried[0] < low or carried[1] > high:
+            return (
+                f"the force, {carried[0]:.2g} to {carried[1]:.2g} static loads, leaves the range of the law"
+            )
+        fastest = natural_frequency(self.films.ball.W)
+        if isinstance(self.shaken.load, SineLoad):
+            fastest = max(fastest, self.shaken.load.frequency)
+        if fastest > law.highest_frequency:
+            return f"the law reaches to the frequency {law.highest_frequency:g}, not to {fastest:.3g}"
+        return ""
+
+    def expected(self, done: Work) -> Work:
+        """Return a law and a motion on it."""
+        return {LAW: 1, RIDE: 1}
+
+
+# Film and approach of a rolling ball under a load that jumps or swings: at rest, reduced, in full.
+
+
+MOTION_CELLS = (24, 32)
+"""Cells along each side of the films that are followed; the smallest film takes the finer grid only."""
+
+MOTION_FINE = {24: 64, 32: 64}
+"""Cells of the stationary film that tells what a motion's cells cost."""
+
+STEPS, FINER = 36, 54
+"""Steps over the shortest period on the coarsest grid, where their error is found, and on all others."""
+
+SHORTEST, LONGEST_STEP = 0.02, 0.25
+"""Range of the step of the coarsest grid [1]: the film smooths what is faster, and passes by in 2."""
+
+STEP_ORDER = SPACE_ORDER = 2
+
+MOST_STEPS = 4000
+"""Steps beyond which no film is followed."""
+
+NEWTON_TOLERANCE = 1e-5
+"""To which the equations of a step are solved [1]."""
+
+LARGEST_LOAD = 2.8
+"""Load under which the dry contact nearly fills the rectangle, whose outlet is at 1.5 radii."""
+
+MOTION_LEFT = 0.5
+"""Share of an extrapolation that may be wrong."""
+
+RESOLVED = 0.03
+"""Relative error of the film at rest by its cells from which a motion loses far more of it."""
+
+SMALLEST_SUM = 0.35
+"""Share of the errors' sizes below which their sum, with signs, is not trusted to fall."""
+
+
+class Followed(NamedTuple):
+    """The extreme of a motion and what it lacks by steps, cells and rectangle, relative to it.
+
+    The last is the change of the smallest film from the coarser grid, more than its error; 0 for other
+    quantities. Films are `resolved` if the cells matter little at rest, or can be told from two motions.
+    """
+
+    value: float
+    steps: float
+    cells: float
+    rectangle: float
+    jump: float
+    resolved: bool
+
+    @property
+    def lacking(self) -> float:
+        """All that it lacks."""
+        return self.steps + self.cells + self.rectangle
+
+    @property
+    def error(self) -> float:
+        """Relative error."""
+        sizes = abs(self.steps) + abs(self.cells) + abs(self.rectangle)
+        return max(abs(self.lacking), SMALLEST_SUM * sizes, self.jump)
+
+    @property
+    def left(self) -> float:
+        """Relative error where what lacks is added, chosen to overestimate."""
+        return MOTION_LEFT * (abs(self.steps) + abs(self.cells) + abs(self.rectangle)) + 0.5 * self.jump
+
+
+@dataclass(frozen=True, kw_only=True)
+class FollowedFilm:
+    """The full film over time, each run made once.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    shaken : ShakenBall
+    runs : dict
+        Extremes of the quantity and the approach [1], by cells and steps over a period.
+    """
+
+    films: RestingFilms
+    shaken: ShakenBall
+    runs: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, compare=False)
+
+    def step(self, steps: int) -> float:
+        """Return a step [1], so many over the shortest period."""
+        period = np.clip(self.shaken.shortest_period, SHORTEST * STEPS, LONGEST_STEP * STEPS)
+        return float(period / steps)
+
+    def extreme(self, cells: int, steps: int, work: dict[WorkUnit, int]) -> tuple[float, float]:
+        """Return the smallest value of the quantity and of the approach over the motion [1].
+
+        Raises
+        ------
+        ConvergenceError
+            If the film breaks down.
+        """
+        key = (cells, steps)
+        if key not in self.runs:
+            self.runs[key] = (math.nan, math.nan)
+            contact = self.films.contact(cells)
+            run = contact.simulate(
+                contact.stationary(),
+                duration=self.shaken.duration,
+                W=self.films.ball.W,
+                load=self.shaken.load,
+                control=FixedSteps(step=self.step(steps), tolerance=NEWTON_TOLERANCE),
+            )
+            work[newton(cells)] = work.get(newton(cells), 0) + run.work["newton"]
+            smallest = lowest(run.time, getattr(run, self.films.field))
+            self.runs[key] = smallest, lowest(run.time, run.delta)
+        if math.isnan(self.runs[key][0]):
+            raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
+        return self.runs[key]
+
+    def step_error(self, steps: int, work: dict[WorkUnit, int]) -> float:
+        """Return what the value lacks by the steps, from longer ones on the coarsest grid that can."""
+        for cells, (fine, rough) in product(MOTION_CELLS, ((STEPS, STEPS // 2), (FINER, STEPS))):
+            try:
+                value, other = (self.extreme(cells, n, work)[0] for n in (fine, rough))
+            except ConvergenceError:
+                continue
+            ratio = (self.step(steps) / self.step(fine)) ** STEP_ORDER
+            longer = (self.step(rough) / self.step(fine)) ** STEP_ORDER
+            return ratio * (value - other) / max(longer - 1.0, 1.0) / value
+        raise ConvergenceError("longer steps must have a motion, got none on any grid")
+
+    def parts(self, cells: int, work: dict[WorkUnit, int]) -> Followed:
+        """Return the extreme on so many cells, and what it lacks; the cells and the rectangle cost at rest.
+
+        Raises
+        ------
+        ConvergenceError
+            If the film breaks down, or has no stationary companion.
+        """
+        steps = steps_on(cells)
+        value, deepest = self.extreme(cells, steps, work)
+        load = self.equivalent_load(cells, deepest, work)
+        fine = MOTION_FINE[cells]
+        rest, better = (self.films.value(n, work, load=load) for n in (cells, fine))
+        lacking = (better - rest) / (1.0 - (cells / fine) ** 2)
+        far = load if self.films.quantity == "approach" else 0.5 * (1.0 + load)
+        reach = self.films.beyond(work, far) / self.films.value(cells, work, load=far)
+        by_steps, by_cells = self.step_error(steps, work), lacking / rest
+        resolved, jump = abs(by_cells) < RESOLVED, 0.0
+        change = self._change(cells, work)
+        if change is not None:
+            ratio = (cells / MOTION_CELLS[0]) ** SPACE_ORDER - 1.0
+            by_cells = max(by_cells, change / ratio, key=abs)
+            resolved, jump = True, abs(change) if self.films.quantity == "minimum_film" else 0.0
+        return Followed(value, by_steps, by_cells, reach, jump, resolved)
+
+    def _change(self, cells: int, work: dict[WorkUnit, int]) -> float | None:
+        """Return the relative change from the coarsest grid, without errors by steps, if it has a motion."""
+        if cells == MOTION_CELLS[0]:
+            return None
+        try:
+            rough, fine = (
+                self.extreme(n, steps_on(n), work)[0] * (1.0 + self.step_error(steps_on(n), work))
+                for n in (MOTION_CELLS[0], cells)
+            )
+        except ConvergenceError:
+            return None
+        return 1.0 - rough / fine
+
+    def equivalent_load(self, cells: int, deepest: float, work: dict[WorkUnit, int]) -> float:
+        """Return the load whose contact at rest is as deep, as of a dry contact."""
+        rest = RestingFilms(table=self.films.table, quantity="approach").value(cells, work)
+        return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
+
+    @cached_property
+    def too_long(self) -> bool:
+        """Whether the motion takes more than the film can be followed for."""
+        return self.shaken.duration / self.step(FINER) > MOST_STEPS
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmMotionRung(BaseRung):
+    """The full film over time on one grid.
+
+    Attributes
+    ----------
+    followed : FollowedFilm
+        The film over time.
+    cells : int
+        Along each side.
+    extrapolated : bool
+        Whether the errors that are known are taken off.
+    """
+
+    followed: FollowedFilm
+    cells: int
+    extrapolated: bool = False
+
+    @property
+    def name(self) -> str:
+        """Cells of the grid."""
+        return f"film {self.cells} x {self.cells} over time{', extr.' if self.extrapolated else ''}"
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the smallest value over the motion [m]."""
+        if self.followed.too_long:
+            raise InputError(
+                f"excitation must take at most {MOST_STEPS} steps of a film over time, got "
+                f"{self.followed.shaken.duration / self.followed.step(FINER):.4g}"
+            )
+        work: dict[WorkUnit, int] = {}
+        scale = self.followed.films.ball.film_scale
+        if not self.extrapolated:
+            value, _ = self.followed.extreme(self.cells, steps_on(self.cells), work)
+            return Found(value * scale, work)
+        parts = self.followed.parts(self.cells, work)
+        value = parts.value * (1.0 + parts.lacking)
+        return Found(value * scale, work, parts)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the increments of steps, cells and rectangle; of an extrapolation a share.
+
+        That of the smallest film, which jumps from cell to cell, is overestimated.
+        """
+        work: dict[WorkUnit, int] = {}
+        try:
+            parts = self.followed.parts(self.cells, work)
+        except ConvergenceError as error:
+            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+        method = "order increments of steps; of cells and rectangle at rest"
+        deep = self.followed.extreme(self.cells, steps_on(self.cells), work)[1] < -2.0 * LARGEST_LOAD ** (
+            2.0 / 3.0
+        )
+        doubt = "the contact grows beyond the rectangle" if deep else ""
+        if not parts.resolved:
+            doubt = f"too thin a film for {self.cells} x {self.cells} cells, and no coarser motion beside it"
+        if self.extrapolated:
+            method = f"overestimated: {MOTION_LEFT:.0%} of the {method}"
+            return ErrorEstimate(parts.left, method, work, bound=True, doubt=doubt)
+        bound = self.followed.films.quantity == "minimum_film"
+        method = f"overestimated: {method}, whole change of cells" if bound else method
+        return ErrorEstimate(parts.error, method, work, bound, doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return some Newton steps: about three for each step."""
+        steps = self.followed.shaken.duration / self.followed.step(steps_on(self.cells))
+        return {newton(self.cells): 3 * math.ceil(steps)}
+
+
+def steps_on(cells: int) -> int:
+    """Return the steps over a period on a grid."""
+    return STEPS if cells == MOTION_CELLS[0] else FINER
+
+
+def lowest(time: Array, values: Array) -> float:
+    """Return the smallest value of a series, by the parabola through three samples around it."""
+    k = int(np.argmin(values))
+    if k in (0, len(values) - 1):
+        return float(values[k])
+    (before, after), value = time[[k - 1, k + 1]] - time[k], values[k]
+    slopes = (values[[k - 1, k + 1]] - value) / np.array([before, after])
+    curvature = (slopes[1] - slopes[0]) / (after - before)
+    slope = slopes[0] - curvature * before
+    return float(value - 0.25 * slope**2 / curvature) if curvature > 0.0 else float(value)
+
+
+def newton(cells: int) -> WorkUnit:
+    """Return the unit of a Newton step."""
+    return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
+
+
+def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[Rung, ...]:
+    """Return the rungs of a ball whose load jumps or swings."""
+    shaken = contact_motion(scene)
+    followed = FollowedFilm(films=films, shaken=shaken)
+    slow = SlowRung(films=films, shaken=shaken)
+    law = () if films.quantity != "approach" else (LawRung(films=films, shaken=shaken),)
+    first = 1 if films.quantity == "minimum_film" else 0
+    grids = tuple(FilmMotionRung(followed=followed, cells=cells) for cells in MOTION_CELLS[first:])
+    return (slow, *law, *grids, FilmMotionRung(followed=followed, cells=MOTION_CELLS[-1], extrapolated=True))
+
+
+# A rolling ball under a load so slow that the film is at rest at each moment.
+
+
+SLOW_CELLS, SLOW_FINE = 48, 64
+"""Cells along each side of the film at rest, and of a finer one that tells its error."""
+
+SMALL = 32
+"""Cells of the linearized film."""
+
+REST = 1e-6
+"""Frequency that stands for rest."""
+
+SLACKEST = 0.05
+"""Load below which there is no contact at rest to speak of."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlowRung(BaseRung):
+    """The extreme of a quantity over the loads, as if each had acted for long.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    shaken : ShakenBall
+    """
+
+    films: RestingFilms
+    shaken: ShakenBall
+
+    name = "at rest under the extreme load"
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the smallest value [m]: of the approach always that of the largest load."""
+        least, most = self.shaken.extremes
+        work: dict[WorkUnit, int] = {}
+        loads = [most] if self.films.quantity == "approach" else [max(least, SLACKEST), most]
+        values = {load: self.films.value(SLOW_CELLS, work, load=load) for load in loads}
+        load = min(values, key=lambda load: values[load])
+        return Found(values[load] * self.films.ball.film_scale, work, load)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the errors of grid and rectangle, and what the linearized film makes of the motion.
+
+        Overestimated for a small motion: amplitudes are added whatever their phases.
+        """
+        work: dict[WorkUnit, int] = {}
+        least, load = self.shaken.extremes[0], float(found.solution)
+        try:
+            lacking = self.films.lacking(SLOW_CELLS, SLOW_FINE, work, load)
+            moved = abs(self._motion() / self.films.value(SLOW_CELLS, work, load=load))
+        except (ConvergenceError, InputError) as error:
+            return ErrorEstimate(1.0, "linearized film", work, doubt=f"no companion: {error}")
+        work[unknowns(SMALL)] = SMALL**2
+        doubt = "the ball swings: no small motion about rest" if moved > DISAGREEMENT else ""
+        if least < SLACKEST:
+            doubt = "the ball leaves the film"
+        method = "overestimated: order increments; amplitudes of the linearized film, whatever their phases"
+        return ErrorEstimate(lacking + moved, method, work, bound=True, doubt=doubt)
+
+    def _motion(self) -> float:
+        """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
+        contact = self.films.contact(SMALL)
+        state = contact.stationary()
+        small = SmallMotion(contact.equations, state.pressure.ravel(), state.delta)
+        thinnest = int(np.argmin(contact.equations.film(state.pressure.ravel(), state.delta)))
+        inertia = self.films.ball.W
+
+        def per_load(w: float) -> tuple[complex, complex]:
+            """Return the changes of quantity and approach per unit of a load as exp(i w t)."""
+            approach = -HERTZ_LOAD / (small.stiffness(1j * w) - inertia * w**2)
+            if self.films.quantity == "approach":
+                return approach, approach
+            central, samples = small.film(1j * w)
+            return approach * (
+                central if self.films.quantity == "central_film" else samples[thinnest]
+            ), approach
+
+        amplitude, natural = abs(self.shaken.load.amplitude), natural_frequency(inertia)
+        still, depth = per_load(REST)
+        rings = 0.0
+        if math.isfinite(natural):
+            ringing, ring_depth = per_load(natural)
+            rings = abs(ringing / ring_depth * depth)
+        if not isinstance(self.shaken.load, SineLoad):
+            return amplitude * rings
+        w = self.shaken.load.frequency
+        forced = abs(per_load(w)[0])
+        ratio = w / natural
+        started = rings * ratio / max(abs(1.0 - ratio**2), 0.1)
+        return amplitude * abs(forced + started - abs(still))
+
+    def expected(self, done: Work) -> Work:
+        """Return the number of unknowns."""
+        return {unknowns(SLOW_CELLS): 2 * SLOW_CELLS**2}

@@ -1,0 +1,727 @@
+"""What squeeze-film dampers bring to scenes and questions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..analysis import simulate
+from ..analysis.circular_orbits import (
+    OrbitRotor,
+    damped_orbit,
+    force_at,
+    orbit_near,
+    orbit_rotor,
+    slope_at,
+    synchronous_orbits,
+    transmitted,
+    unbalance_at,
+    unbalances,
+)
+from ..analysis.equal_steps import (
+    NONE,
+    MarchMotion,
+    RestTangent,
+    ShakenRotor,
+    StatesAlong,
+    linear_march,
+    peak,
+    states_along,
+)
+from ..bearings.damper import FiniteSqueeze, JFODamper
+from ..core.answers import (
+    DISAGREEMENT,
+    ISOTHERMAL,
+    BaseRung,
+    CandidateRung,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    Work,
+    WorkUnit,
+)
+from ..core.errors import (
+    AbsentError,
+    ContactError,
+    ConvergenceError,
+    FilmContactError,
+    InputError,
+    RotorfilmError,
+)
+from ..core.model import Array, Reaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
+from ..core.results import Trajectory
+from ..rotors import RigidRotor
+from ..scenes.damper_films import (
+    NO_RICHER,
+    AnyDamperFilm,
+    ConservedDamperFilm,
+    DamperFilm,
+    built_films,
+    damper_fmus,
+    damper_models,
+    lands,
+    mapped_short,
+    orbit_films,
+    plain_films,
+    quiet,
+    rotor_remarks,
+    sprung,
+)
+from ..scenes.damper_table import DamperTable
+from ..scenes.excitation_table import BladeLossTable, RunUpTable
+from ..scenes.families import Family
+from ..scenes.film_rungs import MAP_MADE, Counted
+from .coupling import coupling_ladder
+from .journal_orbits import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
+
+# Questions about a rotor on a squeeze-film damper: jumps, width of the orbit, what it transmits.
+
+
+UP, DOWN = "jump_up", "jump_down"
+UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude": "m"}
+"""Quantities of a damper and their units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperCurveRung(CandidateRung[AnyDamperFilm]):
+    """One film and one model of its cage.
+
+    Attributes
+    ----------
+    rotor : RigidRotor
+        Centered by its springs.
+    stiffness : float [N/m]
+        Of the springs.
+    quantity : str
+    """
+
+    rotor: RigidRotor
+    stiffness: float
+    quantity: str
+
+    @property
+    def is_fold(self) -> bool:
+        """Whether a jump is asked for: an end of a branch of orbits."""
+        return self.quantity in (UP, DOWN)
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs."""
+        return sprung(self.film.reaction, self.stiffness)
+
+    @cached_property
+    def search(self) -> Reaction:
+        """Film and springs that are quick enough for hundreds of orbits."""
+        slow = isinstance(self.film, ConservedDamperFilm) or isinstance(self.film.law, FiniteSqueeze)
+        return sprung(self.film.moving, self.stiffness) if slow else self.support
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One force of this film."""
+        return WorkUnit(f"forces of {self.name}", ("forces", self.film))
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
+        made = self.film.prepare()
+        counted = Counted(self.support)
+        near = None if before is None else self._from(counted, float(before.solution))
+        if near is None:
+            value, radius = self._searched(Counted(self.search) if self.search != self.support else counted)
+            near = (value, radius) if self.search == self.support else self._from(counted, radius)
+        if near is None:
+            raise RotorfilmError(f"{self.name} has no orbit beside that of its map")
+        return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
+
+    def _searched(self, reaction: Counted) -> tuple[float, float]:
+        """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
+        orbits = synchronous_orbits(self.rotor, reaction)
+        if self.is_fold:
+            folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
+            if not folds:
+                reach = reaction.largest_eccentricity_ratio
+                why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
+                why += "" if reach >= 1.0 else f", up to {reach:.4g} of the clearance"
+                raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
+            return folds[0].unbalance, folds[0].eccentricity_ratio
+        found = orbits.at(self.rotor.unbalance)
+        if not found:
+            end = "the wall" if orbits.contact_unbalance is not None else "the end of the film's range"
+            raise FilmContactError(f"no orbit at this unbalance: the rotor reaches {end}")
+        chosen = next((orbit for orbit in found if orbit.stable), found[0])
+        amplitude = chosen.eccentricity_ratio * reaction.clearance
+        value = chosen.transmissibility if self.quantity == "transmissibility" else amplitude
+        return value, chosen.eccentricity_ratio
+
+    def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
+        """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
+        system = damped_orbit(self.rotor, counted)
+        found = orbit_near(system, radius, None if self.is_fold else self.rotor.unbalance)
+        if found is None:
+            return None
+        if self.quantity == "transmissibility":
+            return transmitted(system, found), found
+        if self.is_fold:
+            return unbalance_at(system, found), found
+        return found * system.clearance, found
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change that one orbit of the richest film, of the same radius, would make.
+
+        At a fold u(e) is level, so that the fold's unbalance changes by what u does at the same radius, and
+        to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
+        over u'.
+        """
+        rich = self.film.rich
+        if rich is None and not math.isfinite(self.film.bound()):
+            return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
+        radius = float(found.solution)
+        if rich is None:
+            return self._by_bound(found.value, radius)
+        reach = rich.largest_eccentricity_ratio
+        if radius >= reach:
+            doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
+            return ErrorEstimate(math.inf, "none", doubt=doubt)
+        change = self._fold if self.is_fold else self._orbit
+        richer = damped_orbit(self.rotor, sprung(rich, self.stiffness))
+        value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
+        error = abs(value - found.value) / abs(value)
+        return ErrorEstimate(
+            error,
+            "orbits of the richest film",
+            {RICH: 4 if self.is_fold else 3, **self.film.rich_work},
+            doubt=doubt,
+        )
+
+    def _by_bound(self, value: float, radius: float) -> ErrorEstimate:
+        """Return what the verified error of the film's force may make of the quantity.
+
+        It changes the unbalance of an orbit of the same radius, and so that of a fold. At a given unbalance
+        it shifts the radius by that over the smallest u' on the way: near a fold that is much, and past it
+        there may be no such orbit.
+        """
+        system, work = damped_orbit(self.rotor, self.support), {self.unit: 7}
+        force = force_at(system, radius)
+        film = abs(force + self.stiffness * system.clearance * radius)
+        change = self.film.bound() * film / system.speed**2
+        method = "verified bound of the film, propagated"
+        if self.is_fold:
+            return ErrorEstimate(change / value, method, work, bound=True)
+        slope = slope_at(system, radius)
+        ends = radius + np.array([-1.0, 1.0]) * abs(change / slope)
+        inside = ends[0] > 0.0 and ends[1] < 1.0
+        least = min(slope_at(system, end) / slope for end in ends) if inside else 0.0
+        if least < 1.0 - DISAGREEMENT:
+            doubt = "so near to a jump, or to the wall, that the error of the film may take the orbit there"
+            return ErrorEstimate(abs(change / slope) / radius, method, work, doubt=doubt)
+        if self.quantity == "unbalance_amplitude":
+            return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
+        # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
+        shifted = max(abs(abs(force_at(system, end)) - abs(force)) for end in ends) / least
+        return ErrorEstimate((shifted + self.film.bound() * film) / abs(force), method, work, bound=True)
+
+    def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+        """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
+        near = radius + np.array([-1.0, 0.0, 1.0]) * 0.02 * min(radius, 1.0 - radius)
+        low, middle, high = unbalances(rich, near)
+        bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
+        cheap = unbalances(own, near)
+        own_bend = float(cheap[0] - 2.0 * cheap[1] + cheap[2])
+        moved = float(np.clip(-slope / own_bend, -10.0, 10.0)) if own_bend else 0.0
+        value = float(middle + slope * moved + 0.5 * bend * moved**2)
+        doubt = "the curvatures of both films disagree on the error: not linear"
+        matters = abs(value - middle) > DISAGREEMENT * abs(value - cheap[1])
+        return value, doubt if matters and abs(bend - own_bend) > DISAGREEMENT * abs(own_bend) else ""
+
+    def _orbit(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+        """Return the quantity at the rotor's unbalance by two secant steps with the richest film."""
+        target = self.rotor.unbalance
+        slopes = [slope_at(system, radius) for system in (rich, own)]
+        steps = [(target - unbalance_at(rich, radius)) / slope for slope in slopes]
+        apart = abs(steps[0] - steps[1]) / max(abs(step) for step in steps)
+        new = float(np.clip(radius + steps[0], 1e-9, 1.0 - 1e-9))
+        again = (target - unbalance_at(rich, new)) / slopes[0]
+        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        final = new + again
+        value = transmitted(rich, new) if self.quantity == "transmissibility" else final * own.clearance
+        return value, doubt if apart > DISAGREEMENT else ""
+
+    def expected(self, done: Work) -> Work:
+        """Return as many forces as a lower rung took."""
+        return {self.unit: sum(number for unit, number in done.items() if unit != MAP_MADE)}
+
+
+RICH = WorkUnit("forces of the richest film")
+
+
+@quiet()
+def damper_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a quantity of a rotor on a damper.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, no unbalance, no speed or no operation.
+    """
+    for table in ("damper", "rigid_rotor"):
+        if getattr(scene, table) is None:
+            raise InputError(f"{table} is required for {quantity}, got no such table")
+    assert scene.damper is not None  # checked by the above
+    rotor = damper_models(scene).rotor
+    if quantity in (UP, DOWN):
+        rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
+    elif rotor.unbalance <= 0.0:
+        raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
+    stiffness, supply = scene.damper.stiffness, scene.damper.supply
+    if supply is not None and not supply.turns_alike and quantity not in (UP, DOWN):
+        return passing_holes_ladder(scene, quantity, UNITS[quantity])
+    rungs = tuple(
+        DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
+        for film in orbit_films(scene.damper, rotor)
+        if not _endless(film, quantity, is_named=scene.damper.film is not None)
+    )
+    units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
+    asked, count = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor, lands(scene.damper)
+    return Ladder(
+        rungs=rungs,
+        unit=UNITS[quantity],
+        units=units,
+        remarks=rotor_remarks(
+            scene.damper,
+            mapped_short(scene.damper),
+            stiffness / count,
+            replace(asked, mass=asked.mass / count, unbalance=asked.unbalance / count),
+            scene.lubricant.properties,
+            steady=quantity not in (UP, DOWN),
+        ),
+        within=ISOTHERMAL,
+    )
+
+
+def _endless(film: AnyDamperFilm, quantity: str, *, is_named: bool) -> bool:
+    """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
+
+    One that the scene names is the only rung there is.
+    """
+    slow = isinstance(film.law, FiniteSqueeze) and film.shape.is_fed
+    return slow and not is_named and quantity in (UP, DOWN)
+
+
+def _one(rung: DamperCurveRung, speed: float) -> Callable[[], object]:
+    def force() -> object:
+        radius = 0.5 * rung.support.clearance
+        return rung.support.force([radius, 0.0], [0.0, speed * radius], speed)
+
+    return force
+
+
+# How far a rotor on a squeeze-film damper goes after a blade is lost, or over a run-up.
+
+
+CHEAP_STEPS = (48, 192)
+"""Those of films that leave out the layer or the flow around the circumference."""
+
+FED_STEPS = (24, 48, 96)
+"""Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
+
+LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer film")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperPeakRung(PeakRung[DamperFilm]):
+    """The peak in a squeeze-film damper.
+
+    Attributes
+    ----------
+    rotor : RigidRotor
+        At rest in the center.
+    stiffness : float [N/m]
+        Of the retainer springs.
+    duration : float [s]
+    """
+
+    rotor: RigidRotor
+    stiffness: float
+    duration: float
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One force of this film with derivatives."""
+        return WorkUnit(f"tangents of {self.film.name}", ("tangents", self.film))
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs, the film on its map where it has one."""
+        return sprung(self.film.moving, self.stiffness)
+
+    @cached_property
+    def tangent(self) -> Tangent:
+        """Force and derivatives of film and springs for plain numbers."""
+        return prepared_tangent(self.support)
+
+    @cached_property
+    def rich(self) -> Reaction | None:
+        """The richer film and the springs; None if there is none."""
+        found = self.film.rich_moving
+        return None if found is None else sprung(found, self.stiffness)
+
+    @property
+    def shaken(self) -> ShakenRotor:
+        """The rotor on film and springs, and what shakes it."""
+        return ShakenRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
+
+    @property
+    def rest(self) -> Array:
+        """Where the rotor is at rest (2,) [m]: in the center, or at its offset."""
+        return np.array(self.rotor.position)
+
+    @cached_property
+    def at_rest(self) -> RestTangent:
+        """Film and springs in the center: there also a cavitated film is linear in the velocity."""
+        rest, still = self.rest, np.zeros(2)
+        rate = self.support.clearance * abs(self.rotor.profile.speeds[-1] or 1.0)
+        heavy = inertial(self.support)
+        added = NONE if heavy is None else heavy.mass(rest, np.array([rate, 0.0]))
+        force = -self.rotor.static_load
+        if rest.any():
+            slopes = self.support.jacobian(rest, still, 0.0)
+            return RestTangent(force, -slopes[:, :2], -slopes[:, 2:4], added)
+        damping = -float(self.support.force(still, np.array([rate, 0.0]), 0.0)[0]) / rate
+        fed = self.film.is_fed
+        own = -float(self.film.reaction.jacobian(still, still, 0.0)[0, 0]) if fed else 0.0
+        return RestTangent(force, (self.stiffness + own) * np.eye(2), damping * np.eye(2), added)
+
+    def grid(self, steps: int) -> tuple[float, int]:
+        """Return the length [s] and an even number of steps, so that one ends where a run-up turns back."""
+        fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
+        count = 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
+        return self.duration / count, count
+
+    def _pull(self, t: float) -> tuple[float, float]:
+        x, y = (self.rotor.unbalance_force(t) + self.rotor.static_load).tolist()
+        return x, y
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
+        if self.steps:
+            return self.nonlinear(before)
+        motion = self.linear(LINEAR_STEPS)
+        if np.hypot(*motion.position).max() >= self.support.clearance:
+            raise FilmContactError("the linear motion leaves the clearance")
+        half = self.linear(LINEAR_STEPS // 2)
+        solved = PeakMotion(motion, peak(half.position), 0)
+        return Found(peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of the steps (order increment), and of the film by its defect along the motion."""
+        motion, steps = found.solution.motion, self.increment(found)
+        if self.film.rich_law is None and not math.isfinite(self.film.bound()):
+            return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
+        reach = float(np.hypot(*motion.position).max()) / self.support.clearance
+        limit = _reach(self.rich or self.support)
+        if reach >= limit:
+            return ErrorEstimate(math.inf, "defect", doubt=_beyond(reach, limit))
+        if self.film.rich_law is None and self.steps:
+            return self._by_bound(motion, found.value, steps)
+        change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
+        # Errors of opposite signs cancel only as far as each is known: to a tenth, or to second order.
+        largest = max(abs(change), abs(steps))
+        error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
+        name = "its own film" if self.rich is None else "the film of finite length"
+        work = {DEFECT: calls, **self.film.rich_work}
+        return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
+
+    def _by_bound(self, motion: MarchMotion, value: float, steps: float) -> ErrorEstimate:
+        """Return the error of the steps, and what the verified error of the film could do all along."""
+        states = self._sampled(motion)
+        film = self.shaken.tangents(self.support, states)
+        off = self.film.bound() * (film.force + self.stiffness * states.position)
+        mass = self.rotor.mass * np.eye(2)[:, :, None] + film.mass
+        moved = linear_march(mass, film.stiffness, film.damping, off, states.step).position
+        bound = float(np.hypot(*moved).max()) / value
+        method = "order increment; verified bound of the film, propagated"
+        work = {self.tangents: states.position.shape[1]}
+        return ErrorEstimate(abs(steps) + bound, method, work, abs(steps) < bound)
+
+    def _sampled(self, motion: MarchMotion) -> StatesAlong:
+        """Return samples of a motion; the first is off the rest."""
+        # With feed the richer film takes milliseconds for a force.
+        states = states_along(motion, self.stride(SAMPLED // 2 if self.film.is_fed else SAMPLED))
+        # A cavitated film has no derivative at rest: the direction in which the rotor starts.
+        states.velocity[:, 0] = 1e-3 * states.velocity[:, 1]
+        return states
+
+    def _by_defect(self, motion: MarchMotion, value: float, rich: Reaction) -> tuple[float, str, int]:
+        """Return the relative change of the peak that the richer film would make, and why not to trust it."""
+        states = self._sampled(motion)
+        q, calls = states.position, states.position.shape[1]
+        moved, doubt = self.by_defect(states, rich)
+        reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
+        if reach >= 1.0:
+            doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
+            return math.inf, doubt, calls
+        return (peak(q + moved) - peak(q)) / value, _beyond(reach, limit) if reach >= limit else doubt, calls
+
+    def expected(self, done: Work) -> Work:
+        """Return three tangents for each step."""
+        return {self.tangents: 3 * self.grid(self.steps)[1]} if self.steps else {}
+
+
+def _reach(reaction: Reaction) -> float:
+    return min(0.999, largest_eccentricity_ratio(reaction))
+
+
+def _beyond(reach: float, limit: float) -> str:
+    return (
+        f"the rotor goes to {reach:.4g} of the clearance and the film is known to {limit:.4g}: it may touch "
+        "the wall"
+    )
+
+
+@quiet()
+def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade and does not run up, has no rotor, or does not turn.
+    """
+    if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
+        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
+        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
+    assert scene.damper is not None  # or the ladder is another one
+    if scene.damper.supply is not None:
+        if scene.damper.film is not None:
+            raise InputError(
+                f"damper.film must be left out beside supply for {quantity}, as only the film that conserves "
+                f"its oil knows the supply in time, got {scene.damper.film!r}"
+            )
+        return conserved_peak_ladder(scene)
+    models = damper_models(scene)
+    rungs = tuple(
+        DamperPeakRung(
+            film=film,
+            rotor=models.rotor,
+            stiffness=scene.damper.stiffness,
+            duration=models.duration,
+            steps=steps,
+        )
+        for film, steps in _choices(scene.damper, max(abs(speed) for speed in models.rotor.profile.speeds))
+    )
+    units = {rung.tangents: _one_peak(rung, scene.speed) for rung in rungs if rung.steps}
+    small, spring = mapped_short(scene.damper), scene.damper.stiffness
+    free = replace(models.rotor, static_force=(0.0, 0.0))
+    remarks = rotor_remarks(scene.damper, small, spring, free, scene.lubricant.properties, steady=False)
+    return Ladder(
+        rungs=rungs,
+        unit="m",
+        units=units,
+        remarks=remarks,
+        within=ISOTHERMAL,
+    )
+
+
+def _choices(table: DamperTable, fastest: float) -> list[tuple[DamperFilm, int]]:
+    """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
+    films = built_films(table, fastest) if table.is_built else plain_films(table)
+    # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
+    # and is the last one where there is feed, for which a motion in the finite film takes minutes.
+    *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
+    top = films[-1]
+    fed = own.is_fed
+    choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
+    if fed:
+        # Where nothing is known of the film's error, a third run would tell no more.
+        choices += [(own, steps) for steps in (FED_STEPS if own.rich_law is not None else FED_STEPS[:2])]
+    else:
+        choices += [(own, steps) for steps in CHEAP_STEPS if own is not top]
+        choices += [(top, steps) for steps in STEPS]
+    if fed and own.rich_law is None:
+        return choices
+    # Without a film named, with the damping of the richer film, which the estimate needs anyway.
+    small = own
+    if own.rich_law is not None and table.film is None:
+        small = replace(own, law=own.rich_law)
+    return [(replace(small, name="small motion"), 0), *choices]
+
+
+def _one_peak(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
+    def one() -> object:
+        x, v = 0.5 * rung.support.clearance, abs(speed) * rung.support.clearance
+        return rung.tangent(x, 0.0, 0.1 * v, 0.5 * v, 0.0)
+
+    return one
+
+
+# What squeeze-film dampers bring to scenes and questions.
+
+
+FAMILY = Family(
+    table=DamperTable,
+    ladders={
+        **dict.fromkeys(UNITS, damper_ladder),
+        "blade_loss_peak": damper_peak_ladder,
+        "cosimulation_error": coupling_ladder,
+    },
+    models=damper_fmus,
+    command="rotorfilm damper-run",
+)
+
+
+# A rotor on a damper that conserves its oil, in time: a lost blade, a run-up, an orbit past holes.
+
+
+LEVELS = ((32, 8), 48), ((48, 12), 96), ((72, 16), 192)
+"""Cells, and steps of a turn, of the rungs."""
+
+STEP_TIME = 3e-6
+"""About what a step takes for each cell [s]."""
+
+TURNS, REPEATED = (12, 24, 48, 96), 1e-3
+"""Turns after which an orbit is looked at, and its change from turn to turn when steady."""
+
+
+class FollowedRotor(NamedTuple):
+    """A motion that was followed: the equal steps of a turn, and what it shows."""
+
+    steps: int
+    run: Trajectory
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConservedRunRung(BaseRung):
+    """A quantity of a motion on the film that conserves its oil, judged by longer steps and by fewer cells.
+
+    Attributes
+    ----------
+    damper : JFODamper
+        With its springs, on the cells of this rung.
+    rotor : RigidRotor
+        At rest in the center.
+    steps : int
+        Of a turn, at the highest speed.
+    value : callable
+        Takes a rung and returns the quantity.
+    """
+
+    damper: JFODamper
+    rotor: RigidRotor
+    steps: int
+    value: Callable[[ConservedRunRung], float]
+
+    @property
+    def name(self) -> str:
+        """Cells and steps."""
+        around, along = self.damper.cells
+        return f"conserved oil {around} x {along}, {self.steps} steps"
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One answer."""
+        seconds = STEP_TIME * math.prod(self.damper.cells) * self.steps * TURNS[0]
+        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
+
+    @cached_property
+    def found(self) -> float:
+        """The quantity."""
+        return self.value(self)
+
+    def follow(self, duration: float) -> FollowedRotor:
+        """Return a motion from rest; raises FilmContactError at the wall."""
+        fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
+        count = math.ceil(duration * fastest * self.steps / (2.0 * math.pi) - 1e-9)
+        times = duration / count * np.arange(count + 1)
+        try:
+            run = simulate(self.rotor, self.damper, duration=duration, times=times, max_step=duration / count)
+        except ContactError as error:
+            raise FilmContactError(f"the rotor touches the wall: {error}") from error
+        return FollowedRotor(self.steps, run)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity; raises FilmContactError at the wall."""
+        return Found(self.found, {self.unit: 1})
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the changes since steps twice as long and since half the cells: some thrice the error."""
+        around, along = self.damper.cells
+        fewer = replace(self.damper, cells=(2 * round(0.25 * around), 2 * round(0.25 * along)))
+        others = replace(self, steps=self.steps // 2).found, replace(self, damper=fewer).found
+        error = sum(abs(other / found.value - 1.0) for other in others)
+        work = {WorkUnit(f"estimates of {self.name}"): 1}
+        return ErrorEstimate(error, "steps twice as long, half the cells", work, bound=True)
+
+
+def conserved_peak_ladder(scene: Scene) -> Ladder:
+    """Return the ladder of the largest distance after a blade is lost, or over a run-up, with a supply."""
+    duration = damper_models(scene).duration
+
+    def value(rung: ConservedRunRung) -> float:
+        return peak(rung.follow(duration).run.position)
+
+    return _ladder(scene, value, "m", steady=False)
+
+
+def passing_holes_ladder(scene: Scene, quantity: str, unit: str) -> Ladder:
+    """Return the ladder of the orbit of a rotor past feed holes, or of what it transmits.
+
+    Followed from rest until it repeats itself: the amplitude is the largest distance from the mean place, and
+    the transmissibility that of the force at the rotor's frequency, the longer half axis of its ellipse.
+    """
+
+    def value(rung: ConservedRunRung) -> float:
+        return _repeated(rung, quantity)
+
+    return _ladder(scene, value, unit, steady=True)
+
+
+def _repeated(rung: ConservedRunRung, quantity: str) -> float:
+    """Return a quantity of the last turn, once it does so from turn to turn."""
+    period = 2.0 * math.pi / abs(rung.rotor.profile.speeds[-1])
+    for turns in TURNS:
+        found = rung.follow(turns * period)
+        last, before = (_of_turn(found, rung.rotor, quantity, back) for back in (1, 2))
+        if abs(last - before) <= REPEATED * abs(last):
+            return last
+    raise ConvergenceError(
+        f"the orbit must repeat itself to {REPEATED:g} within {TURNS[-1]} turns, and changes by "
+        f"{abs(last / before - 1.0):.2g} from the last but one to the last"
+    )
+
+
+def _of_turn(found: FollowedRotor, rotor: RigidRotor, quantity: str, back: int) -> float:
+    """Return a quantity of one turn, 1 the last."""
+    end = len(found.run.time) - (back - 1) * found.steps
+    turn = slice(end - found.steps, end)
+    if quantity == "unbalance_amplitude":
+        q = found.run.position[:, turn]
+        return float(np.hypot(*(q - q.mean(axis=1, keepdims=True))).max())
+    speed, signals = rotor.profile.speeds[-1], found.run.signals
+    force: Array = signals["force_x"][turn] + 1j * signals["force_y"][turn]
+    wave = np.exp(2j * math.pi * np.arange(found.steps) / found.steps)
+    size = sum(abs(np.mean(force * one)) for one in (wave, wave.conj()))
+    return float(size / (rotor.unbalance * speed**2))
+
+
+def _ladder(scene: Scene, value: Callable[[ConservedRunRung], float], unit: str, *, steady: bool) -> Ladder:
+    table, models = scene.damper, damper_models(scene)
+    assert table is not None  # whose question it is
+    assert table.supply is not None
+    damper = table.conserved(table.supply)
+    rungs = tuple(
+        ConservedRunRung(damper=replace(damper, cells=cells), rotor=models.rotor, steps=steps, value=value)
+        for cells, steps in LEVELS
+    )
+    count, rotor = lands(table), models.rotor
+    shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
+    remarks = rotor_remarks(
+        table, mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
+    )
+    return Ladder(rungs=rungs, unit=unit, remarks=remarks, within=ISOTHERMAL)

@@ -1,0 +1,707 @@
+"""Questions about the orbit that an unbalance makes: amplitude, phase, force; linear and nonlinear rungs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..analysis import RotorEquilibrium, coefficients, equilibrium
+from ..analysis.equal_steps import (
+    ORDER,
+    MarchMotion,
+    RestTangent,
+    ShakenRotor,
+    StatesAlong,
+    peak,
+    states_along,
+)
+from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
+from ..analysis.periodic_orbit import (
+    RotorAnswers,
+    propagated,
+    reach_of,
+    rest_on_film,
+    rest_position,
+    rotor_answers,
+)
+from ..bearings.reaction import reach
+from ..core.answers import (
+    DISAGREEMENT,
+    ISOTHERMAL,
+    SAFETY,
+    C,
+    CandidateRung,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    Work,
+    WorkUnit,
+    beside_bound,
+    relative_change,
+)
+from ..core.errors import InputError
+from ..core.model import Array, Reaction
+from ..core.results import Coefficients
+from ..rotors import RigidRotor
+from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
+from ..scenes.film_heat import WarmRest
+from ..scenes.film_rungs import FilmCandidate, FilmRung, room, turn_films
+from .journal_heat import HeatedQuestion, thermal_ladder
+from .journal_whirl import with_moved_rupture
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
+
+# Rungs of the orbit of a rigid rotor: linear about its rest, or nonlinear at so many samples of a turn.
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledOrbitRung(CandidateRung[C]):
+    """The orbit on one film; a rung adds `answer`, `estimate` and `expected`.
+
+    Attributes
+    ----------
+    quantity : str
+        A key of `UNITS`.
+    rotor : RigidRotor
+    samples : int
+        Over a turn; 0 for the linear orbit.
+    """
+
+    quantity: str
+    rotor: RigidRotor
+    samples: int
+
+    @property
+    def name(self) -> str:
+        """Linear, or the number of samples, and the film."""
+        how = f"nonlinear, {self.samples} samples" if self.samples else "linear"
+        return f"{how}, {self.film.name}"
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the film's error."""
+        return 0.3 * self.film.prior
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are samples."""
+        return (self.film,) if self.samples else ()
+
+
+# Questions about the orbit that an unbalance makes: amplitude, phase, force; linear and nonlinear rungs.
+
+
+SAMPLES = (15, 31, 63)
+"""Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
+
+MAKING = 1e4
+"""Forces of a cheap film in a second."""
+
+LINEAR = 31
+"""Samples over a turn at which a linear orbit's defect is taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrbitRung(SampledOrbitRung[FilmCandidate]):
+    """The orbit on one film, by what the rotor answers to its forces."""
+
+    @property
+    def place(self) -> OrbitPlace:
+        """What is asked."""
+        return OrbitPlace(quantity=self.quantity, places=("",), reference=self.rotor.unbalance_angle)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
+        made = self.film.prepare()
+        # K0 and C0 of a lower rung's rest do as well, since the film's forces have them added.
+        lower: SolvedTurn | None = before.solution if before is not None and self.samples else None
+        at = rest_on_film(self.rotor, self.film.reaction) if lower is None else lower.at
+        answers = rotor_answers(self.rotor.structure, at, (), self.samples or LINEAR)
+        orbit, work = answers.linear_orbit(rest := rest_position(at, answers.stations)), 6
+        if self.samples:
+            start = orbit if lower is None else resized(lower.orbit, answers.harmonics)
+            found = driven(answers.on({"": self.film.reaction}), start, rest)
+            orbit, work = found.series, (found.iterations + 1) * self.samples
+        solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
+        return Found(self.place.value(answers, orbit), {self.film.tangents: work, **made}, solved)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change that the richer film, at twice the samples, would make to first order.
+
+        For the map the richer film is the map itself, as long as its own verified error is small enough.
+        """
+        turn: SolvedTurn = found.solution
+        reach = reach_of(turn.orbit, turn.answers.stations, {"": self.film.reaction})
+        if reach >= WALL:
+            return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
+        calls = 2 * turn.answers.samples + 1
+        doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
+        bound = self.film.motion_bound(reach)
+        if SAFETY * bound < tolerance:
+            error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
+            method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
+            return beside_bound(error, bound, method, work, doubt)
+        error, doubt = self._by_defect(doubled, turn, found.value, self.film.rich)
+        work = {self.film.defects(smooth=False): calls}
+        method = f"defect of {self.film.rich_name}, {calls} samples"
+        return ErrorEstimate(error, method, work, bound=self.film.bounded and bool(self.samples), doubt=doubt)
+
+    def _by_defect(
+        self, answers: RotorAnswers, turn: SolvedTurn, value: float, rich: Reaction
+    ) -> tuple[float, str]:
+        own = {"": self.film.reaction}
+        balance = answers.on({"": rich}, sloped=own if self.film.bounded else None)
+        orbit = resized(turn.orbit, answers.harmonics)
+        step, other = propagated(balance, orbit, own if self.samples else None)
+        error = self.place.change(value, self.place.value(answers, orbit + step))
+        apart = rms(step - other) / max(rms(step), 1e-300)
+        doubt = ""
+        if apart > DISAGREEMENT:
+            doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        return error, doubt
+
+    def expected(self, done: Work) -> Work:
+        """Return five Newton steps at these samples."""
+        return self.film.expected(5 * self.samples if self.samples else 6)
+
+
+def rotor_of(scene: Scene) -> RigidRotor:
+    """Return the rotor of a scene with the unbalance of its excitation, or else its own.
+
+    Raises
+    ------
+    InputError
+        If it has none or both, another excitation, or does not turn.
+    """
+    rotor, excitation = scene.rotor, scene.excitation
+    if type(excitation) is UnbalanceTable:  # a lost blade is one too
+        require_one_unbalance(rotor)
+        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=excitation.unbalance_angle)
+    elif excitation is not None:
+        raise InputError(
+            f'excitation must be of kind "unbalance" for a steady orbit, got {type(excitation).__name__}'
+        )
+    if rotor.unbalance <= 0.0:
+        raise InputError(f"rigid_rotor.unbalance must be positive for an orbit, got {rotor.unbalance!r}")
+    if scene.speed == 0.0:
+        raise InputError("operation.speed must not be zero for an orbit, got 0.0")
+    return rotor
+
+
+def require_one_unbalance(rotor: RigidRotor) -> None:
+    """Raise InputError if a rotor has an unbalance beside that of an excitation."""
+    if rotor.unbalance:
+        raise InputError(
+            "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+            f"got {rotor.unbalance!r} kg m"
+        )
+
+
+def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
+    rotor = rotor_of(scene)
+    assert scene.journal is not None  # whose question it is
+    scene.journal.require_law(quantity)
+    films = orbit_films(scene)
+    warm = scene.journal_bearing.is_warming
+    ladder = (
+        warm_orbit_ladder(scene, quantity, rotor, films)
+        if warm
+        else cold_orbit_ladder(scene, quantity, films)
+    )
+
+    def linear(film: FilmCandidate) -> float:
+        rung = OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0)
+        return float(rung.answer(None).value)
+
+    place = OrbitRung(film=films[0], quantity=quantity, rotor=rotor, samples=0).place
+    return with_moved_rupture(scene, ladder, linear, place.change, scaled=quantity != PHASE)
+
+
+def cold_orbit_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of an orbit by films of one viscosity: linear, then nonlinear, on each."""
+    rotor = rotor_of(scene)
+    rungs = [OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0) for film in films]
+    rungs += [
+        OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=n) for film in films for n in SAMPLES
+    ]
+    rungs.sort(key=lambda rung: _effort(rung, films))
+    return Ladder(
+        rungs=tuple(rungs),
+        unit=ORBIT_UNITS[quantity],
+        units=film_batch_units(films, scene.speed),
+        remarks=scene.film_remarks,
+        within=ISOTHERMAL,
+        distance=rungs[0].place.change,
+    )
+
+
+def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tuple[FilmRung, ...]) -> Ladder:
+    """Return the ladder of an orbit on an oil, which keeps the temperature that it has at rest.
+
+    What a richer level of heat would change is taken of the linear orbit.
+    """
+
+    def rung(film: FilmRung, samples: int = 0) -> OrbitRung:
+        return OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=samples)
+
+    def value(own: WarmRest) -> float:
+        found: float = rung(films[0].frozen(own.reaction)).answer(None).value
+        return found
+
+    distance = rung(films[0]).place.change
+    questions = tuple(
+        HeatedQuestion(
+            load=scene.static_load,
+            speed=scene.speed,
+            make=partial(rung, samples=n),
+            value=value,
+            distance=distance,
+            moves=True,
+        )
+        for n in (0, *SAMPLES)
+    )
+    return thermal_ladder(scene, films, questions, ORBIT_UNITS[quantity])
+
+
+def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
+    """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
+    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
+
+
+def _effort(rung: OrbitRung, films: Sequence[FilmCandidate]) -> float:
+    """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before.
+
+    A map that is to be made comes after all that need none, by the time that it takes.
+    """
+    one = 1.0 if rung.film.makes_map else 2.0 ** films.index(rung.film)
+    return MAKING * rung.film.making + one * (6 if rung.samples == 0 else 5 * rung.samples)
+
+
+def film_batch_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, Callable[[], object]]:
+    """Return one force with derivatives of each film and of its richer one."""
+    units: dict[WorkUnit, Callable[[], object]] = {}
+    for film in films:
+        units[film.tangents] = _sampled(film.reaction, speed)
+        units[film.defects(smooth=False)] = _sampled(film.rich, speed)
+    return units
+
+
+def _sampled(reaction: Reaction, speed: float) -> Callable[[], object]:
+    position, velocity = np.array([0.3, 0.4]) * room(reaction), np.zeros(2)
+
+    def one() -> object:
+        return reaction.force(position, velocity, speed), reaction.jacobian(position, velocity, speed)
+
+    return one
+
+
+# How far a rotor goes after something has begun to shake it at rest: rungs in ever shorter steps.
+
+
+STEPS = (48, 96, 192, 384, 768)
+"""Steps over a turn of the nonlinear rungs."""
+
+LINEAR_STEPS = 192
+"""Those of the linear motion."""
+
+SAMPLED = 48
+"""States over a turn at which the defect is taken."""
+
+
+class PeakMotion(NamedTuple):
+    """A motion, as its estimate and the rung above it start from it.
+
+    Attributes
+    ----------
+    motion : MarchMotion
+    coarse : float [m]
+        The peak in steps twice as long; nan where nobody needs it.
+    steps : int
+        Over a turn; 0 for the linear motion.
+    """
+
+    motion: MarchMotion
+    coarse: float
+    steps: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PeakRung(CandidateRung[C]):
+    """The peak by one film, linear about the rest or nonlinear in so many steps over a turn.
+
+    A rung adds `tangents`, `shaken`, `at_rest`, `grid`, `answer` and `estimate`.
+
+    Attributes
+    ----------
+    steps : int
+        Over a turn, at the highest speed; 0 for the linear motion.
+    """
+
+    steps: int
+
+    @property
+    def name(self) -> str:
+        """Linear, or the number of steps, and the film."""
+        return f"{f'nonlinear, {self.steps} steps' if self.steps else 'linear'}, {self.film.name}"
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error of the steps, and of the film."""
+        return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are steps."""
+        return (self.film,) if self.steps else ()
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One force with derivatives."""
+        raise NotImplementedError
+
+    @property
+    def shaken(self) -> ShakenRotor:
+        """The rotor on this film, and what shakes it."""
+        raise NotImplementedError
+
+    @property
+    def at_rest(self) -> RestTangent:
+        """The film at rest, by which the linear motion goes."""
+        raise NotImplementedError
+
+    def grid(self, steps: int) -> tuple[float, int]:
+        """Return the length [s] and the number of steps, so many over a turn."""
+        raise NotImplementedError
+
+    def linear(self, steps: int) -> MarchMotion:
+        """Return the motion by the film at rest."""
+        return self.shaken.linear(self.at_rest, *self.grid(steps))
+
+    def nonlinear(self, before: Found | None) -> Found:
+        """Return the peak, and with it that in steps twice as long, which the rung below may have."""
+        made = self.film.prepare()
+        motion, calls = self.shaken.nonlinear(*self.grid(self.steps))
+        if before is not None and self.tangents in before.work and 2 * before.solution.steps == self.steps:
+            coarse = float(before.value)
+        else:
+            other, more = self.shaken.nonlinear(*self.grid(self.steps // 2))
+            coarse, calls = peak(other.position), calls + more
+        solved = PeakMotion(motion, coarse, self.steps)
+        return Found(peak(motion.position), {self.tangents: calls, **made}, solved)
+
+    def increment(self, found: Found) -> float:
+        """Return the relative error of the steps by their order, with its sign."""
+        return float((found.value - found.solution.coarse) / (2.0**ORDER - 1.0) / found.value)
+
+    def stride(self, samples: int) -> int:
+        """Return how many steps of the motion lie between samples, so many over a turn."""
+        return max(1, (self.steps or LINEAR_STEPS) // samples)
+
+    def by_defect(self, states: StatesAlong, rich: Reaction) -> tuple[Array, str]:
+        """Return how much a richer film moves the rotor (2, n) [m], and why not to trust it."""
+        own = self.shaken.reaction if self.steps else self.at_rest
+        moved, apart = self.shaken.propagated(states, own, rich)
+        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        return moved, doubt if apart > DISAGREEMENT else ""
+
+
+# How far the journal goes after a blade is lost: linear, then nonlinear in ever shorter steps.
+
+
+COMMON_STEPS = 192
+"""Steps over a turn that are enough for most motions; by their cost the films are ordered."""
+
+LINEAR_CALLS = 6
+"""Forces with derivatives that a linear motion takes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BladeLossRung(PeakRung[FilmCandidate]):
+    """The peak in a journal bearing.
+
+    Attributes
+    ----------
+    load : (float, float) [N]
+    speed : float [rad/s]
+    mass : float [kg]
+    excitation : BladeLossTable
+    """
+
+    load: tuple[float, float]
+    speed: float
+    mass: float
+    excitation: BladeLossTable
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One force of the film with derivatives."""
+        return self.film.tangents
+
+    @cached_property
+    def rest(self) -> Coefficients:
+        """Position, K and C of the film at rest."""
+        at = equilibrium(self.film.reaction, self.load, self.speed)
+        return coefficients(self.film.reaction, at.position, self.speed)
+
+    @property
+    def shaken(self) -> ShakenRotor:
+        """The rotor on this film, and what shakes it."""
+        return ShakenRotor(self.film.reaction, self.mass, self.speed, self.rest.position, self._pull)
+
+    @property
+    def at_rest(self) -> RestTangent:
+        """The film at rest, by which the linear motion goes."""
+        return RestTangent(-np.array(self.load), self.rest.stiffness, self.rest.damping)
+
+    def grid(self, steps: int) -> tuple[float, int]:
+        """Return the length [s] and the number of steps, so many over a turn."""
+        return 2.0 * math.pi / (abs(self.speed) * steps), math.ceil(steps * self.excitation.revolutions)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest distance from the center of the bearing [m]."""
+        if self.steps:
+            return self.nonlinear(before)
+        made, motion = self.film.prepare(), self.linear(LINEAR_STEPS)
+        rates = np.gradient(motion.position, self.grid(LINEAR_STEPS)[0], axis=1, edge_order=2)
+        solved = PeakMotion(replace(motion, velocity=rates), math.nan, 0)
+        return Found(peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
+
+    def _pull(self, t: float) -> tuple[float, float]:
+        angle = self.speed * t + self.excitation.unbalance_angle
+        force = self.excitation.unbalance * self.speed**2
+        return self.load[0] + force * math.cos(angle), self.load[1] + force * math.sin(angle)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of the steps (order increment), and of the film by its defect along the motion."""
+        motion: MarchMotion = found.solution.motion
+        near = reach(self.film.reaction, motion.position)
+        if near >= 0.999:
+            return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
+        steps, how = (abs(self.increment(found)), "order increment; ") if self.steps else (0.0, "")
+        bound = self.film.motion_bound(near)
+        if self.steps and SAFETY * bound < tolerance:
+            return beside_bound(steps, bound, how + "verified bound of the map", {})
+        own = not self.steps and SAFETY * bound < tolerance
+        states = states_along(motion, self.stride(SAMPLED))
+        moved, doubt = self.by_defect(states, self.film.reaction if own else self.film.rich)
+        change = abs(peak(states.position + moved) - peak(states.position)) / found.value
+        work = {self.tangents if own else self.film.defects(smooth=False): states.position.shape[1]}
+        method = f"{how}defect of {self.film.name if own else self.film.rich_name}"
+        return beside_bound(change + steps, bound if own else 0.0, method, work, doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return three tangents for each step."""
+        return self.film.expected(3 * self.grid(self.steps)[1] if self.steps else LINEAR_CALLS)
+
+
+def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the peak after a blade is lost.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade, has no rotor, or does not turn.
+    """
+    calls = calls_of(lost_blade(scene))
+    assert scene.journal is not None  # whose question it is
+    scene.journal.require_law(quantity)
+    films = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls)))
+    make = partial(BladeLossRung, **blade_numbers(scene))
+    warm = scene.journal_bearing.is_warming
+    ladder = warm_blade_ladder(scene, films, make) if warm else cold_blade_ladder(scene, films)
+
+    def linear(film: FilmCandidate) -> float:
+        return float(make(film=film, steps=0).answer(None).value)
+
+    return with_moved_rupture(scene, ladder, linear, relative_change, scaled=True)
+
+
+def calls_of(excitation: BladeLossTable) -> int:
+    """Return how many forces most motions take."""
+    return math.ceil(3 * COMMON_STEPS * excitation.revolutions)
+
+
+def blade_numbers(scene: Scene) -> dict[str, Any]:
+    """Return what all rungs of a lost blade share.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade, has no rotor or one with an unbalance, or does not turn.
+    """
+    rotor = scene.rotor
+    require_one_unbalance(rotor)
+    excitation = lost_blade(scene)
+    return {"load": scene.static_load, "speed": scene.speed, "mass": rotor.mass, "excitation": excitation}
+
+
+def lost_blade(scene: Scene) -> BladeLossTable:
+    """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
+    if not isinstance(scene.excitation, BladeLossTable):
+        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
+        raise InputError(f'excitation of kind "blade_loss" is required for blade_loss_peak, got {got}')
+    if scene.speed == 0.0:
+        raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
+    return scene.excitation
+
+
+def cold_blade_ladder(scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of the peak by films of one viscosity: linear, then nonlinear, on each."""
+    make = partial(BladeLossRung, **blade_numbers(scene))
+    calls = calls_of(lost_blade(scene))
+    films = sorted(films, key=lambda film: film.time(calls))
+    rungs = [make(film=film, steps=steps) for film in films for steps in (0, *STEPS)]
+    if any(film.makes_map for film in films[:-1]):
+        # A linear motion takes so few forces that no map is worth it.
+        rungs.sort(key=lambda rung: rung.film.time(calls if rung.steps else LINEAR_CALLS))
+    return Ladder(
+        rungs=tuple(rungs),
+        unit="m",
+        units=film_batch_units(films, scene.speed),
+        remarks=scene.film_remarks,
+        within=ISOTHERMAL,
+    )
+
+
+def warm_blade_ladder(
+    scene: Scene, films: tuple[FilmRung, ...], make: Callable[..., BladeLossRung]
+) -> Ladder:
+    """Return the ladder of the peak on an oil, which keeps the temperature that it has at rest.
+
+    What a richer level of heat would change is taken of the linear motion.
+    """
+
+    def value(own: WarmRest) -> float:
+        found: float = make(film=films[0].frozen(own.reaction), steps=0).answer(None).value
+        return found
+
+    def stepped(steps: int, film: FilmRung) -> BladeLossRung:
+        return make(film=film, steps=steps)
+
+    questions = tuple(
+        HeatedQuestion(
+            load=scene.static_load,
+            speed=scene.speed,
+            make=partial(stepped, steps),
+            value=value,
+            distance=relative_change,
+            moves=True,
+        )
+        for steps in (0, *STEPS)
+    )
+    return thermal_ladder(scene, films, questions, "m")
+
+
+# What is asked about an orbit that an unbalance makes: amplitude, phase or force, and where.
+
+
+AMPLITUDE, PHASE, FORCE = "unbalance_amplitude", "unbalance_phase", "unbalance_force"
+ORBIT_UNITS = {AMPLITUDE: "m", PHASE: "rad", FORCE: "N"}
+"""Quantities of an orbit and their units."""
+
+WALL = 0.999
+"""Distance from the center / clearance from which a journal touches."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedTurn:
+    """A solved orbit, as its estimate and a higher rung start from it.
+
+    Attributes
+    ----------
+    at : RotorEquilibrium
+        The rotor at rest, about which its films are linearized.
+    answers : RotorAnswers
+        What the rotor answers to forces on its journals over a turn.
+    orbit : ndarray, shape (2 m, 2 H + 1) [m]
+        Series of the journals over a turn.
+    """
+
+    at: RotorEquilibrium
+    answers: RotorAnswers
+    orbit: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrbitPlace:
+    """What is asked about an orbit.
+
+    Attributes
+    ----------
+    quantity : str
+        A key of `UNITS`.
+    places : tuple of str
+        Bearings and probes among which the largest counts.
+    reference : float [rad]
+        Angle of the unbalance from which a phase counts.
+    probes : tuple of str
+        Those of the places that are probes.
+    """
+
+    quantity: str
+    places: tuple[str, ...]
+    reference: float
+    probes: tuple[str, ...] = ()
+
+    def value(self, answers: RotorAnswers, orbit: Array) -> float:
+        """Return the quantity of an orbit, from its first harmonic."""
+        places = self.places[:1] if self.quantity == PHASE else self.places
+        waves = (self._wave(answers, orbit, name) for name in places)
+        return max(wave_value(self.quantity, wave, answers.speed, self.reference) for wave in waves)
+
+    def _wave(self, answers: RotorAnswers, orbit: Array, name: str) -> Complex:
+        if name in self.probes:
+            by_force, by_unbalance = answers.probes[name]
+            return np.asarray(by_force @ answers.excess(orbit) + by_unbalance)
+        wave = answers.film_wave(orbit) if self.quantity == FORCE else first_wave(orbit)
+        k = answers.stations.index(name)
+        return wave[2 * k : 2 * k + 2]
+
+    def largest_change(self, answers: RotorAnswers, orbit: Array, forces: Array) -> float:
+        """Return the most that first harmonics of forces on the journals (2 m,) [N] change the quantity by.
+
+        Relative, or of a phase in radians: the phase of each force is the worst.
+        """
+        moved = answers.journals[1]
+        if self.quantity == FORCE:
+            moved = np.eye(len(moved)) - answers.on_springs(moved)
+        changes = []
+        for name in self.places:
+            if name in self.probes:
+                rows = answers.probes[name][0]
+            else:
+                k = answers.stations.index(name)
+                rows = moved[2 * k : 2 * k + 2]
+            changes.append(float(np.linalg.norm(np.abs(rows) @ forces)))
+        if self.quantity != PHASE:
+            return max(changes) / abs(self.value(answers, orbit))
+        with_it, against = circles(self._wave(answers, orbit, self.places[0]))
+        # half of the sum of x and +-i y
+        return changes[0] / math.sqrt(2.0) / abs(with_it if answers.speed > 0.0 else against)
+
+    def change(self, before: float, after: float) -> float:
+        """Return the relative distance of two values; of phases in radians."""
+        return wave_change(self.quantity, before, after)
+
+
+def wave_value(quantity: str, wave: Complex, speed: float, reference: float) -> float:
+    """Return the quantity of a first harmonic (2,) at a signed speed; a phase from a reference [rad] on."""
+    with_it, against = circles(wave)
+    if quantity != PHASE:
+        return float(abs(with_it) + abs(against))
+    turn = np.angle(with_it) if speed > 0.0 else np.angle(against)
+    return math.remainder(float(turn) - reference, 2.0 * math.pi)
+
+
+def wave_change(quantity: str, before: float, after: float) -> float:
+    """Return the relative distance of two values; of phases in radians."""
+    if quantity == PHASE:
+        return abs(math.remainder(after - before, 2.0 * math.pi))
+    return abs(after - before) / abs(after)

@@ -1,1 +1,0 @@
-"""Questions about bearings made of pads."""

@@ -1,1 +1,0 @@
-"""Questions about ball bearings by their dimensions."""

@@ -1,0 +1,546 @@
+"""Questions about the orbit of a flexible rotor under its unbalance: amplitude, phase, force on a bearing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..analysis import RotorEquilibrium, rotor_equilibrium, simulate_rotor
+from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
+from ..analysis.periodic_orbit import RotorAnswers, distance, reach_of, rest_position, rotor_answers
+from ..analysis.speed_events import on_films
+from ..bearings.seal import AnnularSeal
+from ..core.answers import DISAGREEMENT, SAFETY, BaseRung, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
+from ..core.errors import ContactError, InputError
+from ..core.model import Array, Reaction
+from ..core.results import Coefficients, Trajectory
+from ..rotors import BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, ShakenBaseRotor, mount
+from ..rotors.shaft_rotor import ShaftModel, shaft_models
+from ..scenes.excitation_table import (
+    BladeLossTable,
+    GroundTable,
+    RunUpTable,
+    UnbalanceTable,
+    oil_remarks,
+    require_kind,
+)
+from ..scenes.rotor_runs import largest_distance, run_span, run_times
+from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
+from .journal_orbits import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
+from .shaft_films import (
+    ShaftFilms,
+    at_supply,
+    field_orbits,
+    film_levels,
+    frozen_at,
+    shaft_assumptions,
+    warm_physics,
+    warm_rungs,
+)
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
+
+LINEAR = 15
+"""Samples over a turn at which a linear orbit's defect is taken, and a little more than twice as many."""
+
+NONLINEAR = (("reduced", 15), ("mesh", 15), ("mesh", 31), ("mesh", 63), ("split", 63), ("split", 127))
+"""Models of the shaft and samples over a turn of the nonlinear rungs."""
+
+ROUNDOFF = 1e-12
+"""Size of a step / size of the orbit that is no error any more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftOrbitRung(BaseRung):
+    """The orbit by one model of the shaft and one film for each journal, linear or nonlinear.
+
+    Attributes
+    ----------
+    model : ShaftModel
+    films : ShaftFilms
+    place : OrbitPlace
+    speed : float [rad/s]
+    samples : int
+        Over a turn; 0 for the linear orbit.
+    """
+
+    model: ShaftModel
+    films: ShaftFilms
+    place: OrbitPlace
+    speed: float
+    samples: int
+
+    @property
+    def name(self) -> str:
+        """Linear or the number of samples, the model of the shaft, the film."""
+        how = f"{self.samples} samples" if self.samples else "linear"
+        return ", ".join(part for part in (how, self.model.name, self.films.name) if part)
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """Model of the shaft and films, where there are samples."""
+        return (self.model, self.films) if self.samples else ()
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One turn."""
+        return WorkUnit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
+
+    @cached_property
+    def _reactions(self) -> dict[str, Reaction]:
+        return self.films.reaction
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
+        made = self.films.prepare()
+        at = rotor_equilibrium(self.model.rotor, self._reactions, self.speed)
+        samples = self.samples or LINEAR
+        answers = rotor_answers(self.model.rotor.structure, at, self.place.probes, samples)
+        rest = rest_position(at, answers.stations)
+        orbit, work = answers.linear_orbit(rest), 1
+        if self.samples:
+            start = orbit if before is None else resized(before.solution.orbit, answers.harmonics)
+            found = driven(answers.on(self._reactions), start, rest)
+            orbit, work = found.series, found.iterations + 1
+        solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
+        return Found(self.place.value(answers, orbit), {self.unit: work, **made}, solved)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change that elements half as long, the richer films and twice the samples would make.
+
+        It is the defect of the orbit in them, propagated by the slopes of the richer films; a second defect
+        there takes out what is of second order, and tells whether the first step was linear. The map is its
+        own richer film, and where its verified bound is too large the forces of a grid are compared.
+        """
+        turn: SolvedTurn = found.solution
+        if reach_of(turn.orbit, turn.answers.stations, self._reactions) >= WALL:
+            return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
+        value, fine = float(found.value), self.model.finer.structure
+        bound = self._bound(turn)
+        trusted = SAFETY * bound < tolerance
+        films = self._reactions if trusted or self.films.bounded else self.films.rich
+        samples = 2 * turn.answers.samples + 1 if self.has_films else LINEAR
+        answers = rotor_answers(fine, turn.at, self.place.probes, samples)
+        error, doubt = self._by_defect(answers, turn, films, value)
+        method = f"defect in {len(self.model.finer.elements)} elements"
+        if self.has_films:
+            method += f" at {samples} samples"
+        if not trusted:
+            method += f", {self.films.rich_name}"
+        # The share of a map: its verified bound, or the distance to a grid, which is less close than it is.
+        films_share = 0.0
+        if self.has_films and self.films.bounded:
+            films_share = bound if trusted else self._by_grid(turn, value)
+        is_bound = films_share > error
+        error += films_share if is_bound or not trusted else 0.0
+        work = {WorkUnit(f"defects of {self.name}"): 1}
+        return ErrorEstimate(error, method, work, bound=is_bound, doubt=doubt)
+
+    def rest(self, found: Found) -> RotorEquilibrium:
+        """Return the rotor at rest."""
+        at: RotorEquilibrium = found.solution.at
+        return at
+
+    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+        """Return the quantity of the linear orbit on these K and C."""
+        at = self.rest(found)
+        structure = self.model.rotor.structure
+        answers = rotor_answers(structure, on_films(at, coefficients), self.place.probes, LINEAR)
+        return self.place.value(answers, answers.linear_orbit(rest_position(at, answers.stations)))
+
+    def distance(self, value: float, better: float) -> float:
+        """Return how far a value is from a better one."""
+        return self.place.change(value, better)
+
+    def moving(self, found: Found) -> float:
+        """Return no error: an orbit keeps its heat."""
+        return 0.0
+
+    def _by_grid(self, turn: SolvedTurn, value: float) -> float:
+        """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
+        answers = rotor_answers(self.model.rotor.structure, turn.at, self.place.probes, LINEAR)
+        orbit = resized(turn.orbit, answers.harmonics)
+        change = distance(answers.on(self._reactions), self.films.rich, orbit)
+        return self.place.change(value, self.place.value(answers, orbit + change))
+
+    def _by_defect(
+        self, fine: RotorAnswers, turn: SolvedTurn, films: dict[str, Reaction], value: float
+    ) -> tuple[float, str]:
+        balance, orbit = fine.on(films), resized(turn.orbit, fine.harmonics)
+        step = newton_step(balance, orbit)
+        orbit, size, doubt = orbit + step, rms(step), ""
+        if reach_of(orbit, fine.stations, films) >= WALL:
+            return math.inf, "the error is larger than the gap"
+        if self.has_films:
+            step = newton_step(balance, orbit)
+            orbit, again = orbit + step, rms(step)
+            if reach_of(orbit, fine.stations, films) >= WALL:
+                return math.inf, "the error is larger than the gap"
+            if again > DISAGREEMENT * size and size > ROUNDOFF * rms(orbit):
+                doubt = f"what two defects say of the error differs by {again / size:.0%}: not linear"
+        return self.place.change(value, self.place.value(fine, orbit)), doubt
+
+    @property
+    def has_films(self) -> bool:
+        """Whether some bearing is nonlinear."""
+        return bool(self.films.journals)
+
+    def _bound(self, turn: SolvedTurn) -> float:
+        """Return the error that the worst K and C within the verified bounds would make at most.
+
+        At the farthest point of the orbit the bounds are the widest.
+        """
+        reach = reach_of(turn.orbit, turn.answers.stations, self._reactions)
+        moved = np.abs(first_wave(turn.orbit))
+        rate, worst = abs(turn.answers.speed), np.zeros(len(moved))
+        for name, film in self.films.journals.items():
+            k = turn.answers.stations.index(name)
+            pair, found = slice(2 * k, 2 * k + 2), turn.at.coefficients[name]
+            slope = np.abs(found.stiffness).max() + rate * np.abs(found.damping).max()
+            worst[pair] = film.bound(reach, slopes=True) * slope * moved[pair].sum()
+        if not worst.any():
+            return 0.0
+        return self.place.largest_change(turn.answers, turn.orbit, worst)
+
+    def expected(self, done: Work) -> Work:
+        """Return five Newton steps."""
+        return {self.unit: 5 if self.samples else 1}
+
+
+def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a quantity of the orbit of a flexible rotor: linear, then nonlinear.
+
+    Raises
+    ------
+    InputError
+        If the scene has no shaft, no speed or no unbalance, or a load besides the weight; if a phase is asked
+        for without a place.
+    """
+    place, shaft = orbit_place(scene, quantity), scene.shaft
+    assert shaft is not None  # checked by the above
+    rotor = shaft.build(speed=scene.speed, extra=_extra(scene))
+    models, levels, bearings = shaft_models(rotor), film_levels(shaft), shaft.build_bearings()
+    choices = _choices(models, nonlinear=bool(levels[0].journals))
+
+    def rung_on(films: ShaftFilms, model: ShaftModel, samples: int) -> ShaftOrbitRung:
+        return ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
+
+    def rungs_on(levels: tuple[ShaftFilms, ...]) -> tuple[ShaftOrbitRung, ...]:
+        return tuple(rung_on(films, *choice) for films in levels for choice in choices)
+
+    films = levels[0]
+    fresh: tuple[ShaftOrbitRung, ...] = ()
+    fields: tuple[Rung, ...] = ()
+    if films.on_oil:
+        # In vibration films keep the temperatures of the rest.
+        rest = rotor_equilibrium(models[0].rotor, films.reaction, scene.speed)
+        fresh = rungs_on(tuple(map(at_supply, levels)))
+        levels = tuple(frozen_at(one, rest) for one in levels)
+        fields = field_orbits(films, rest, rung_on, choices)
+    rungs = rungs_on(levels)
+    return Ladder(
+        rungs=(*warm_rungs(fresh, rungs), *fields) if films.on_oil else rungs,
+        unit=ORBIT_UNITS[quantity],
+        remarks=(
+            *oil_remarks(scene.tables, scene.lubricant),
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
+            *stability_remark(rotor, levels[0].reaction, scene.speed),
+        ),
+        within=warm_physics(films, bearings),
+        assumptions=lambda: shaft_assumptions(rungs[0]),
+        distance=place.change,
+    )
+
+
+def _choices(models: tuple[ShaftModel, ...], *, nonlinear: bool) -> list[tuple[ShaftModel, int]]:
+    """Return models of the shaft with samples over a turn, the cheapest first."""
+    reduced = [model for model in models if model.modes]
+    meshes = [model for model in models if model.modes is None and model.beam == model.shaft.beam]
+    linear = [(model, 0) for model in (*reduced, *(meshes[:1] if nonlinear else meshes))]
+    if not nonlinear:
+        return linear
+    kinds = {"reduced": reduced[-1:] or meshes[:1], "mesh": meshes[:1], "split": meshes[1:2]}
+    return [*linear, *((model, samples) for kind, samples in NONLINEAR for model in kinds[kind])]
+
+
+def orbit_place(scene: Scene, quantity: str) -> OrbitPlace:
+    """Return what a scene asks about the orbit of its shaft.
+
+    Raises
+    ------
+    InputError
+        As `shaft_orbit_ladder` says.
+    """
+    if scene.shaft is None:
+        raise InputError(f"shaft is required for {quantity} of a flexible rotor, got no such table")
+    if scene.speed == 0.0:
+        raise InputError("operation.speed must not be zero for an orbit, got 0.0")
+    if scene.operation is not None and scene.operation.load is not None:
+        load = scene.operation.load
+        raise InputError(f"operation.load must be left out for a [shaft], which has its weight, got {load!r}")
+    unbalances = (*scene.shaft.unbalances, *_extra(scene))
+    if not any(one.unbalance > 0.0 for one in unbalances):
+        raise InputError("shaft.unbalances must have a positive one for an orbit, got none")
+    known = scene.shaft.places(forces=quantity == FORCE)
+    at = scene.question.at if scene.question is not None else ""
+    if quantity == PHASE and not at and len(known) > 1:
+        raise InputError(f"question.at is required for {quantity}: one of {', '.join(known)}, got nothing")
+    places = (at,) if at else known
+    probes = {probe.name for probe in scene.shaft.probes}
+    return OrbitPlace(
+        quantity=quantity,
+        places=places,
+        probes=tuple(name for name in places if name in probes),
+        reference=unbalances[0].unbalance_angle,
+    )
+
+
+def _extra(scene: Scene) -> tuple[UnbalanceTable, ...]:
+    if scene.excitation is None:
+        return ()
+    require_kind(scene.excitation, ("unbalance",))
+    assert isinstance(scene.excitation, UnbalanceTable)
+    return (scene.excitation,)
+
+
+# How far a flexible rotor goes in a run: a run-up, a lost blade, ground that shakes.
+
+
+PEAK = "peak_displacement"
+
+RTOL, FINE_RTOL = 1e-6, 1e-8
+"""Local error of the steps of an answer, and of the run that it is judged by."""
+
+MODES = 18
+"""Modes in each plane of what answers are judged by: three times those of the widest reduced model."""
+
+LEAST_CHANGE = 1e-4
+"""Change of the viscosity, at least, by which the error of a map is told."""
+
+
+class ShakenShaft(NamedTuple):
+    """What shakes a shaft, for how long, and where it is asked about.
+
+    Attributes
+    ----------
+    places : tuple of str
+        Bearings and probes among which the largest displacement counts.
+    speed : float [rad/s]
+        At rest, where the run begins.
+    times : ndarray, shape (n,) [s]
+        Of the samples.
+    base : BaseMotion or None
+        Of the ground.
+    """
+
+    places: tuple[str, ...]
+    speed: float
+    times: Array
+    base: BaseMotion | None
+
+    def run(self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], rtol: float) -> Trajectory:
+        """Return the motion of a rotor from its rest on."""
+        still = rotor_equilibrium(rotor, bearings, self.speed).displacement
+        started: Any = replace(rotor, initial=(*still, *0.0 * still))  # type: ignore[type-var]
+        if self.base is not None:
+            started = ShakenBaseRotor(rotor=started, base=self.base)
+        end = float(self.times[-1])
+        return simulate_rotor(mount(started, bearings), duration=end, times=self.times, rtol=rtol)
+
+    def peak(self, run: Trajectory) -> float:
+        """Return the largest displacement of the places in a motion [m]."""
+        return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftPeakRung(BaseRung):
+    """The largest displacement by one model of the shaft and one film for each journal.
+
+    Attributes
+    ----------
+    model : ShaftModel
+    films : ShaftFilms
+    best : ShaftFilms
+        Those by which it is judged, unless they are these.
+    shaken : ShakenShaft
+    """
+
+    model: ShaftModel
+    films: ShaftFilms
+    best: ShaftFilms
+    shaken: ShakenShaft
+
+    @property
+    def name(self) -> str:
+        """Model of the shaft, and film."""
+        return ", ".join(part for part in (self.model.name, self.films.name) if part)
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One run."""
+        return WorkUnit(f"runs of {self.name}", ("runs", id(self.model), id(self.films)))
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest displacement [m]."""
+        made = self.films.prepare()
+        run = self.shaken.run(self.model.rotor, self.films.reaction, RTOL)
+        return Found(self.shaken.peak(run), {self.unit: 1, **made}, run)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the distance to the run in elements half as long, on richer films, in finer steps.
+
+        Of those elements the lowest modes are taken, three times as many as a reduced model has. A map with a
+        verified bound is its own richer film: by how much its bound may move the peak is told by a run in so
+        much more viscous oil.
+        """
+        method = f"run in {len(self.model.finer.elements)} elements"
+        work = {WorkUnit(f"runs to judge {self.name}"): 1}
+        rich = self.best.reaction if self.best.bounded else self.films.rich
+        try:
+            fine = self.shaken.run(_lowest(self.model.finer), rich, FINE_RTOL)
+        except ContactError:
+            return ErrorEstimate(math.inf, method, work, doubt="a journal touches in the run that judges it")
+        better = self.shaken.peak(fine)
+        error = abs(better - found.value) / better
+        if not self.best.journals or not self.best.bounded:
+            return ErrorEstimate(error, method, work)
+        bound = self._bound(fine)
+        if not math.isfinite(bound):
+            doubt = "the journals go beyond where the map has a verified bound"
+            return ErrorEstimate(math.inf, method, work, doubt=doubt)
+        share = max(bound, LEAST_CHANGE)
+        thick = self.shaken.run(self.model.rotor, _thicker(self.films, 1.0 + share), RTOL)
+        moved = abs(self.shaken.peak(thick) - found.value) / found.value * bound / share
+        return ErrorEstimate(error + moved, f"{method}, and with the bound of the map", work)
+
+    def _bound(self, run: Trajectory) -> float:
+        """Return the largest verified error of the best films over a motion [1]."""
+        bounds = []
+        for name, film in self.best.journals.items():
+            reach = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
+            bounds.append(film.bound(reach, slopes=True))
+        return max(bounds)
+
+
+def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
+    """Return a rotor in its lowest modes between the bearings; whole where they do not hold it."""
+    most = len(rotor.structure.coordinates) - len(rotor.stations) - len(rotor.structure.supports)
+    few = ReducedRotor(rotor=rotor, modes=min(MODES, most), speed=rotor.speed, gravity=rotor.gravity)
+    try:
+        _ = few.structure
+    except InputError:
+        return rotor
+    return few
+
+
+def _thicker(films: ShaftFilms, share: float) -> dict[str, Reaction]:
+    """Return the bearings with so many times the viscosity of their oil."""
+    thick = dict(films.springs)
+    for name, film in films.journals.items():
+        viscosity = film.reaction.viscosity
+        assert viscosity is not None  # films on an oil are refused
+        thick[name] = replace(film.reaction, viscosity=share * viscosity)
+    return thick
+
+
+def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the largest displacement of a flexible rotor in a run.
+
+    Raises
+    ------
+    InputError
+        If the scene has no shaft, an excitation that is no run, or films on an oil.
+    """
+    if scene.shaft is None:
+        raise InputError(f"shaft is required for {quantity}, got no such table")
+    require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
+    given, scene = scene.shaft, _with_loss(scene)
+    rotor, levels = _rotor(scene), tuple(map(_massless, film_levels(given)))
+    if levels[0].on_oil:
+        raise InputError(
+            f"journal of a bearing must have a viscosity for {quantity}, got an oil in {levels[0].on_oil}"
+        )
+    duration, fastest = run_span(scene)
+    shaken = ShakenShaft(
+        places=_places(scene),
+        speed=scene.speed,
+        times=run_times(duration, fastest),
+        base=scene.excitation.motion(duration) if isinstance(scene.excitation, GroundTable) else None,
+    )
+    seals = [name for name, one in given.build_bearings().items() if isinstance(one, AnnularSeal)]
+    bearings = given.build_bearings()
+    return Ladder(
+        rungs=tuple(
+            ShaftPeakRung(model=model, films=films, best=levels[-1], shaken=shaken)
+            for films in levels
+            for model in _models(rotor)
+        ),
+        unit="m",
+        remarks=(
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest),
+            *(f"{name}: the added mass of the seal, in runs over time" for name in seals),
+        ),
+        within=shaft_physics(bearings),
+    )
+
+
+def _with_loss(scene: Scene) -> Scene:
+    """Return a scene that loses a blade as one whose rotor rests, and has its unbalance from then on."""
+    lost = scene.excitation
+    if not isinstance(lost, BladeLossTable):
+        return scene
+    if scene.speed == 0.0:
+        raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
+    assert scene.shaft is not None
+    assert scene.operation is not None
+    if any(one.unbalance > 0.0 for one in scene.shaft.unbalances):
+        raise InputError("shaft.unbalances must be none where a blade is lost at rest, got some")
+    sudden = UnbalanceTable(
+        unbalance=lost.unbalance,
+        unbalance_angle=lost.unbalance_angle + scene.speed * lost.start,
+        node=lost.node,
+    )
+    duration = 2.0 * math.pi * lost.revolutions / abs(scene.speed)
+    return replace(scene, excitation=sudden, operation=replace(scene.operation, duration=duration))
+
+
+def _rotor(scene: Scene) -> ShaftRotor:
+    """Return the shaft of a scene at its speed, with the unbalance of its excitation."""
+    assert scene.shaft is not None
+    excitation = scene.excitation
+    extra = (excitation,) if isinstance(excitation, UnbalanceTable) else ()
+    rotor = scene.shaft.build(scene.speed, extra)
+    return (
+        replace(rotor, speed=excitation.profile(scene.speed)) if isinstance(excitation, RunUpTable) else rotor
+    )
+
+
+def _places(scene: Scene) -> tuple[str, ...]:
+    """Return the bearings and probes among which the largest displacement is asked for."""
+    assert scene.shaft is not None
+    assert scene.question is not None
+    return (scene.question.at,) if scene.question.at else scene.shaft.places(forces=False)
+
+
+def _models(rotor: ShaftRotor) -> Sequence[ShaftModel]:
+    """Return reduced models with modes, and meshes of the element of the file."""
+    return [
+        model
+        for model in shaft_models(rotor)
+        if model.modes or (model.modes is None and model.beam == rotor.beam)
+    ]
+
+
+def _massless(films: ShaftFilms) -> ShaftFilms:
+    """Return bearings that the compiled integration takes: seals without their added mass."""
+    springs = {
+        name: replace(one, added_mass=False) if isinstance(one, AnnularSeal) else one
+        for name, one in films.springs.items()
+    }
+    return replace(films, springs=springs)

@@ -1,1 +1,0 @@
-"""What reactions may have besides a force."""

@@ -1,1 +1,0 @@
-"""Rotors whose shaft is cracked."""

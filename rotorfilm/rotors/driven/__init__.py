@@ -1,1 +1,0 @@
-"""Rotors that a torque drives."""

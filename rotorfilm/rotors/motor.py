@@ -1,0 +1,285 @@
+"""A rotor whose speed follows from the torque that drives it: whirl takes power, and may hold it back."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.errors import InputError, require_kind, require_non_negative, require_number, require_positive
+from ..core.inputs import quantities
+from ..core.model import Array, Linearization, breakpoints
+from ..core.signals import Signal
+from .profile import SpeedProfile
+from .rigid import RigidRotor
+from .structure import AroundRotor, FlexibleRotor
+
+# The torque of a motor over its speed.
+
+
+@runtime_checkable
+class DriveTorque(Protocol):
+    """What drives a shaft, all resistances of machine and bearings taken off: a motor of one's own."""
+
+    def torque(self, t: float, speed: float) -> float:
+        """Return the torque about +z [N m] at a time [s] and an angular speed [rad/s]."""
+
+    def slope(self, t: float, speed: float) -> float:
+        """Return d torque / d speed [N m s]."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class LinearMotor:
+    """A motor whose torque falls in a line to nothing at its idle speed, and what resists it.
+
+        torque = stall_torque (1 - speed / idle_speed) - resistance speed
+
+    Parameters
+    ----------
+    stall_torque : float [N m]
+        Torque at rest, in the direction of the idle speed; positive.
+    idle_speed : float or SpeedProfile [rad/s]
+        Speed without load. A profile is that of a converter: the slope of the line is then that of its
+        largest value, stall_torque / |idle_speed|, and the line is shifted.
+    resistance : float [N m s/rad]
+        Torque per rad/s that resists, of bearings, windage and load.
+
+    Raises
+    ------
+    InputError
+        If the torque is not positive, the resistance negative, or the idle speed 0 at all times.
+    """
+
+    stall_torque: float
+    idle_speed: float | SpeedProfile
+    resistance: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_positive("stall_torque", self.stall_torque)
+        require_non_negative("resistance", self.resistance)
+        if not isinstance(self.idle_speed, SpeedProfile):
+            require_number("idle_speed", self.idle_speed)
+        if not self._largest > 0.0:
+            raise InputError(f"idle_speed must not be 0 at all times, got {self.idle_speed!r}")
+
+    def torque(self, t: float, speed: float) -> float:
+        """Return the torque about +z [N m] at a time [s] and an angular speed [rad/s]."""
+        return self.stall_torque / self._largest * (self._profile.speed(t) - speed) - self.resistance * speed
+
+    def slope(self, t: float, speed: float) -> float:
+        """Return d torque / d speed [N m s], the same at all times and speeds."""
+        return -self.stall_torque / self._largest - self.resistance
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which the idle speed has kinks."""
+        return self._profile.times if len(self._profile.times) > 1 else ()
+
+    @property
+    def _profile(self) -> SpeedProfile:
+        given = self.idle_speed
+        return given if isinstance(given, SpeedProfile) else SpeedProfile.constant(given)
+
+    @property
+    def _largest(self) -> float:
+        return max(abs(speed) for speed in self._profile.speeds)
+
+
+# A rotor whose speed follows from the torque that drives it: whirl takes power, and may hold it back.
+
+
+ANGLE = Signal(name="angle", unit="rad", nominal=1.0, description="angle turned since t = 0")
+
+
+class _Turn(NamedTuple):
+    """An instant: q, q', speed; forces of the unbalance per angular acceleration and per square of speed."""
+
+    q: Array
+    v: Array
+    speed: float
+    across: Array
+    outward: Array
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class MotorDrivenRotor(AroundRotor):
+    """A rotor that a torque drives, in place of a given speed: a Dynamic model.
+
+    With the angle p turned, w = p', the coordinates q of the rotor and its unbalance U (docs of `Structure`),
+
+        M q'' + U n p'' = T' f + weight + w^2 U e - (C + w G) q' - (K + w H) q,
+        inertia p'' + (U n)' q'' = torque + (U n)' g + (J q)' C_i (q' - w J q),
+
+    e = (cos p, sin p), n = e', g the acceleration of gravity and J q the displacement turned by +90 deg. C_i
+    is the rotating damping: what it does to the whirl and to the torque are one. Both equations follow from
+    one kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187), so the
+    power of the torque is what whirl and losses take: it may hang at its critical speed (Sommerfeld 1902).
+
+    The shaft does not twist, and the torque follows its tilt. The friction of films does not brake it: what
+    resists is part of the torque.
+
+    Parameters
+    ----------
+    rotor : RigidRotor or FlexibleRotor
+        Its speed is that at t = 0, a number.
+    inertia : float [kg m2]
+        Polar moment of inertia of all that turns, about the axis of the shaft.
+    torque : DriveTorque
+        As a `LinearMotor`.
+
+    Raises
+    ------
+    InputError
+        If the speed is a profile, the rotor has a loss factor, or the inertia is not larger than that of the
+        unbalance.
+    """
+
+    rotor: RigidRotor | FlexibleRotor
+    inertia: float
+    torque: DriveTorque
+
+    def __post_init__(self) -> None:
+        require_kind("rotor", self.rotor, RigidRotor | FlexibleRotor, "a rotor such as a JeffcottRotor")
+        require_kind("torque", self.torque, DriveTorque, "a torque such as a LinearMotor")
+        require_positive("inertia", self.inertia)
+        if isinstance(self.rotor.speed, SpeedProfile):
+            raise InputError(
+                f"rotor.speed must be a number, the speed at t = 0, got {self.rotor.speed!r}: "
+                "a profile of the idle speed of a LinearMotor drives it"
+            )
+        _ = self.rotor.operators
+        s = self.rotor.structure
+        taken = float(np.linalg.eigvalsh(s.unbalance.T @ np.linalg.solve(s.mass, s.unbalance)).max())
+        if not self.inertia > taken:
+            raise InputError(
+                f"inertia must be larger than that of the unbalance, {taken:.6g} kg m2, got {self.inertia!r}"
+            )
+
+    @property
+    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The stations of the rotor."""
+        return self.rotor.structure.stations
+
+    @cached_property
+    def outputs(self) -> tuple[Signal, ...]:
+        """The outputs of the rotor, the last of them the speed, and the angle turned."""
+        return (*self.rotor.outputs, ANGLE)
+
+    @cached_property
+    def states(self) -> tuple[Signal, ...]:
+        """The states of the rotor, the angle turned and the speed."""
+        return (*self.rotor.states, ANGLE, self.rotor.outputs[-1])
+
+    @property
+    def initial_state(self) -> Array:
+        """The state at t = 0."""
+        return np.concatenate([self.rotor.initial_state, [0.0, float(self.rotor.speed)]])  # type: ignore[arg-type]
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which the torque has kinks."""
+        return breakpoints(self.torque)
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
+        turn = self._turn(x)
+        rates = np.linalg.solve(self._inertias(turn), self._loads(t, turn, np.asarray(u, dtype=float)))
+        return np.concatenate([turn.v, rates[:-1], [turn.speed, rates[-1]]])
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the outputs; t and u are not used."""
+        state = np.asarray(x, dtype=float)
+        return np.concatenate([self.rotor.operators.sense @ state[:-2], [state[-1], state[-2]]])
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives."""
+        turn = self._turn(x)
+        n, forces = len(turn.q), np.asarray(u, dtype=float)
+        inertias = self._inertias(turn)
+        rates = np.linalg.solve(inertias, self._loads(t, turn, forces))
+        by_state = self._load_slopes(t, turn)
+        # What the turning unbalance changes of the inertias, at these accelerations.
+        by_state[:-1, -2] += turn.outward * rates[-1]
+        by_state[-1, -2] += turn.outward @ rates[:-1]
+        A, B = np.zeros((2 * n + 2, 2 * n + 2)), np.zeros((2 * n + 2, len(forces)))
+        A[:n, n : 2 * n], A[-2, -1] = np.eye(n), 1.0
+        rows = [*range(n, 2 * n), 2 * n + 1]
+        A[rows] = np.linalg.solve(inertias, by_state)
+        push = np.vstack([self.rotor.structure.journals.T, np.zeros(len(forces))])
+        B[rows] = np.linalg.solve(inertias, push)
+        sense = self.rotor.operators.sense
+        C = np.zeros((len(sense) + 2, 2 * n + 2))
+        C[:-2, :-2], C[-2, -1], C[-1, -2] = sense, 1.0, 1.0
+        return Linearization(A, B, C, np.zeros((len(C), len(forces))))
+
+    def energy(self, x: ArrayLike) -> float:
+        """Return the energy of a state [J]: kinetic, elastic, and potential of weight and unbalance."""
+        turn, s = self._turn(x), self.rotor.structure
+        motion = np.append(turn.v, turn.speed)
+        kinetic = 0.5 * motion @ self._inertias(turn) @ motion
+        return float(
+            kinetic + 0.5 * turn.q @ s.stiffness @ turn.q - s.weight @ turn.q - self._gravity @ turn.outward
+        )
+
+    def _turn(self, x: ArrayLike) -> _Turn:
+        state = np.asarray(x, dtype=float)
+        q, v = np.split(state[:-2], 2)
+        cos, sin = math.cos(state[-2]), math.sin(state[-2])
+        unbalance = self.rotor.structure.unbalance
+        return _Turn(q, v, float(state[-1]), unbalance @ [-sin, cos], unbalance @ [cos, sin])
+
+    def _inertias(self, turn: _Turn) -> Array:
+        s, across = self.rotor.structure, turn.across
+        return np.block([[s.mass, across[:, None]], [across[None], np.array([[self.inertia]])]])
+
+    def _loads(self, t: float, turn: _Turn, u: Array) -> Array:
+        """Return what acts on the coordinates and on the angle."""
+        s, w = self.rotor.structure, turn.speed
+        held = (s.damping + w * s.gyroscopic) @ turn.v + (s.stiffness + w * s.circulation) @ turn.q
+        turned = self._turned @ turn.q
+        rubbed = turned @ self._rotating @ (turn.v - w * turned)
+        torque = self.torque.torque(t, w) + self._gravity @ turn.across + rubbed
+        return np.append(s.journals.T @ u + s.weight + w * w * turn.outward - held, torque)
+
+    def _load_slopes(self, t: float, turn: _Turn) -> Array:
+        """Return the derivatives of `_loads` by the state."""
+        s, w = self.rotor.structure, turn.speed
+        turned, inner = self._turned @ turn.q, self._rotating
+        by_turned = inner @ (turn.v - w * turned) - w * (inner.T @ turned)
+        by_angle, by_speed = w * w * turn.across, 2.0 * w * turn.outward
+        by_speed = by_speed - s.gyroscopic @ turn.v - s.circulation @ turn.q
+        on_speed = self.torque.slope(t, w) - turned @ inner @ turned
+        columns = [
+            -(s.stiffness + w * s.circulation),
+            -(s.damping + w * s.gyroscopic),
+            by_angle[:, None],
+            by_speed[:, None],
+        ]
+        by_fall = float(-self._gravity @ turn.outward)
+        last = [self._turned.T @ by_turned, inner.T @ turned, np.array([by_fall, on_speed])]
+        return np.vstack([np.hstack(columns), np.concatenate(last)])
+
+    @cached_property
+    def _turned(self) -> Array:
+        """What turns a displacement by +90 deg, shape (N, N)."""
+        half = len(self.rotor.structure.weight) // 2
+        return np.kron(np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(half))
+
+    @cached_property
+    def _rotating(self) -> Array:
+        """The rotating damping C_i: H q is that of a displacement turned by -90 deg."""
+        return self.rotor.structure.circulation @ self._turned
+
+    @cached_property
+    def _gravity(self) -> Array:
+        """The acceleration of gravity of each coordinate."""
+        rotor = self.rotor
+        if isinstance(rotor, RigidRotor):
+            return np.array(rotor.gravity)
+        return np.asarray(np.linalg.solve(rotor.structure.mass, rotor.structure.weight))

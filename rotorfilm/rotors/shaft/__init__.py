@@ -1,1 +1,0 @@
-"""Flexible rotors: elements, assembly, reduction."""

@@ -1,0 +1,560 @@
+"""A flexible shaft of Timoshenko beam elements with disks, in any number of bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import InputError, require_non_negative
+from ..core.inputs import quantities
+from ..core.model import Array
+from ..core.signals import Signal
+from ..core.units import STANDARD_GRAVITY
+from .profile import SpeedProfile
+from .reduced_rotor import ReducedRotor
+from .shaft_elements import (
+    Beam,
+    BeamMatrices,
+    ClassicalBeam,
+    Coupling,
+    Disk,
+    FourthOrderBeam,
+    LayeredElement,
+    Probe,
+    ShaftElement,
+    ShaftPiece,
+    Station,
+    Support,
+    TiltSpring,
+    Unbalance,
+)
+from .structure import (
+    NOMINAL_LENGTH,
+    Coordinate,
+    FlexibleRotor,
+    Readout,
+    Structure,
+    across_planes,
+    both_planes,
+    check_motion,
+    checked_stations,
+    displacements,
+    station_name,
+    summed,
+    unbalance_columns,
+)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class ShaftRotor(FlexibleRotor):
+    """A shaft that bends and shears, with rotary inertia and gyroscopic effect: a Dynamic model.
+
+    Node i is where element i begins; the last element ends at the last node. z runs along the shaft. The
+    tilt of a plane is theta = dw/dz of a section that does not shear.
+
+    Parameters
+    ----------
+    elements : tuple of ShaftElement, LayeredElement and Coupling
+        From the first node to the last.
+    speed : float or SpeedProfile [rad/s]
+        Angular speed about +z.
+    stations : tuple of Station
+        Where bearings act; each is an input force_x, force_y and an output x, y, vx, vy.
+    disks : tuple of Disk
+    tilt_springs : tuple of TiltSpring
+        Springs against the tilt of nodes, besides what acts at the stations.
+    unbalances : tuple of Unbalance
+    probes : tuple of Probe
+        Nodes whose displacement is an output.
+    internal_damping : float [s]
+        Damping of the rotating shaft: stress = E (strain + internal_damping * strain rate). It acts on
+        elements and couplings and drives forward whirl slower than the shaft.
+    mass_damping, stiffness_damping : float [1/s, s]
+        Proportional damping alpha M + beta K of shaft and disks against the ground: it does not turn with the
+        shaft. A mode w of a free shaft has the damping ratio alpha / (2 w) + beta w / 2.
+    loss_factor : float [1]
+        Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
+        strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
+        it raises InputError.
+    gravity : tuple of two floats [m/s2]
+    beam : Beam
+        The element: `FourthOrderBeam()`, or `ClassicalBeam()` as published rotors were computed with.
+    initial : tuple of float
+        State at t = 0; empty for a straight shaft at rest.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule; of a part that is on no node, the message names the node.
+
+    Examples
+    --------
+    >>> steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    >>> piece = ShaftElement(length=1.5, outer_diameter=0.05, material=steel)
+    >>> rotor = ShaftRotor(
+    ...     elements=piece.split(6), speed=100.0, stations=(Station(node=0, name="left"), Station(node=6))
+    ... )
+    >>> [signal.name for signal in rotor.inputs]
+    ['left_force_x', 'left_force_y', 'force_x', 'force_y']
+    """
+
+    elements: tuple[ShaftPiece, ...]
+    speed: float | SpeedProfile
+    stations: tuple[Station, ...] = ()
+    disks: tuple[Disk, ...] = ()
+    tilt_springs: tuple[TiltSpring, ...] = ()
+    unbalances: tuple[Unbalance, ...] = ()
+    probes: tuple[Probe, ...] = ()
+    internal_damping: float = 0.0
+    mass_damping: float = 0.0
+    stiffness_damping: float = 0.0
+    loss_factor: float = 0.0
+    gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
+    beam: Beam = field(default_factory=FourthOrderBeam)
+    initial: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if all(isinstance(element, Coupling) for element in self.elements):
+            raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
+        for name in ("internal_damping", "mass_damping", "stiffness_damping", "loss_factor"):
+            require_non_negative(name, getattr(self, name))
+        check_nodes(
+            len(self.elements) + 1,
+            {
+                "stations": self.stations,
+                "disks": self.disks,
+                "tilt_springs": self.tilt_springs,
+                "unbalances": self.unbalances,
+                "probes": self.probes,
+            },
+        )
+        check_motion(self)
+
+    @property
+    def positions(self) -> Array:
+        """Where the nodes are along the shaft, shape (n_nodes,) [m]."""
+        return np.cumsum([0.0, *(element.length for element in self.elements)])
+
+    @property
+    def mass(self) -> float:
+        """Mass of shaft and disks, without the housings [kg]."""
+        size = len(self.assembly.coordinates)
+        shift = np.zeros(2 * size)
+        shift[0 : 2 * (len(self.elements) + 1) : 2] = 1.0
+        return float(shift @ (self.assembly.mass @ shift))
+
+    @property
+    def bending(self) -> Any:
+        """Stiffness of bending and shear in one plane, without bearings and loads, sparse, (N / 2, N / 2)."""
+        return chain_matrices(self.elements, self.disks, self.beam, len(self.assembly.coordinates))[2]
+
+    def assembled(self) -> Structure:
+        """Return the matrices of the rotor."""
+        return assemble(
+            elements=self.elements,
+            disks=self.disks,
+            stations=self.stations,
+            tilt_springs=self.tilt_springs,
+            probes=self.probes,
+            unbalances=self.unbalances,
+            internal_damping=self.internal_damping,
+            mass_damping=self.mass_damping,
+            stiffness_damping=self.stiffness_damping,
+            loss_factor=self.loss_factor,
+            gravity=self.gravity,
+            beam=self.beam,
+        )
+
+
+# From the parts of a shaft to its matrices.
+
+
+def assemble(
+    *,
+    elements: Sequence[ShaftPiece],
+    disks: Sequence[Disk],
+    stations: Sequence[Station],
+    tilt_springs: Sequence[TiltSpring],
+    probes: Sequence[Probe],
+    unbalances: Sequence[Unbalance],
+    internal_damping: float,
+    mass_damping: float,
+    stiffness_damping: float,
+    loss_factor: float,
+    gravity: tuple[float, float],
+    beam: Beam,
+) -> Structure:
+    """Return the matrices of a shaft; the parameters are those of `ShaftRotor`.
+
+    Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
+    displacement of each support.
+    """
+    coordinates = [
+        *_node_coordinates(elements),
+        *_inner_coordinates(elements, beam),
+        *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
+    ]
+    size, supported = len(coordinates), [s for s in stations if s.support]
+    mass, polar, stiffness, geometric, twist = chain_matrices(elements, disks, beam, size)
+    bending = both_planes(stiffness)
+    held, damping = _ground(tilt_springs, supported, size)
+    if mass_damping or stiffness_damping:
+        damping = damping + both_planes(mass_damping * mass + stiffness_damping * stiffness)
+    if any(element.mass_damping or element.stiffness_damping for element in elements):
+        damping = damping + both_planes(_element_damping(elements, beam, size))
+    first, housings = size - len(supported), _housings(stations, size)
+    masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
+    mass = both_planes(mass + summed(size, masses))
+    return Structure(
+        mass=mass,
+        damping=damping + internal_damping * bending,
+        gyroscopic=across_planes(polar),
+        stiffness=bending + both_planes(geometric) + across_planes(twist) + held,
+        circulation=internal_damping * across_planes(stiffness),
+        stations=checked_stations([station.name for station in stations]),
+        journals=_journals(stations, size) - housings,
+        weight=mass @ _translation(elements, len(supported), size, gravity),
+        unbalance=_unbalance(unbalances, disks, size),
+        coordinates=tuple(coordinates),
+        readouts=(
+            *(r for p in probes for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)),
+            *_support_readouts(supported, size),
+        ),
+        supports=tuple(range(size - len(supported), size)),
+        housings=housings if supported else None,
+        hysteresis=loss_factor * stiffness if loss_factor else None,
+        tilts=_tilts(stations, size) if any(station.feels_tilt for station in stations) else None,
+    )
+
+
+def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:
+    tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
+    for node in range(len(elements) + 1):
+        yield Coordinate(f"{{}}_{node}", "m", NOMINAL_LENGTH)
+        yield Coordinate(f"tilt_{{}}_{node}", "rad", tilt)
+
+
+def _inner_coordinates(elements: Sequence[ShaftPiece], beam: Beam) -> Iterator[Coordinate]:
+    tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
+    for number, element in enumerate(elements):
+        for k in range(_inner(element, beam)):
+            yield Coordinate(f"inner_{{}}_{number}_{k}", "rad", tilt)
+
+
+def _inner(element: ShaftPiece, beam: Beam) -> int:
+    return 0 if isinstance(element, Coupling) else beam.internal
+
+
+def chain_matrices(elements: Sequence[ShaftPiece], disks: Sequence[Disk], beam: Beam, size: int) -> list[Any]:
+    """Return mass, polar, stiffness, geometric stiffness and twist of one plane, disks included."""
+    parts: list[tuple[list[int], list[Array]]] = []
+    for places, element, found in _placed(elements, beam):
+        scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
+        parts.append((places, [a * part for a, part in zip(scales, found, strict=True)]))
+    for disk in disks:
+        inertia, none = np.diag([disk.mass, disk.diametral_inertia]), np.zeros((2, 2))
+        polar = np.diag([0.0, disk.polar_inertia])
+        parts.append(([2 * disk.node, 2 * disk.node + 1], [inertia, polar, none, none, none]))
+    return [summed(size, ((places, part[k]) for places, part in parts)) for k in range(5)]
+
+
+def _placed(
+    elements: Sequence[ShaftPiece], beam: Beam
+) -> Iterator[tuple[list[int], ShaftPiece, BeamMatrices]]:
+    """Yield the coordinates of each element in a plane, the element, and its matrices."""
+    known: dict[ShaftPiece, BeamMatrices] = {}
+    inside = 2 * (len(elements) + 1)
+    for number, element in enumerate(elements):
+        if element not in known:
+            known[element] = element.matrices(beam)
+        inner = _inner(element, beam)
+        yield (
+            [*range(2 * number, 2 * number + 4), *range(inside, inside + inner)],
+            element,
+            known[element],
+        )
+        inside += inner
+
+
+def _element_damping(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> Any:
+    """Return the proportional damping of the elements that have one of their own, in one plane."""
+    parts = [
+        (places, element.mass_damping * found.mass + element.stiffness_damping * found.stiffness)
+        for places, element, found in _placed(elements, beam)
+    ]
+    return summed(size, parts)
+
+
+def _ground(springs: Sequence[TiltSpring], supported: Sequence[Station], size: int) -> tuple[Any, Any]:
+    """Return stiffness and damping between the ground and what is held by it, in both planes."""
+    first = size - len(supported)
+    held: list[tuple[int, TiltSpring | Support]] = [(2 * s.node + 1, s) for s in springs]
+    held += [(first + k, s.support) for k, s in enumerate(supported) if s.support]
+    springs_at = [([place, place + size], np.asarray(part.stiffness)) for place, part in held]
+    dampers_at = [([place, place + size], np.asarray(part.damping)) for place, part in held]
+    return summed(2 * size, springs_at), summed(2 * size, dampers_at)
+
+
+def _journals(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each journal, shape (2 n_stations, 2 size)."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    for k, station in enumerate(stations):
+        for axis in range(2):
+            rows[2 * k + axis, axis * size + 2 * station.node] = 1.0
+    return rows
+
+
+def _tilts(stations: Sequence[Station], size: int) -> Array:
+    """Return the tilt about +x and +y at each station that feels it: -dy/dz and dx/dz."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    for k, station in enumerate(stations):
+        if station.feels_tilt:
+            rows[2 * k, size + 2 * station.node + 1] = -1.0
+            rows[2 * k + 1, 2 * station.node + 1] = 1.0
+    return rows
+
+
+def _housings(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each housing, shape (2 n_stations, 2 size); 0 where it is rigid."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    place = size - sum(station.support is not None for station in stations)
+    for k, station in enumerate(stations):
+        if station.support:
+            for axis in range(2):
+                rows[2 * k + axis, axis * size + place] = 1.0
+            place += 1
+    return rows
+
+
+def _translation(elements: Sequence[ShaftPiece], supports: int, size: int, by: tuple[float, float]) -> Array:
+    """Return the coordinates of a translation of the whole rotor, shape (2 size,)."""
+    plane = np.zeros(size)
+    plane[0 : 2 * (len(elements) + 1) : 2] = 1.0
+    plane[size - supports :] = 1.0
+    return np.concatenate([by[0] * plane, by[1] * plane])
+
+
+def _unbalance(unbalances: Sequence[Unbalance], disks: Sequence[Disk], size: int) -> Array:
+    """Return forces of unbalances, and moments of disks that are skewed, as `Structure` has them.
+
+    A disk whose axis leans by a turning angle has the moment (I_d - I_p) (w^2 - i a) skew, in the pattern of
+    an unbalance: its inertia acts on tilt + skew, its springs on the tilt.
+    """
+    columns = np.zeros((2 * size, 2))
+    for item in unbalances:
+        rows = [2 * item.node, 2 * item.node + size]
+        columns[rows] += unbalance_columns(item.unbalance, item.unbalance_angle)
+    for disk in disks:
+        rows = [2 * disk.node + 1, 2 * disk.node + 1 + size]
+        moment = (disk.diametral_inertia - disk.polar_inertia) * disk.skew
+        columns[rows] += unbalance_columns(moment, disk.skew_angle)
+    return columns
+
+
+def _support_readouts(supported: Sequence[Station], size: int) -> Iterator[Readout]:
+    """Yield the forces of the supports on the ground."""
+    for place, station in enumerate(supported, start=size - len(supported)):
+        assert station.support is not None
+        for axis, letter in enumerate("xy"):
+            row = np.zeros(4 * size)
+            pair = [place, place + size]
+            row[pair] = np.asarray(station.support.stiffness)[axis]
+            row[[2 * size + i for i in pair]] = np.asarray(station.support.damping)[axis]
+            nominal = float(np.abs(row[pair]).max()) * NOMINAL_LENGTH or 1.0
+            yield Readout(
+                Signal(
+                    name=station_name(station.name, f"ground_force_{letter}"),
+                    unit="N",
+                    nominal=nominal,
+                    description=f"force of the support on the ground along {letter}",
+                ),
+                row,
+            )
+
+
+def check_nodes(
+    count: int, parts: Mapping[str, Sequence[Disk | Station | TiltSpring | Probe | Unbalance]]
+) -> None:
+    """Raise InputError unless every part sits on one of `count` nodes."""
+    for name, items in parts.items():
+        for item in items:
+            node = item.node
+            if not isinstance(node, int) or isinstance(node, bool) or not 0 <= node < count:
+                raise InputError(f"{name} must be on a node 0 to {count - 1}, got node {node!r}")
+
+
+# Models of a flexible shaft: from few shapes to fine meshes; one seen in the coordinates of another.
+
+
+REDUCED = (0, 2, 6)
+"""Modes, in each plane, of the reduced models; none leaves the static shapes, which is Rayleigh's method."""
+
+PIECES = (1, 2, 4, 8)
+"""Elements into which the meshes split one of the file."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftModel:
+    """A model of the shaft of a file.
+
+    Attributes
+    ----------
+    shaft : ShaftRotor
+        With the elements of the file.
+    beam : Beam
+    pieces : int
+        Elements for one of the file.
+    modes : int or None
+        Modes between the bearings that are kept; None for all.
+    """
+
+    shaft: ShaftRotor
+    beam: Beam
+    pieces: int = 1
+    modes: int | None = None
+
+    @property
+    def name(self) -> str:
+        """Number of modes beside the static shapes, or of elements and their kind if not that of the file."""
+        if self.modes is not None:
+            return f"{self.modes} modes" if self.modes else "static shapes"
+        count = sum(len(pieces_of(element, self.pieces)) for element in self.shaft.elements)
+        return f"{count} elements" if self.beam == self.shaft.beam else f"{count} elements, classical beam"
+
+    @cached_property
+    def mesh(self) -> ShaftRotor:
+        """All elements, before anything is left out."""
+        rotor = self.shaft if self.beam == self.shaft.beam else replace(self.shaft, beam=self.beam)
+        return split(rotor, self.pieces)
+
+    @cached_property
+    def rotor(self) -> FlexibleRotor:
+        """The rotor that is solved; InputError if it is to be reduced and its stations do not hold it."""
+        if self.modes is None:
+            return self.mesh
+        rotor = self.mesh
+        return ReducedRotor(rotor=rotor, modes=self.modes, speed=rotor.speed, gravity=rotor.gravity)
+
+    @cached_property
+    def quick(self) -> ShaftModel:
+        """A model to look about with: this one, or a reduced one if its stations hold it."""
+        return self if self.modes is not None else self.widest
+
+    @cached_property
+    def widest(self) -> ShaftModel:
+        """The reduced model with most modes; this one if its stations do not hold it."""
+        if not _known(self.shaft):
+            return self
+        small = ShaftModel(shaft=self.shaft, beam=self.shaft.beam, modes=_known(self.shaft)[-1])
+        try:
+            _ = small.rotor
+        except InputError:
+            return self
+        return small
+
+    @cached_property
+    def finer(self) -> ShaftRotor:
+        """What this model is judged by: elements half as long, of fourth order where they shear."""
+        fine = split(self.mesh, 2)
+        sheared = all(_shears(element) for element in self.shaft.elements)
+        return replace(fine, beam=FourthOrderBeam()) if sheared else fine
+
+    def nodal(self, shape: np.ndarray) -> np.ndarray:
+        """Return a shape (N,) at the nodes of the file and the supports, both planes."""
+        if isinstance(self.rotor, ReducedRotor):
+            shape = both_planes(self.rotor.basis) @ shape
+        return np.asarray(shape[self._file_places])
+
+    def seen(self, nodal: np.ndarray) -> np.ndarray:
+        """Return what a shape at the nodes of the file, as a load, is in the coordinates of this model."""
+        load = np.zeros(len(self.mesh.structure.mass), dtype=nodal.dtype)
+        load[self._file_places] = nodal
+        return both_planes(self.rotor.basis).T @ load if isinstance(self.rotor, ReducedRotor) else load
+
+    @cached_property
+    def _file_places(self) -> Array:
+        n, supports = len(self.mesh.structure.coordinates), len(self.mesh.structure.supports)
+        nodes = _nodes([pieces_of(element, self.pieces) for element in self.shaft.elements])
+        plane = [*(2 * node + k for node in nodes for k in (0, 1)), *range(n - supports, n)]
+        return np.array([*plane, *(n + k for k in plane)])
+
+    def lifted(self, shapes: np.ndarray) -> np.ndarray:
+        """Return shapes (N, ...) of this model in the coordinates of `finer`; inside its elements 0."""
+        if isinstance(self.rotor, ReducedRotor):
+            shapes = both_planes(self.rotor.basis) @ shapes
+        here, there = shared_places(self.mesh, self.finer)
+        fine = np.zeros((len(self.finer.structure.mass), *shapes.shape[1:]), dtype=shapes.dtype)
+        fine[there] = shapes[here]
+        return fine
+
+
+def shaft_models(shaft: ShaftRotor) -> tuple[ShaftModel, ...]:
+    """Return the models of a shaft, the cheapest first: reduced ones, the classical element, meshes."""
+    reduced = [ShaftModel(shaft=shaft, beam=shaft.beam, modes=modes) for modes in _known(shaft)]
+    classical = [] if shaft.beam == ClassicalBeam() else [ShaftModel(shaft=shaft, beam=ClassicalBeam())]
+    meshes = [ShaftModel(shaft=shaft, beam=shaft.beam, pieces=pieces) for pieces in PIECES]
+    return (*reduced, *classical, *meshes)
+
+
+def _known(shaft: ShaftRotor) -> list[int]:
+    most = len(shaft.structure.coordinates) - len(shaft.stations) - len(shaft.structure.supports)
+    return [modes for modes in REDUCED if modes < most]
+
+
+def _shears(element: ShaftPiece) -> bool:
+    if isinstance(element, Coupling):
+        return True
+    layers = element.layers if isinstance(element, LayeredElement) else (element,)
+    return all(layer.shear_coefficient is None or np.isfinite(layer.shear_coefficient) for layer in layers)
+
+
+def pieces_of(element: ShaftPiece, pieces: int) -> tuple[ShaftPiece, ...]:
+    """Return an element in so many; a coupling has no length and stays one."""
+    if isinstance(element, Coupling):
+        return (element,)
+    if isinstance(element, ShaftElement):
+        return element.split(pieces)
+    layers = zip(*(layer.split(pieces) for layer in element.layers), strict=True)
+    return tuple(LayeredElement(layers=layer) for layer in layers)
+
+
+def split(rotor: ShaftRotor, pieces: int) -> ShaftRotor:
+    """Return the rotor with each element in so many pieces; what sits at nodes stays in place."""
+    if pieces == 1:
+        return rotor
+    parts = [pieces_of(element, pieces) for element in rotor.elements]
+    nodes = _nodes(parts)
+
+    def moved(items: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(replace(item, node=nodes[item.node]) for item in items)
+
+    return replace(
+        rotor,
+        elements=tuple(piece for part in parts for piece in part),
+        disks=moved(rotor.disks),
+        stations=moved(rotor.stations),
+        tilt_springs=moved(rotor.tilt_springs),
+        probes=moved(rotor.probes),
+        unbalances=moved(rotor.unbalances),
+    )
+
+
+def _nodes(parts: Sequence[Sequence[ShaftPiece]]) -> list[int]:
+    """Return the places of the nodes after a split."""
+    return list(accumulate((len(part) for part in parts), initial=0))
+
+
+def shared_places(coarse: ShaftRotor, fine: ShaftRotor) -> tuple[Array, Array]:
+    """Return the coordinates, of both planes, that a mesh and the one split in halves have in common."""
+    n, m = len(coarse.structure.coordinates), len(fine.structure.coordinates)
+    supports = len(coarse.structure.supports)
+    nodes = _nodes([pieces_of(element, 2) for element in coarse.elements])
+    here = [*range(2 * len(nodes)), *range(n - supports, n)]
+    there = [*(2 * node + k for node in nodes for k in (0, 1)), *range(m - supports, m)]
+    return np.array([*here, *(n + k for k in here)]), np.array([*there, *(m + k for k in there)])

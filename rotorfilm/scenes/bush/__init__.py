@@ -1,1 +1,0 @@
-"""Scenes of bushes: table, runs, remarks."""

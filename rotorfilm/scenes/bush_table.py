@@ -1,0 +1,262 @@
+"""`[bush]`: a polymer bush that wears by melting, by default the example of Evtushenko & Kovalenko (1993)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Annotated, Any
+
+from ..bearings.bush import (
+    ApproximateShaft,
+    BushContact,
+    BushReaction,
+    BushWear,
+    ContactBalance,
+    ExactShaft,
+    Friction,
+    GlobalBalance,
+    LocalMelting,
+    MeltingBush,
+    SharedMelting,
+    f4k20_bush,
+)
+from ..core.errors import InputError, SceneError, brief
+from ..core.limits import WORN_NODES
+from ..core.readable import Readable
+from ..core.signals import units
+from ..core.units import parse_quantity
+from .reading import Count, Named, Quantity, choose, made_from, takes
+
+MATERIALS = {"f4k20": f4k20_bush}
+"""Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
+(1993), section 4."""
+
+SHAFT_HEATS = {"exact": ExactShaft, "approximate": ApproximateShaft}
+BALANCES = {"contact": ContactBalance, "global": GlobalBalance}
+MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
+
+
+@takes(MATERIALS)
+def _read_material(where: str, value: Any) -> str:
+    choose(where, value, MATERIALS)
+    return str(value)
+
+
+FRICTION = (Quantity("1"), Quantity("1/K"), Quantity("1/K2"))
+
+
+@takes(Quantity("1"), *(list(FRICTION[:count]) for count in (1, 2, 3)))
+def _read_friction(where: str, value: Any) -> Friction:
+    """Read a coefficient of friction: one number, or f0, f1 [1/K], f2 [1/K2] of f0 + f1 T + f2 T^2."""
+    numbers = value if isinstance(value, list) else [value]
+    if not 1 <= len(numbers) <= 3:
+        raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {brief(value)}")
+    f = [read(f"{where}[{k}]", x) for k, (read, x) in enumerate(zip(FRICTION, numbers, strict=False))]
+    return Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushTable:
+    """`[bush]`: a polymer bush; what is left out is that of its material.
+
+    Parameters
+    ----------
+    melting_heat : float [J/m3]
+        Heat that melts a unit of volume of the liner; the source does not give it.
+    material : str
+        A name of `MATERIALS`, which gives all data that the table does not.
+    radius, outer_radius, shaft_radius, length : float or None [m]
+        Inner and outer radius of the liner, radius of the shaft, axial length.
+    shear_modulus : float or None [Pa]
+    poisson_ratio : float or None [1]
+    expansion : float or None [1/K]
+        Coefficient of linear thermal expansion.
+    liner_conductivity, shaft_conductivity : float or None [W/(m K)]
+        Thermal conductivities of liner and shaft.
+    melting_point : float or None [K]
+        Above the ambient temperature, as all temperatures here.
+    air_transfer : float or None [W/(m2 K)]
+        Heat transfer from the shaft outside the bush to the air.
+    friction : Friction or None
+        In a file one number or `[f0, f1, f2]`.
+    outer_mean, outer_swing : float or None [K]
+        Temperature of the liner's outer surface, its mean and by how much it is warmer on the load line.
+    shaft_heat : ShaftHeat
+        In a file "exact" or "approximate".
+    balance : HeatBalance
+        In a file "contact" or "global".
+    melting : MeltingRule
+        In a file "shared" or "local".
+    nodes : int
+        Of the worn profile.
+    center, extent : float [rad]
+        Middle and width of the arc of nodes.
+    retardation : float [s]
+    """
+
+    melting_heat: Annotated[float, Quantity("J/m3")]
+    material: Annotated[str, _read_material] = "f4k20"
+    radius: Annotated[float | None, Quantity("m")] = None
+    outer_radius: Annotated[float | None, Quantity("m")] = None
+    shaft_radius: Annotated[float | None, Quantity("m")] = None
+    length: Annotated[float | None, Quantity("m")] = None
+    shear_modulus: Annotated[float | None, Quantity("Pa")] = None
+    poisson_ratio: Annotated[float | None, Quantity("1")] = None
+    expansion: Annotated[float | None, Quantity("1/K")] = None
+    liner_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
+    shaft_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
+    melting_point: Annotated[float | None, Quantity("K")] = None
+    air_transfer: Annotated[float | None, Quantity("W/(m2.K)")] = None
+    friction: Annotated[Friction | None, _read_friction] = None
+    outer_mean: Annotated[float | None, Quantity("K")] = None
+    outer_swing: Annotated[float | None, Quantity("K")] = None
+    shaft_heat: Annotated[ExactShaft | ApproximateShaft, Named(SHAFT_HEATS)] = field(
+        default_factory=ExactShaft
+    )
+    balance: Annotated[ContactBalance | GlobalBalance, Named(BALANCES)] = field(
+        default_factory=ContactBalance
+    )
+    melting: Annotated[SharedMelting | LocalMelting, Named(MELTINGS)] = field(default_factory=SharedMelting)
+    nodes: Annotated[int, Count(WORN_NODES)] = 64
+    center: Annotated[float, Quantity("rad")] = -0.5 * math.pi
+    extent: Annotated[float, Quantity("rad")] = 2.0
+    retardation: Annotated[float, Quantity("s")] = 0.0
+
+    def __post_init__(self) -> None:
+        self.reaction()
+
+    def build(self) -> MeltingBush:
+        """Return the bush; raise InputError where a value breaks its rule."""
+        of = MATERIALS[self.material]()
+
+        def given(part: Any, **values: Any) -> Any:
+            """Return a part of the bush with what the table has of it."""
+            own = {f.name: getattr(self, f.name) for f in fields(part) if hasattr(self, f.name)} | values
+            return replace(part, **{name: value for name, value in own.items() if value is not None})
+
+        bush: MeltingBush = given(
+            of,
+            geometry=given(of.geometry),
+            liner=given(of.liner, conductivity=self.liner_conductivity),
+            shaft=given(of.shaft, conductivity=self.shaft_conductivity),
+        )
+        return bush
+
+    def wear(self) -> BushWear:
+        """Return the model with one state, for a load that does not fall."""
+        return BushWear(bush=self.build(), melting_heat=self.melting_heat)
+
+    def reaction(self) -> BushReaction:
+        """Return the model with a worn profile, a bearing for a rotor."""
+        return made_from(BushReaction, self, bush=self.build())
+
+
+# A melting bush from settings in text, and what the command line says about it.
+
+
+SETTINGS: dict[str, tuple[str, str]] = {
+    "radius": ("geometry", "m"),
+    "outer_radius": ("geometry", "m"),
+    "shaft_radius": ("geometry", "m"),
+    "length": ("geometry", "m"),
+    "shear_modulus": ("liner", "Pa"),
+    "poisson_ratio": ("liner", "1"),
+    "expansion": ("liner", ""),
+    "liner_conductivity": ("liner", ""),
+    "melting_point": ("liner", "K"),
+    "shaft_conductivity": ("shaft", ""),
+    "air_transfer": ("shaft", ""),
+    "f0": ("friction", "1"),
+    "f1": ("friction", ""),
+    "f2": ("friction", ""),
+    "outer_mean": ("", "K"),
+    "outer_swing": ("", "K"),
+}
+"""Part of the bush and unit of each setting; an empty unit stands for a plain SI number."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushAnswer(Readable):
+    """What `rotorfilm bush` prints.
+
+    Attributes
+    ----------
+    bush : MeltingBush
+    contact : BushContact
+        The unworn bush at its melting point.
+    settlement : float [m]
+        Up to which the liner may wear.
+    contact_angle : float [rad]
+        Half the contact angle at that settlement.
+    onset_speed : float [rad/s]
+        Critical speed there, omega_*.
+    operation : dict of str to float
+        Outputs of the unworn bush at the speed asked for; empty without one.
+    """
+
+    bush: MeltingBush
+    contact: BushContact
+    settlement: float
+    contact_angle: float
+    onset_speed: float
+    operation: dict[str, float]
+
+    def _own_units(self) -> dict[str, str]:
+        return units(BushWear(bush=self.bush, melting_heat=1.0).outputs)
+
+
+def bush_from_settings(settings: Mapping[str, str]) -> MeltingBush:
+    """Return the bush of `f4k20_bush` with some values changed.
+
+    Parameters
+    ----------
+    settings : mapping of str to str
+        Values by name, a key of `SETTINGS`, as `{"shaft_radius": "12.4 mm", "f0": "0.12"}`.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or a value is no quantity in its unit or out of range.
+    """
+    parts: dict[str, dict[str, Any]] = {}
+    for name, text in settings.items():
+        if name not in SETTINGS:
+            raise InputError(f"setting must be one of {', '.join(SETTINGS)}, got {name!r}")
+        part, unit = SETTINGS[name]
+        field = "conductivity" if name.endswith("conductivity") else name
+        parts.setdefault(part, {})[field] = _number(name, text, unit)
+    bush = f4k20_bush()
+    own = parts.pop("", {})
+    return replace(
+        bush, **own, **{part: replace(getattr(bush, part), **values) for part, values in parts.items()}
+    )
+
+
+def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: float) -> BushAnswer:
+    """Return contact and critical speeds, and where a speed [rad/s] is given the operation there, unworn."""
+    operation: dict[str, float] = {}
+    if speed is not None:
+        # The melting heat scales nothing but the rate of wear, which is left out.
+        model = BushWear(bush=bush, melting_heat=1.0)
+        values = model.output(0.0, model.initial_state, [load, speed]).tolist()
+        operation = {
+            s.name: value for s, value in zip(model.outputs, values, strict=True) if s.name != "melt_rate"
+        }
+    return BushAnswer(
+        bush=bush,
+        contact=bush.contact(load),
+        settlement=settlement,
+        contact_angle=float(bush.angle_at(settlement)),
+        onset_speed=bush.onset_speed(load, settlement),
+        operation=operation,
+    )
+
+
+def _number(name: str, text: str, unit: str) -> float:
+    try:
+        return parse_quantity(text, unit) if unit else parse_quantity(float(text), "1")
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    except ValueError:
+        raise InputError(f"{name} must be a plain SI number, got {brief(text)}") from None

@@ -1,1 +1,0 @@
-"""Scenes of rolling contacts: table, motions, remarks."""

@@ -1,1 +1,0 @@
-"""Scenes of dampers: table, films, runs, remarks."""

@@ -1,0 +1,776 @@
+"""The films of a squeeze-film damper as rungs: which can answer a scene, and what is richer."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..analysis.circular_orbits import synchronous_orbits
+from ..bearings.assemblies import Sprung
+from ..bearings.damper import (
+    FULL_LIMITS,
+    RUPTURED_LIMITS,
+    ExtrapolatedDamper,
+    FiniteMapSqueeze,
+    FiniteSqueeze,
+    JFODamper,
+    JudgedDamper,
+    MapSqueeze,
+    PorousDamper,
+    ShortSqueeze,
+    SqueezeLaw,
+    feed_squeeze_number,
+    land_share,
+    layer_modes,
+)
+from ..bearings.films.geometry import FullFilm
+from ..core.answers import WorkUnit
+from ..core.errors import InputError, RotorfilmError, ValidityWarning
+from ..core.model import Reaction
+from ..core.results import CircularOrbit
+from ..rotors import RigidRotor
+from .damper_table import DamperTable
+from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable, require_kind
+from .families import Remark, SceneModels, said
+from .film_rungs import MAP_MADE
+from .journal_tables import ATMOSPHERE, NOTABLE
+from .lubricant_table import Lubricant
+from .schema import require_steps
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+DEFECT_CELLS = (10, 20)
+"""Cells of the map of finite length that defects are sampled with: within 5e-4 of the force, in a second."""
+
+TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
+"""Verified errors of the force of the richest films: docs/accuracy.md."""
+
+RICH_MADE = WorkUnit("maps of the film of finite length made for estimates")
+"""WorkUnit of the work of making the map that defects are sampled with."""
+
+NO_RICHER = (
+    "no film of finite length is there for a cavitated damper with feed, so that nobody knows how far the "
+    "short one is off"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperFilm:
+    """A film of a damper that may answer; the dampers are made when they are needed, for a map takes seconds.
+
+    Attributes
+    ----------
+    name : str
+    shape : PorousDamper
+        The damper with a short film, and the cage that this rung knows.
+    law : SqueezeLaw
+        The film.
+    rich_shape : PorousDamper
+        The damper with a short film and its whole cage.
+    rich_law : SqueezeLaw or None
+        The film that the defect is sampled with; None where there is none.
+    prior : float [1]
+        Order of magnitude of the error of its force; 0 if unknown.
+    conserved : JFODamper or None
+        The damper that conserves its oil, where the scene has its supply: it is richer than all of these.
+    """
+
+    name: str
+    shape: PorousDamper
+    law: SqueezeLaw
+    rich_shape: PorousDamper
+    rich_law: SqueezeLaw | None
+    prior: float
+    conserved: JFODamper | None = None
+
+    @property
+    def is_fed(self) -> bool:
+        """Whether the force has a part that comes from a feed."""
+        return self.shape.is_fed
+
+    @property
+    def makes_map(self) -> bool:
+        """Whether the damper is made with a map, which takes seconds."""
+        return isinstance(self.law, FiniteMapSqueeze)
+
+    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
+        """Return the verified error of its force [1], the same everywhere; infinite where there is none."""
+        return math.inf if self.conserved is not None else TOP_BOUNDS.get(type(self.law), math.inf)
+
+    def prepare(self) -> dict[WorkUnit, int]:
+        """Return the work of making the damper, which its first use makes."""
+        return {MAP_MADE: 1} if self.makes_map else {}
+
+    @property
+    def rich_work(self) -> dict[WorkUnit, int]:
+        """Work of making the richer one."""
+        if self.conserved is not None:
+            return {}
+        return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
+
+    @cached_property
+    def reaction(self) -> PorousDamper:
+        """The damper with its film."""
+        return with_changes(self.shape, film=self.law)
+
+    @cached_property
+    def rich(self) -> PorousDamper | ExtrapolatedDamper | JudgedDamper | None:
+        """The damper with the richer film."""
+        if self.conserved is not None:
+            return ExtrapolatedDamper(damper=self.conserved)
+        return None if self.rich_law is None else with_changes(self.rich_shape, film=self.rich_law)
+
+    @cached_property
+    def moving(self) -> PorousDamper:
+        """The damper on the map of its film, where it has one: a motion takes thousands of forces."""
+        return with_changes(self.shape, film=_mapped(self.law, self.shape))
+
+    @cached_property
+    def rich_moving(self) -> PorousDamper | JudgedDamper | None:
+        """The richer damper on its map."""
+        if self.rich_law is None:
+            return None
+        return with_changes(self.rich_shape, film=_mapped(self.rich_law, self.rich_shape))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConservedDamperFilm:
+    """The damper that conserves its oil as a film that may answer, judged by one on twice as fine a grid.
+
+    Attributes
+    ----------
+    name : str
+    damper : JFODamper
+        Without springs.
+    prior : float [1]
+        0: nothing is known beforehand.
+    """
+
+    name: str
+    damper: JFODamper
+    prior: float = 0.0
+
+    @property
+    def law(self) -> None:
+        """None: it is no film law of another damper."""
+
+    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
+        """Return infinity: it has no verified error."""
+        return math.inf
+
+    def prepare(self) -> dict[WorkUnit, int]:
+        """Return no work: there is nothing to make."""
+        return {}
+
+    @property
+    def rich_work(self) -> dict[WorkUnit, int]:
+        """No work either."""
+        return {}
+
+    @cached_property
+    def reaction(self) -> ExtrapolatedDamper:
+        """The damper on circular orbits."""
+        return ExtrapolatedDamper(damper=self.damper)
+
+    @cached_property
+    def moving(self) -> ExtrapolatedDamper:
+        """The same on half as many lines and cells, for searches through hundreds of orbits."""
+        return ExtrapolatedDamper(damper=self.reaction.coarser)
+
+    @cached_property
+    def rich(self) -> ExtrapolatedDamper:
+        """The damper on twice as many lines and cells."""
+        around, along = self.damper.cells
+        return ExtrapolatedDamper(damper=replace(self.damper, cells=(2 * around, 2 * along)))
+
+
+AnyDamperFilm = DamperFilm | ConservedDamperFilm
+
+
+def damper_films(table: DamperTable) -> tuple[AnyDamperFilm, ...]:
+    """Return the films that can answer for an orbit, the cheapest first; one that a scene names alone.
+
+    With a supply the short film, judged by the film that conserves its oil, and that film, which takes less
+    time than the map of one of finite length.
+
+    Raises
+    ------
+    InputError
+        If the supply differs around the damper.
+    """
+    plain = plain_films(table)
+    if table.supply is None:
+        return plain
+    if not table.supply.turns_alike:
+        raise InputError(
+            "supply.feed_holes must be left out for a question about jumps, as they make orbits unsteady: "
+            f"ask for unbalance_amplitude, or run the scene, got {table.supply.feed_holes!r}"
+        )
+    damper = replace(table.conserved(table.supply), stiffness=0.0)
+    judged = [replace(film, conserved=damper) for film in plain]
+    if table.film is not None:
+        return tuple(judged)
+    quick = [film for film in judged if not film.makes_map]
+    return (*quick, ConservedDamperFilm(name="conserved oil", damper=damper))
+
+
+def plain_films(table: DamperTable) -> tuple[DamperFilm, ...]:
+    """Return the films that know no supply, the cheapest first; one that a scene names alone.
+
+    Solid cage, thin layer, Darcy's layer with the short film, then the film of finite length. A film with
+    feed keeps its cage, through which it is fed.
+    """
+    shape, top = _short(table), richest_law(_short(table))
+    named = table.film
+    found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
+    rich = FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, FiniteMapSqueeze) else top
+    return tuple(
+        DamperFilm(
+            name=name,
+            shape=own,
+            law=law,
+            rich_shape=shape,
+            rich_law=None if law == top else rich,
+            prior=prior,
+        )
+        for name, own, law, prior in found
+    )
+
+
+def _short(table: DamperTable) -> PorousDamper:
+    """Return the damper of a scene with the short film, which takes no time to make."""
+    with quiet():
+        return replace(table, film=None).build()
+
+
+def _free(shape: PorousDamper, top: SqueezeLaw | None) -> list[tuple[str, PorousDamper, SqueezeLaw, float]]:
+    short = ShortSqueeze()
+    slim = 0.02 * min(shape.slenderness**2, 1.0)
+    rungs: list[tuple[str, PorousDamper, SqueezeLaw, float]] = []
+    if shape.cage is not None and not shape.is_fed:
+        rungs.append(("short film, solid cage", with_changes(shape, cage=None), short, slim))
+        if not shape.cage.thin:
+            try:
+                thin = with_changes(shape, cage=replace(shape.cage, thin=True))
+                rungs.append(("short film, thin layer", thin, short, slim))
+            except RotorfilmError:
+                pass
+    own = "" if shape.cage is None else ", thin layer" if shape.cage.thin else ", Darcy's layer"
+    rungs.append((f"short film{own}", shape, short, slim))
+    return rungs if top is None else [*rungs, (f"finite film{own}", shape, top, 0.0)]
+
+
+def richest_law(damper: PorousDamper) -> SqueezeLaw | None:
+    """Return the film of finite length of a damper; None for a cavitated one with feed, which has none."""
+    full = isinstance(damper.extent, FullFilm)
+    if damper.is_fed and not full:
+        return None
+    return FiniteSqueeze() if full else FiniteMapSqueeze()
+
+
+def _mapped(law: SqueezeLaw, shape: PorousDamper) -> SqueezeLaw:
+    maps: dict[type, SqueezeLaw] = {ShortSqueeze: MapSqueeze(), FiniteSqueeze: FiniteMapSqueeze()}
+    return law if shape.is_fed else maps.get(type(law), law)
+
+
+def mapped_short(table: DamperTable) -> PorousDamper:
+    """Return one land of the damper with the short film, on its map where it has one; see `lands`."""
+    shape = with_changes(_short(table), viscosity=(1.0 - table.air_fraction) * table.viscosity)
+    return shape if table.needs_length else with_changes(shape, film=_mapped(ShortSqueeze(), shape))
+
+
+def lands(table: DamperTable) -> int:
+    """Return how many films the damper has side by side: two beside a groove in its middle."""
+    return 2 if table.supply is not None and table.supply.circumferential_groove is not None else 1
+
+
+def with_changes(damper: PorousDamper, **changes: object) -> PorousDamper:
+    """Return the damper with other fields, without the warning of a short film: its error is estimated."""
+    with quiet():
+        return replace(damper, **changes)  # type: ignore[arg-type]
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Leave out what a film warns of when it is made: a ladder estimates its error."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        yield
+
+
+def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> Reaction:
+    """Return the damper with springs of the stiffness [N/m], if there are some."""
+    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+
+
+# The films of a damper with seals or inertia as rungs: without and with inertia, short and finite.
+#
+# Each is judged by orbits and motions of the richest film beside what that leaves out itself: the
+# second order of the inertia, the edge of a ruptured film that it moves, oil that runs around between
+# seals.
+
+
+NO_INERTIA = ", no inertia"
+
+
+@dataclass(frozen=True, kw_only=True)
+class BuiltDamperFilm(DamperFilm):
+    """A film between seals, or with inertia, that may answer.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+        Of the rotor, with which it whirls.
+    """
+
+    speed: float
+
+    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
+        """Return infinity: what it leaves out is estimated, not bounded."""
+        return math.inf
+
+    @cached_property
+    def rich(self) -> JudgedDamper:
+        """The damper with the richest film, and what that leaves out."""
+        damper = with_changes(self.rich_shape, film=self.rich_law)
+        return JudgedDamper(damper=damper, frequency=abs(self.speed))
+
+    @cached_property
+    def moving(self) -> PorousDamper:
+        """The damper on the map of its film, where it has one."""
+        law = MapSqueeze() if isinstance(self.law, ShortSqueeze) else self.law
+        return with_changes(self.shape, film=law)
+
+    @cached_property
+    def rich_moving(self) -> JudgedDamper:
+        """The same as on orbits."""
+        return self.rich
+
+
+def orbit_films(table: DamperTable, rotor: RigidRotor) -> tuple[AnyDamperFilm, ...]:
+    """Return the films that can answer for the orbits of a rotor at one speed, the cheapest first.
+
+    Raises
+    ------
+    InputError
+        If the rotor is held off the center, the supply differs around the damper, or the inertia of the oil
+        is no model at this speed.
+    """
+    if any(table.offset):
+        raise InputError(
+            "offset must be left out for a question about circular orbits, which are centered: a run, or "
+            f"blade_loss_peak, has it, got {table.offset!r}"
+        )
+    return built_films(table, rotor.profile.speeds[0]) if table.is_built else damper_films(table)
+
+
+@quiet()
+def built_films(table: DamperTable, speed: float) -> tuple[BuiltDamperFilm, ...]:
+    """Return the films of a damper with seals or inertia, the cheapest first; one that a scene names alone.
+
+    Parameters
+    ----------
+    table : DamperTable
+    speed : float [rad/s]
+
+    Raises
+    ------
+    InputError
+        If the inertia of the oil is no model at this speed.
+    """
+    whole = replace(table, film=None).build()
+    whole.require_range(speed)
+    laws = [law for law in _laws(table) if table.film is None] or [_named(table)]
+    shapes = {NO_INERTIA: with_changes(whole, density=0.0), "": whole} if table.density else {"": whole}
+    return tuple(
+        BuiltDamperFilm(
+            name=f"{name}{inertia}",
+            shape=shape,
+            law=law,
+            rich_shape=whole,
+            rich_law=_richest(table, law),
+            prior=0.02 * min(whole.slenderness**2, 1.0) if isinstance(law, ShortSqueeze) else 0.0,
+            speed=speed,
+        )
+        for name, law in laws
+        for inertia, shape in shapes.items()
+        if table.film is None or not inertia
+    )
+
+
+def _laws(table: DamperTable) -> list[tuple[str, SqueezeLaw]]:
+    short: list[tuple[str, SqueezeLaw]] = [] if table.needs_length else [("short film", ShortSqueeze())]
+    if isinstance(table.extent, FullFilm):
+        return [*short, ("finite film", FiniteSqueeze())]
+    return short if table.seals is not None else [*short, ("finite film", FiniteMapSqueeze())]
+
+
+def _named(table: DamperTable) -> tuple[str, SqueezeLaw]:
+    law = table.film or ShortSqueeze()
+    return type(law).__name__, law
+
+
+def _richest(table: DamperTable, own: SqueezeLaw) -> SqueezeLaw:
+    if isinstance(table.extent, FullFilm):
+        return FiniteSqueeze()
+    if table.seals is not None:
+        return ShortSqueeze()
+    return own if isinstance(own, FiniteMapSqueeze) else FiniteMapSqueeze(cells=DEFECT_CELLS)
+
+
+# What every squeeze film of a damper leaves out, judged by dimensionless numbers.
+
+
+NOTABLE_MASS = 0.05
+"""Mass of the moving film / mass of the rotor that is worth a word."""
+
+
+NOTABLE_INERTIA = 0.1
+"""Pressure of the inertia / viscous pressure that is worth a word."""
+
+ON_ORBIT = "cavitation: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the "
+
+INERTIA = (
+    Remark(
+        "inertia",
+        NOTABLE_INERTIA,
+        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g});"
+        " [damper] density takes it in",
+    ),
+    Remark(
+        "added_mass",
+        NOTABLE_MASS,
+        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass; [damper] density takes "
+        "it in",
+    ),
+)
+"""What a film without inertia leaves out, by the numbers of `damper_numbers`."""
+
+REMARKS = (
+    Remark(
+        "thinning",
+        NOTABLE,
+        "heat: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the oil warms by about "
+        "{warming:.2g} K (Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+        moves="heat",
+    ),
+    Remark(
+        "compression",
+        0.01,
+        "compressibility: {compression:.2%} by the largest pressure",
+        moves="compressibility",
+    ),
+)
+"""What the physics of a squeeze film leaves out, by the numbers of `damper_numbers`."""
+
+FULL = (
+    Remark(
+        "pressure",
+        1.0,
+        ON_ORBIT
+        + "full film carries a tension of {pressure:.2g} times the ambient pressure, where oil ruptures",
+    ),
+)
+"""The same of one that never ruptures."""
+
+RUPTURED = (
+    Remark(
+        "pressure",
+        NOTABLE,
+        ON_ORBIT + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture "
+        "where this film does",
+        below=True,
+    ),
+    Remark(
+        "pressure",
+        1.0 / NOTABLE,
+        ON_ORBIT + "pressure is {pressure:.2g} times the ambient one, which does not fill the cavity again "
+        "within a turn: [damper] supply takes a film that conserves its oil",
+    ),
+)
+"""The same of one that does."""
+
+
+def damper_numbers(
+    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
+) -> dict[str, float]:
+    """Return the dimensionless numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
+
+    Returns
+    -------
+    dict of str to float
+        eccentricity_ratio : of the circle.
+        inertia : pressure of the film's inertia over the viscous one, a tenth of `reynolds`, the squeeze
+        Reynolds number speed c^2/nu.
+        added_mass : mass with which the film follows the rotor / mass of the rotor.
+        peclet : speed c^2/diffusivity, heat carried along over heat conducted across the film.
+        warming [K] : rise of temperature, of the oil squeezed out (Peclet number above 1) or between cold
+        walls; thinning : relative loss of viscosity by that.
+        pressure : largest pressure of the film over the ambient one: a full film carries as much tension; and
+        the part of a cavity that ambient pressure fills again within a turn is the inverse of this.
+        compression : largest pressure over the bulk modulus.
+
+    Notes
+    -----
+    With a parabolic profile the momentum of the flow is 6/5 of that of its mean, so that the pressure
+    gradient is 12 viscosity/h^2 (1 + i Re/10) times the mean velocity, Re = speed h^2/nu. The film's power
+    heats what is squeezed out, 2 radius length e speed, or, if it stays, the middle of a slab between cold
+    walls, by power/volume c^2/(8 conductivity). The pressure is that of the short film in its middle.
+    """
+    R, L, c, omega = damper.radius, damper.length, damper.clearance, abs(speed)
+    e = eccentricity_ratio * c
+    volumetric = oil.density * oil.heat_capacity
+    tangential = float(damper.force([e, 0.0], [0.0, omega * e], omega)[1])
+    inertia = omega * c**2 * oil.density / damper.viscosity / 10.0
+    power = -tangential * omega * e
+    peclet = omega * c**2 * volumetric / oil.conductivity
+    adiabatic = power / (volumetric * 2.0 * R * L * e * omega)
+    conducted = power * c / (2.0 * math.pi * R * L * 8.0 * oil.conductivity)
+    warming = adiabatic if peclet > 1.0 else min(adiabatic, conducted)
+    largest = largest_pressure(damper, omega, eccentricity_ratio)
+    return {
+        "eccentricity_ratio": eccentricity_ratio,
+        "inertia": inertia,
+        "reynolds": 10.0 * inertia,
+        "added_mass": inertia * -tangential / (omega**2 * e * mass),
+        "peclet": peclet,
+        "warming": warming,
+        "thinning": -math.expm1(-oil.thinning * warming),
+        "pressure": largest / ATMOSPHERE,
+        "compression": largest / oil.bulk_modulus,
+    }
+
+
+def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: float) -> float:
+    """Return the largest pressure [Pa] of a short film on a circular orbit, in the middle of its length.
+
+    (3/2) viscosity (L/c)^2 speed max of eps sin(theta) G(h): the parabola of a film without flow around.
+    Seals raise it as they do the damping.
+    """
+    theta = np.linspace(0.0, math.pi, 721)
+    h = 1.0 + eccentricity_ratio * np.cos(theta)
+    modes = layer_modes(damper.layer)
+    G = modes.weight @ (1.0 / (h**3 + modes.leak[:, None]))
+    source = eccentricity_ratio * speed * np.sin(theta)
+    scale = 1.5 * damper.viscosity * (damper.length / damper.clearance) ** 2
+    if damper.seals is not None:
+        leak = damper.squeeze_case.end_leak
+        scale *= land_share(damper.slenderness, leak).real / land_share(damper.slenderness, math.inf).real
+    return scale * float(np.max(source * G))
+
+
+def damper_remarks(
+    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
+    numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
+    ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
+    return said((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)
+
+
+# What a question about a damper leaves open: which of several orbits, and what the films leave out.
+
+
+MIDDLING = 0.5
+"""Eccentricity ratio of an orbit for the checks of a question that names no unbalance."""
+
+
+AIR = (
+    Remark(
+        "feed_squeeze",
+        1.0,
+        "air: {feed_squeeze:.2g} of what the ends suck is fed (feed-squeeze number), so that air is drawn in "
+        "and the damping falls, by how much only a measured [damper] air_fraction says",
+        below=True,
+    ),
+    Remark(
+        "air_fraction",
+        0.0,
+        "air: the oil of the answer has {air_fraction:.0%} less viscosity and density, the most that so much "
+        "air takes; the truth lies between it and that without air_fraction",
+    ),
+)
+"""Air in the oil, by the numbers of `built_remarks`."""
+
+SEALED = Remark(
+    "sealing",
+    0.0,
+    "seals: damping and added mass in small motion are {sealing:.3g} times those of open ends, so that the "
+    "leakage of the seals sets them",
+)
+FAST = Remark(
+    "beyond",
+    1.0,
+    "inertia of the film: squeeze Reynolds number {reynolds:.3g}, above {limit:g}, to which its model is "
+    "good",
+)
+
+
+def built_remarks(
+    table: DamperTable, damper: PorousDamper, speed: float, eccentricity_ratio: float
+) -> tuple[str, ...]:
+    """Return the remarks on seals, inertia and air, for an orbit at a speed [rad/s]."""
+    limit = (FULL_LIMITS if isinstance(damper.extent, FullFilm) else RUPTURED_LIMITS)[0]
+    reynolds = damper.reynolds_number(speed)
+    numbers = {"reynolds": reynolds, "limit": limit, "beyond": reynolds / limit}
+    told = [FAST] if damper.has_inertia else []
+    if table.seals is not None:
+        share = land_share(damper.slenderness, damper.squeeze_case.end_leak).real
+        numbers["sealing"] = share / land_share(damper.slenderness, math.inf).real
+        told.append(SEALED)
+    numbers["air_fraction"], numbers["feed_squeeze"] = table.air_fraction, math.inf
+    if table.feed_flow is not None and speed and eccentricity_ratio:
+        amplitude = eccentricity_ratio * table.clearance
+        numbers["feed_squeeze"] = feed_squeeze_number(
+            damper, flow=table.feed_flow, amplitude=amplitude, frequency=abs(speed)
+        )
+    return said((*told, *AIR), numbers)
+
+
+def rotor_remarks(
+    table: DamperTable,
+    damper: PorousDamper,
+    stiffness: float,
+    rotor: RigidRotor,
+    oil: Lubricant,
+    *,
+    steady: bool,
+) -> tuple[str, ...]:
+    """Return the remarks on a rotor in a damper.
+
+    Parameters
+    ----------
+    table : DamperTable
+    damper : PorousDamper
+        With a film that is quick enough for hundreds of orbits.
+    stiffness : float [N/m]
+        Of its springs.
+    rotor : RigidRotor
+        With the unbalance in question, 0 if that is what is asked for.
+    oil : Lubricant
+    steady : bool
+        Whether its orbit is asked for, so that it matters how many there are.
+    """
+    fastest = max((abs(speed) for speed in rotor.profile.speeds), default=0.0)
+    found = _orbits(damper, stiffness, replace(rotor, speed=fastest))
+    chosen = _smallest_stable(found)
+    reach = MIDDLING if chosen is None else chosen.eccentricity_ratio
+    physics = damper_remarks(damper, oil, rotor.mass, fastest, reach)
+    built = built_remarks(table, damper, fastest, reach)
+    return (*(_which(found) if steady else ()), *built, *physics)
+
+
+def _orbits(damper: PorousDamper, stiffness: float, rotor: RigidRotor) -> tuple[CircularOrbit, ...]:
+    """Return the orbits in the short film; none where that takes seconds, a cavitated film with feed."""
+    slow = damper.is_fed and not isinstance(damper.extent, FullFilm)
+    if slow or not rotor.unbalance:
+        return ()
+    return synchronous_orbits(rotor, sprung(damper, stiffness)).at(rotor.unbalance)
+
+
+def _smallest_stable(found: tuple[CircularOrbit, ...]) -> CircularOrbit | None:
+    return next((orbit for orbit in found if orbit.stable), next(iter(found), None))
+
+
+def _which(found: tuple[CircularOrbit, ...]) -> tuple[str, ...]:
+    if len(found) < 2:
+        return ()
+    shown = ", ".join(
+        f"{orbit.eccentricity_ratio:.3g} ({'stable' if orbit.stable else 'unstable'})" for orbit in found
+    )
+    return (
+        f"{len(found)} orbits at this unbalance, of eccentricity ratios about {shown}: the answer is the "
+        "smallest stable one, on which a rotor is whose unbalance grew; a blow, or an unbalance that was "
+        "larger before, may have it on another",
+    )
+
+
+# Rotor and damper of a scene, as they are run.
+
+
+OTHER_RUNS = dict.fromkeys(("motor", "ground"), "rotorfilm rotor-run")
+"""Command for an excitation that is not of these models."""
+
+
+class DamperScene(NamedTuple):
+    """The models of a scene with a damper.
+
+    Attributes
+    ----------
+    rotor : RigidRotor
+        At the center of the damper, or its offset, at rest.
+    support : PorousDamper, Sprung or JFODamper
+    start : float [s]
+        When the excitation begins: until then nothing moves, and the run counts from there.
+    duration : float [s]
+    step : float [s]
+        Time between samples, or exchanges of a coupled run.
+    """
+
+    rotor: RigidRotor
+    support: PorousDamper | Sprung | JFODamper
+    start: float
+    duration: float
+    step: float
+
+
+def damper_models(scene: Scene) -> DamperScene:
+    """Return rotor and damper of a scene.
+
+    An unbalance is that of `[rigid_rotor]`, there from the start, or that of the excitation: `unbalance`,
+    `blade_loss` or `run_up`.
+
+    Raises
+    ------
+    InputError
+        If the scene lacks a damper or a rotor, has two unbalances, or another excitation.
+    """
+    excitation = scene.excitation
+    if scene.damper is None or scene.rigid_rotor is None:
+        raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
+    rotor, start, duration = scene.rigid_rotor.build(scene.speed, scene.damper.load), 0.0, 0.0
+    rotor = replace(rotor, position=scene.damper.offset)
+    require_kind(excitation, ("unbalance", "blade_loss", "run_up"), OTHER_RUNS)
+    if isinstance(excitation, UnbalanceTable):
+        if rotor.unbalance:
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {excitation.unbalance:g} kg m"
+            )
+        turned = excitation.unbalance_angle
+        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
+    if isinstance(excitation, BladeLossTable):
+        start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
+        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
+    if isinstance(excitation, RunUpTable):
+        profile = excitation.profile(scene.speed)
+        rotor, duration = replace(rotor, speed=profile), profile.times[-1]
+    duration = duration or scene.duration
+    require_steps("excitation", duration * abs(scene.speed), scene.cosimulation)
+    return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)
+
+
+def damper_fmus(scene: Scene) -> SceneModels:
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center.
+
+    Raises
+    ------
+    InputError
+        As `damper_models`, and if the oil of the damper has mass.
+    """
+    if scene.damper is not None and scene.damper.density:
+        raise InputError(
+            "damper.density must be 0 for a damper apart from its rotor: an exchange of accelerations "
+            "diverges where the oil is heavier than the rotor; rotorfilm fmu build writes both as one "
+            "system.fmu, got "
+            f"{scene.damper.density!r}"
+        )
+    models = damper_models(scene)
+    return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

@@ -1,0 +1,282 @@
+"""`[damper]`: a squeeze-film damper with its retainer springs in scene files, schema 1."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, field, replace
+from typing import Annotated
+
+from ..bearings.assemblies import Sprung
+from ..bearings.damper import (
+    AxialFeed,
+    DamperSupply,
+    EndSeal,
+    FiniteMapSqueeze,
+    FiniteSqueeze,
+    JFODamper,
+    MapSqueeze,
+    PorousCage,
+    PorousDamper,
+    PublishedSqueeze,
+    RadialFeed,
+    ShortSqueeze,
+    SqueezeLaw,
+    aerated_damper,
+    gap_seal,
+    land_share,
+    leak_test_seal,
+)
+from ..bearings.films.geometry import FullFilm, HalfSommerfeld
+from ..core.errors import InputError, ValidityWarning, require_non_negative
+from .journal_tables import FEED_HOLE
+from .reading import Keyed, Quantity, Table, TableList, Variant, flag, made_from, read_place
+
+# `[damper.seals]`: seals at both ends of a squeeze film, by leakage, by their gap or by a leak test.
+
+
+WAYS = (("leakage",), ("gap", "gap_length"), ("flow", "pressure"))
+"""Keys of each way to say how seals leak."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealsTable:
+    """`[damper.seals]`: equal seals at both ends.
+
+    Parameters
+    ----------
+    leakage : float or None [m2/(Pa s)]
+        Volume per time, circumference and pressure; 0 for tight seals, as O-rings.
+    gap, gap_length : float or None [m]
+        Instead: a narrow gap, along the radius and along the axis.
+    flow, pressure : float or None [m3/s], [Pa]
+        Instead: of a leak test, out of one end.
+    uncertainty : float [1]
+        Of the leakage, relative; an answer then says how far it may move.
+    """
+
+    leakage: Annotated[float | None, Quantity("m2/(Pa.s)")] = None
+    gap: Annotated[float | None, Quantity("m")] = None
+    gap_length: Annotated[float | None, Quantity("m")] = None
+    flow: Annotated[float | None, Quantity("m3/s")] = None
+    pressure: Annotated[float | None, Quantity("Pa")] = None
+    uncertainty: Annotated[float, Quantity("1")] = 0.0
+
+    def __post_init__(self) -> None:
+        given = tuple(name for way in WAYS for name in way if getattr(self, name) is not None)
+        if given not in WAYS:
+            raise InputError(
+                "seals must have leakage, or gap and gap_length, or flow and pressure, got "
+                f"{', '.join(given) or 'none'}"
+            )
+        _ = self.seal(viscosity=1.0, radius=1.0)
+
+    def seal(self, *, viscosity: float, radius: float) -> EndSeal:
+        """Return the seals of a film of a viscosity [Pa s] and a radius [m]."""
+        if self.gap is not None and self.gap_length is not None:
+            found = gap_seal(height=self.gap, length=self.gap_length, viscosity=viscosity)
+        elif self.flow is not None and self.pressure is not None:
+            found = leak_test_seal(flow=self.flow, pressure=self.pressure, radius=radius)
+        else:
+            found = EndSeal(leakage=self.leakage or 0.0)
+        return replace(found, uncertainty=self.uncertainty)
+
+
+# `[damper]`: a squeeze-film damper with its retainer springs in scene files, schema 1.
+
+
+CELLS = (48, 8)
+"""Of a film that conserves its oil and is stepped through in time."""
+
+CAGE = Keyed(
+    PorousCage,
+    {
+        "thickness": Quantity("m"),
+        "permeability": Quantity("m2"),
+        "grading": Quantity("1"),
+        "anisotropy": Quantity("1"),
+        "vented": flag,
+        "supply_pressure": Quantity("Pa"),
+        "thin": flag,
+    },
+)
+"""`cage = {thickness, permeability, ...}`: a porous cage."""
+
+FEEDS: dict[str, Keyed] = {
+    "radial": Keyed(RadialFeed, {"inflow": Quantity("m/s"), "cosine": flag, "at_film": flag}),
+    "axial": Keyed(AxialFeed, {"start_pressure": Quantity("Pa"), "end_pressure": Quantity("Pa")}),
+}
+"""`feed = {kind = "radial", ...}`: how lubricant is fed, through the cage or at both ends."""
+
+SUPPLY = Keyed(
+    DamperSupply,
+    {
+        "supply_pressure": Quantity("Pa"),
+        "circumferential_groove": Quantity("m"),
+        "end_groove": flag,
+        "feed_holes": TableList(FEED_HOLE),
+        "cavitation_pressure": Quantity("Pa"),
+        "submerged": flag,
+    },
+)
+"""`supply = {supply_pressure, circumferential_groove, ...}`: what feeds a film that conserves its oil."""
+
+LARGEST_AROUND = 0.2
+"""Excess of the damping of a sealed short film, beyond which it is not asked."""
+
+EXTENTS: dict[str, Keyed] = {"half_sommerfeld": Keyed(HalfSommerfeld), "full": Keyed(FullFilm)}
+
+SQUEEZES: dict[str, Keyed[SqueezeLaw]] = {
+    "short": Keyed(ShortSqueeze),
+    "map": Keyed(MapSqueeze),
+    "finite": Keyed(FiniteSqueeze),
+    "finite_map": Keyed(FiniteMapSqueeze),
+    "published": Keyed(PublishedSqueeze),
+}
+"""`film = {name = "short"}`: squeeze films by their names in scene files."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperTable:
+    """`[damper]`: a squeeze-film damper and its retainer springs.
+
+    Parameters
+    ----------
+    radius : float [m]
+        Of the film; a file may give `diameter` instead.
+    length, clearance : float [m]
+        Axial length, radial clearance.
+    viscosity : float [Pa s]
+    stiffness : float [N/m]
+        Of the retainer springs, which carry the static load; 0 for none.
+    cage : PorousCage or None
+        None for a solid one.
+    extent : FullFilm or HalfSommerfeld
+        Whether the film carries tension.
+    feed : RadialFeed, AxialFeed or None
+    supply : DamperSupply or None
+        Of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is named.
+    density : float [kg/m3]
+        Of the oil, whose inertia then is part of the answer; 0 without inertia.
+    seals : SealsTable or None
+        At both ends; None for open ends.
+    offset : (float, float) [m]
+        Static place of the rotor off the center of the film, where the springs hold it.
+    feed_flow : float or None [m3/s]
+        Of oil fed to the film, which says whether air is drawn in.
+    air_fraction : float [1]
+        Measured volume of air per volume of oil and air at ambient pressure: damping and mass are the least
+        that it leaves.
+    film : SqueezeLaw or None
+        The film law; if the file does not say, the short film, or what the question of the scene needs.
+    """
+
+    radius: Annotated[float, Quantity("m", twice="diameter")]
+    length: Annotated[float, Quantity("m")]
+    clearance: Annotated[float, Quantity("m")]
+    viscosity: Annotated[float, Quantity("Pa.s")]
+    stiffness: Annotated[float, Quantity("N/m")] = 0.0
+    cage: Annotated[PorousCage | None, Table(CAGE)] = None
+    extent: Annotated[FullFilm | HalfSommerfeld, Variant("kind", EXTENTS)] = field(
+        default_factory=HalfSommerfeld
+    )
+    feed: Annotated[RadialFeed | AxialFeed | None, Variant("kind", FEEDS)] = None
+    supply: Annotated[DamperSupply | None, Table(SUPPLY)] = None
+    density: Annotated[float, Quantity("kg/m3")] = 0.0
+    seals: Annotated[SealsTable | None, Table(SealsTable)] = None
+    offset: Annotated[tuple[float, float], read_place] = (0.0, 0.0)
+    feed_flow: Annotated[float | None, Quantity("m3/s")] = None
+    air_fraction: Annotated[float, Quantity("1")] = 0.0
+    film: Annotated[SqueezeLaw | None, Variant("name", SQUEEZES)] = None
+
+    def __post_init__(self) -> None:
+        require_non_negative("stiffness", self.stiffness)
+        self._require_offset()
+        if self.feed_flow is not None:
+            require_non_negative("feed_flow", self.feed_flow)
+        if self.supply is not None:
+            self.conserved(self.supply)
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+            # Which film answers is not known yet; a run of this one warns when it is built.
+            self.build()
+
+    def build(self) -> PorousDamper:
+        """Return the damper without its springs; raise InputError where a value breaks its rule.
+
+        Its film laws know no supply. Two lands beside a groove are one of them, in oil twice as viscous.
+        """
+        film = self.film or (FiniteSqueeze() if self.needs_length else ShortSqueeze())
+        groove = None if self.supply is None else self.supply.circumferential_groove
+        if groove is not None:
+            land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
+            return made_from(PorousDamper, self, film=film, seals=None, length=land, viscosity=twice)
+        damper = made_from(PorousDamper, self, film=film, seals=self.seal)
+        if not self.air_fraction:
+            return damper
+        aired = aerated_damper(damper, self.air_fraction)
+        return replace(damper, viscosity=aired.viscosity, density=aired.density)
+
+    @property
+    def seal(self) -> EndSeal | None:
+        """The seals, None for open ends."""
+        if self.seals is None:
+            return None
+        return self.seals.seal(viscosity=self.viscosity, radius=self.radius)
+
+    @property
+    def needs_length(self) -> bool:
+        """Whether seals are so tight that the oil of a full film runs around, not out: no short film."""
+        return self.seal is not None and isinstance(self.extent, FullFilm) and self.around > LARGEST_AROUND
+
+    @property
+    def around(self) -> float:
+        """How much too large the damping of a short film with these seals is [1]."""
+        if self.seal is None:
+            return 0.0
+        leak = 12.0 * self.viscosity * self.radius * self.seal.leakage / self.clearance**3
+        s = 0.5 * self.length / self.radius
+        if leak == 0.0:
+            return math.inf
+        return (s**2 / 3.0 + s / leak) / land_share(s, leak).real - 1.0
+
+    @property
+    def is_built(self) -> bool:
+        """Whether seals or the inertia of the oil are in it."""
+        return self.seals is not None or self.density > 0.0
+
+    def _require_offset(self) -> None:
+        place = math.hypot(*self.offset)
+        if place and not self.stiffness:
+            raise InputError(
+                f"stiffness must be positive for a rotor at an offset, got offset {self.offset!r}: without "
+                "springs a weight lets it down to the wall"
+            )
+        if place and place >= self.clearance:
+            raise InputError(f"offset must be below the clearance {self.clearance!r}, got {self.offset!r}")
+
+    @property
+    def load(self) -> tuple[float, float]:
+        """The static force that holds the rotor at its offset [N]."""
+        return self.stiffness * self.offset[0], self.stiffness * self.offset[1]
+
+    def conserved(self, supply: DamperSupply) -> JFODamper:
+        """Return the damper that conserves its oil, with its springs; raise InputError where it cannot."""
+        alone = {"cage": None, "feed": None, "extent": HalfSommerfeld(), "seals": None, "density": 0.0}
+        for name, wanted in {**alone, "offset": (0.0, 0.0), "air_fraction": 0.0}.items():
+            if getattr(self, name) != wanted:
+                raise InputError(
+                    f"{name} must be left out beside supply, as the film that conserves its oil has a solid "
+                    f"cage, open ends and no inertia, and ruptures, got {getattr(self, name)!r}"
+                )
+        return made_from(JFODamper, self, supply=supply)
+
+    def support(self) -> PorousDamper | Sprung | JFODamper:
+        """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
+        if self.supply is not None and self.film is None:
+            return replace(self.conserved(self.supply), cells=CELLS)
+        return self.plain()
+
+    def plain(self) -> PorousDamper | Sprung:
+        """Return the damper of a film that knows no supply, with its springs, if it has some."""
+        damper = self.build()
+        return Sprung(reaction=damper, stiffness=self.stiffness) if self.stiffness else damper

@@ -1,0 +1,628 @@
+"""The rungs of a journal film: which films can answer a scene, the cheapest first, and what is richer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..analysis.equilibrium import MAXIMUM_ECCENTRICITY
+from ..bearings.films.law import FilmLaw
+from ..bearings.journal import (
+    ComplementarityArc,
+    ExtrapolatedFilm,
+    GroovedMapFilm,
+    JournalBearing,
+    MapFilm,
+    ReynoldsFilm,
+    RotatingArc,
+    ShortFilm,
+    SplittingFilm,
+    film_name,
+    fitted_bearing,
+    is_mappable,
+)
+from ..bearings.reaction import InertialModel, WalledReaction, minimum_film, relative_film
+from ..core.answers import DISAGREEMENT, WorkUnit
+from ..core.errors import require_vector
+from ..core.model import (
+    Array,
+    JournalForce,
+    Reaction,
+    Tangent,
+    inertial,
+    largest_eccentricity_ratio,
+    prepared_tangent,
+)
+from ..core.results import Equilibrium
+from .journal_tables import has_map
+
+COARSE_MAP = GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
+"""Made in a fifth of the time of the map with openings, with errors some four times as large."""
+
+MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
+
+
+def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films that can answer for a bearing, the cheapest first.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    plain, tabulated = bearing.geometry.plain, has_map(bearing)
+    if fixed:
+        rungs = _named(bearing, tabulated)
+    elif tabulated:
+        rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
+    elif plain:
+        low, high = MapFilm().slenderness_range
+        own = [_map(bearing)] if low <= bearing.slenderness <= high else []
+        rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
+    else:
+        maps = _grooved_maps(bearing)
+        ready = [film for film in maps if not film.makes_map]
+        rungs = [*ready, *_grids(bearing, tabulated), *(film for film in maps if film.makes_map)]
+    return tuple(rungs)
+
+
+def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films for some equilibria: a map that must be made first costs more than any grid."""
+    films = film_rungs(bearing, fixed=fixed)
+    return tuple(film for film in films if fixed or not film.makes_map)
+
+
+def turn_films(
+    bearing: JournalBearing, *, fixed: bool, grids: tuple[tuple[int, int], ...], maps: bool
+) -> tuple[FilmRung, ...]:
+    """Return the films for states all round a turn: the map that is there, else the short film and grids.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    fixed : bool
+        Whether the scene names the film of the bearing.
+    grids : tuple of (int, int)
+        Cells of the grids worth taking.
+    maps : bool
+        Whether a map that must be made first is worth it.
+    """
+    films = tuple(_with_coarser_check(film) for film in film_rungs(bearing, fixed=fixed))
+    if fixed:
+        return films
+    if films[0].bounded and not films[0].makes_map:
+        return films[:1]
+    return tuple(film for film in films if _is_kept(film, grids, maps=maps))
+
+
+def _is_kept(film: FilmRung, grids: tuple[tuple[int, int], ...], *, maps: bool) -> bool:
+    law = film.reaction.film
+    on_grid = isinstance(law, ExtrapolatedFilm) and law.film.cells in grids
+    return on_grid or isinstance(law, ShortFilm) or (maps and isinstance(law, MapFilm | GroovedMapFilm))
+
+
+def _with_coarser_check(film: FilmRung) -> FilmRung:
+    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
+    if not film.bounded:
+        return film
+    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
+
+
+def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
+    """Return the bearing with the film in two dimensions, extrapolated from two grids."""
+    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
+
+
+def _map(bearing: JournalBearing) -> FilmRung:
+    rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
+    return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)
+
+
+def _grooved_maps(bearing: JournalBearing) -> list[FilmRung]:
+    """Return the maps of a bearing with openings: a coarse one too, where the fine one is to be made."""
+    low, high = GroovedMapFilm().slenderness_range
+    if not (is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
+        return []
+    fine = _opened("map with grooves", bearing, GroovedMapFilm(), 1e-5, 1e-3)
+    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, 3e-4, 5e-3)
+    return [coarse, fine] if fine.makes_map else [fine]
+
+
+def _opened(
+    name: str, bearing: JournalBearing, film: GroovedMapFilm, position_prior: float, slope_prior: float
+) -> FilmRung:
+    rich = FINE, "2-D 384 x 16 extr."
+    rung = _rung(name, bearing, film, rich, position_prior, slope_prior)
+    return replace(rung, making=_making_time(rung.reaction))
+
+
+def _making_time(bearing: JournalBearing) -> float:
+    """Return about how long the map with openings of a bearing takes [s]; 0 where it is there."""
+    film = bearing.fitted_film
+    return film.making_time(bearing.slenderness) if isinstance(film, GroovedMapFilm) else 0.0
+
+
+def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    """Return films of closed form: they are for bearings without openings."""
+    slim = min(bearing.slenderness**2, 1.0)
+    films: tuple[tuple[str, FilmLaw, float, float], ...] = (
+        ("short film", ShortFilm(), 0.1 * slim, 0.1 * slim),
+        ("splitting (2, all)", SplittingFilm(order=(2, None), rupture=RotatingArc()), 2e-3, 5e-3),
+        ("splitting (6, all)", SplittingFilm(order=(6, None), rupture=RotatingArc()), 1e-3, 3e-3),
+    )
+    rich = _rich(tabulated, FINE)
+    return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
+
+
+def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    rich = _rich(tabulated, MEDIUM)
+    coarse = _rung("2-D 48 x 4", bearing, ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
+    levels = (
+        ((48, 8), FINE, 3e-5, 1e-3),
+        ((96, 8), FINE, 5e-6, 3e-4),
+        ((192, 16), FINEST, 1e-6, 1e-4),
+        ((384, 16), FINEST, 5e-7, 5e-5),
+    )
+    finer = [
+        _rung(
+            f"2-D {cells[0]} x {cells[1]} extr.",
+            bearing,
+            ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)),
+            _rich(tabulated, above),
+            *priors,
+        )
+        for cells, above, *priors in levels
+    ]
+    if not tabulated:  # the free arc is found for length / diameter .1 to 4
+        return [coarse, *finer]
+    free = SplittingFilm(order=(6, None), constant=True, rupture=ComplementarityArc())
+    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), 1e-5, 1e-4)
+    return [coarse, *finer[:2], arc, *finer[2:]]
+
+
+def _named(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    """Return the rung of a scene that names its film, after a coarser map of it where that is made sooner."""
+    film = bearing.fitted_film
+    fine = isinstance(film, MapFilm) or (isinstance(film, ReynoldsFilm) and film.cells[0] > 96)
+    rich = _rich(tabulated and not isinstance(film, MapFilm), FINEST if fine else FINE)
+    rung = _rung(film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, MapFilm))
+    rung = replace(rung, making=_making_time(rung.reaction))
+    if not (rung.makes_map and film == GroovedMapFilm(geometry=bearing.geometry)):
+        return [rung]
+    return [_opened(film_name(COARSE_MAP), bearing, COARSE_MAP, 0.0, 0.0), rung]
+
+
+def _rich(tabulated: bool, cells: tuple[int, int]) -> tuple[tuple[int, int] | None, str]:
+    """Return the cells of the richer film, None for the map where there is one, and its name."""
+    return (None, "map") if tabulated else (cells, f"2-D {cells[0]} x {cells[1]} extr.")
+
+
+def _rung(
+    name: str,
+    bearing: JournalBearing,
+    film: FilmLaw,
+    rich: tuple[tuple[int, int] | None, str],
+    position_prior: float,
+    slope_prior: float,
+    *,
+    bounded: bool = False,
+) -> FilmRung:
+    cells, rich_name = rich
+    return FilmRung(
+        name=name,
+        reaction=fitted_bearing(bearing, film),
+        rich=fitted_bearing(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
+        rich_name=rich_name,
+        position_prior=position_prior,
+        prior=slope_prior,
+        bounded=bounded,
+    )
+
+
+# A candidate of films: one that may answer, and the richer one that its defect is sampled with.
+
+
+MAP_MADE = WorkUnit("maps made", nominal=20.0)
+"""WorkUnit of the work of making a map."""
+
+CELL_TIME, CALL_TIME = 4e-7, 1e-5
+"""About what a force with derivatives takes for each cell of a grid, and in closed form or by a map [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmCandidate:
+    """A film that may answer, and the richer one that its defect is sampled with.
+
+    A family adds `on_grid`, and bounds and wedges of its own.
+
+    Attributes
+    ----------
+    name : str
+    reaction : Reaction
+        The bearing with this film.
+    rich : Reaction
+        With the richer one.
+    rich_name : str
+        Name of the richer film.
+    position_prior, prior : float [1]
+        Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
+    bounded : bool
+        Whether the error has one verified bound in any motion.
+    making : float [s]
+        About how long the map takes that its first force makes; 0 where there is none to make.
+    """
+
+    name: str
+    reaction: Any
+    rich: Any
+    rich_name: str
+    position_prior: float
+    prior: float
+    bounded: bool = False
+    making: float = 0.0
+
+    @property
+    def makes_map(self) -> bool:
+        """Whether its first force makes a map."""
+        return self.making > 0.0
+
+    @property
+    def map_made(self) -> WorkUnit:
+        """The work of making its map."""
+        return WorkUnit(MAP_MADE.name, ("map", self.reaction), nominal=self.making)
+
+    def at_temperature(self, temperature: float) -> Self:
+        """Return the candidate with films of an oil at one temperature [K]."""
+        own, rich = (one.at_temperature(temperature) for one in (self.reaction, self.rich))
+        return replace(self, reaction=own, rich=rich)
+
+    def frozen(self, film: Reaction) -> Self:
+        """Return the candidate with the bearing replaced by a film that keeps its temperature."""
+        return replace(self, reaction=film, bounded=False, making=0.0)
+
+    def time(self, tangents: int) -> float:
+        """Return about how long so many forces with derivatives take, with the map that is to be made [s]."""
+        return self.making + tangents * self.call_time
+
+    @property
+    def call_time(self) -> float:
+        """About what a force with derivatives takes [s]."""
+        return CALL_TIME
+
+    def prepare(self) -> dict[WorkUnit, int]:
+        """Make what the first force would make, and return the work of that."""
+        if not self.makes_map:
+            return {}
+        self.reaction.force([0.5 * room(self.reaction), 0.0], [0.0, 0.0], 1.0)
+        return {self.map_made: 1}
+
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
+        """Return the work of so many forces with derivatives."""
+        return {self.tangents: tangents, **({self.map_made: 1} if self.makes_map else {})}
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One force with derivatives; not to be tried where it would make a map."""
+        about = CALL_TIME if self.makes_map else math.nan
+        return WorkUnit(f"tangents of {self.name}", ("tangents", self.reaction), nominal=about)
+
+    def defects(self, *, smooth: bool) -> WorkUnit:
+        """Return the unit of the defects that correct one state, with exact or with smooth slopes."""
+        name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+        return WorkUnit(name, ("defects", smooth, self.rich))
+
+    def on_grid(self, bearing: Any) -> bool:
+        """Return whether the film of one of both bearings lives on a grid in two dimensions."""
+        raise NotImplementedError
+
+    def wedge(self, position: Array) -> float:
+        """Return the distance [m] by which the wedge of a journal at a position (2,) [m] is measured."""
+        return float(np.hypot(*position))
+
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
+        return math.inf
+
+    def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
+        """Return the verified bound of its error in an equilibrium; infinite without one.
+
+        Of the force, relative to the load, or with `slopes` of K and C.
+        """
+        return self.bound(at.eccentricity_ratio, slopes=slopes)
+
+    def loss_bound(self, eccentricity_ratio: float) -> float:
+        """Return the same of power loss and side flow, at an eccentricity ratio."""
+        return math.inf
+
+    def motion_bound(self, reach: float) -> float:
+        """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
+        return math.inf
+
+    @property
+    def supply_temperature(self) -> float:
+        """Of the fresh oil [K]; 0 without one."""
+        cooling = getattr(self.reaction, "cooling", None)
+        return 0.0 if cooling is None else float(cooling.supply_temperature)
+
+
+def room(bearing: JournalForce) -> float:
+    """Return how far a journal may go from the center in any direction [m]."""
+    return float(minimum_film(bearing, np.zeros(2)))
+
+
+# One rung of a journal film: a bearing with a film that may answer, what it costs, and how far it is off.
+
+
+MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
+"""Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
+
+LOSS_BOUNDS = ((0.95, 1e-3), (0.99, 3e-3))
+"""Eccentricity ratio up to which, and largest error of power loss and side flow there: docs/accuracy.md."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmRung(FilmCandidate):
+    """A film that may answer for a journal bearing.
+
+    The verified bound of `bounded` ones is `MAP_BOUNDS`; maps with openings have one at rest.
+
+    Attributes
+    ----------
+    reaction : JournalBearing
+        With this film.
+    rich : JournalBearing
+        With the richer one.
+    """
+
+    reaction: JournalBearing
+    rich: JournalBearing
+
+    @property
+    def call_time(self) -> float:
+        """About what a force with derivatives takes [s]."""
+        law = self.reaction.film
+        grid = law.film if isinstance(law, ExtrapolatedFilm) else law
+        return CELL_TIME * math.prod(grid.cells) if isinstance(grid, ReynoldsFilm) else CALL_TIME
+
+    def on_grid(self, bearing: JournalBearing) -> bool:
+        """Return whether the film of one of both bearings lives on a grid in two dimensions."""
+        return is_grid(bearing)
+
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
+        if self.bounded:
+            for reach, position, slope in MAP_BOUNDS:
+                if eccentricity_ratio <= reach:
+                    return slope if slopes else position
+        film = self.reaction.fitted_film if isinstance(self.reaction, JournalBearing) else None
+        if isinstance(film, GroovedMapFilm):
+            return film.built_table(self.reaction.slenderness).bound(eccentricity_ratio, slopes=slopes)
+        return math.inf
+
+    def loss_bound(self, eccentricity_ratio: float) -> float:
+        """Return the same of power loss and side flow."""
+        within = (bound for reach, bound in LOSS_BOUNDS if eccentricity_ratio <= reach)
+        return next(within, math.inf) if self.bounded else math.inf
+
+    def motion_bound(self, reach: float) -> float:
+        """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
+        return MAP_BOUNDS[0][2] if self.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
+
+
+def is_grid(bearing: JournalBearing) -> bool:
+    """Return whether the film of a bearing lives on a grid in two dimensions."""
+    return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
+
+
+# What the richer film of a candidate makes of an equilibrium: its tangent there, and a few linear steps.
+
+
+STEP = 0.05
+"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
+
+Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
+a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
+and so is the squeeze, relative to the wedge, that moves its edge.
+"""
+
+NEUTRAL = 1e-9
+"""Stiffness in one direction over that in the other below which it is none: where one tilting pad carries."""
+
+
+def tangent(
+    bearing: JournalForce, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
+) -> tuple[Array, Array]:
+    """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
+
+    Parameters
+    ----------
+    bearing : Reaction
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    smooth : bool
+        Whether the derivatives in the source are taken from differences, `STEP`: of a film on a grid.
+    wedge : float [m]
+        By which the wedge is measured; None for the distance from the center.
+    """
+    rest = np.zeros(2)
+    slopes = bearing.jacobian(position, rest, speed)[:, :4]
+    if not smooth:
+        return bearing.force(position, rest, speed), slopes
+    distance = float(np.hypot(*position)) if wedge is None else wedge
+    thin = math.sqrt(relative_film(bearing, position))
+    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
+    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
+    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
+    low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
+    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
+    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
+    change = by_velocity - slopes[:, 2:]
+    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
+    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corrected:
+    """Where the richer film would have its equilibrium, by one linear step from another's.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+    slopes : ndarray, shape (2, 4)
+        d force/d(x, y, vx, vy) of the richer film there.
+    doubt : str
+        Why it must not be trusted.
+    """
+
+    position: Array
+    slopes: Array
+    doubt: str
+
+
+def corrected(film: FilmCandidate, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
+    """Return the equilibrium of the richer film as far as its defect tells.
+
+    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
+    defects there, with the same K, take out what is of second and third order. The first step is tried with
+    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
+    those of the richer film where that ends.
+    """
+    force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
+    cheap = film.reaction.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
+    step, other = (_step(slopes, force + load) for slopes in (rich, cheap))
+    doubt = ""
+    gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
+    if gap > DISAGREEMENT * longest:
+        doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
+    position = at.position
+    for further in range(3):
+        if further:
+            step = _step(rich, film.rich.force(position, np.zeros(2), at.speed) + load)
+        position = position + step
+        if float(minimum_film(film.rich, position)) <= (1.0 - MAXIMUM_ECCENTRICITY) * film.rich.clearance:
+            return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
+    slopes = rich_tangent(film, position, at.speed)[1] if smooth else rich
+    return Corrected(position=position, slopes=slopes, doubt=doubt)
+
+
+def _step(slopes: Array, force: Array) -> Array:
+    """Return by how much a force (2,) [N] moves the journal, least where nothing holds it in a direction."""
+    return np.asarray(np.linalg.lstsq(-slopes[:, :2], force, rcond=NEUTRAL)[0])
+
+
+def rich_tangent(film: FilmCandidate, position: Array, speed: float) -> tuple[Array, Array]:
+    """Return force and slopes of the richer film, smooth where it lives on a grid."""
+    smooth = film.on_grid(film.rich)
+    return tangent(film.rich, position, speed, smooth=smooth, wedge=film.wedge(position))
+
+
+def one_defect(film: FilmCandidate, speed: float, *, smooth: bool) -> Callable[[], object]:
+    """Return a call that does the work of `corrected` for one candidate."""
+    bearing = film.rich
+    position = np.array([0.3, 0.4]) * room(bearing)
+
+    def one() -> None:
+        tangent(bearing, position, speed, smooth=False)
+        for _ in range(2):
+            bearing.force(position, np.zeros(2), speed)
+        if smooth:
+            rich_tangent(film, position, speed)
+
+    return one
+
+
+# A reaction that counts its evaluations: the work of a rung.
+
+
+class Counted(InertialModel):
+    """A static reaction, and how many forces and tangents it was asked for.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Without states.
+    """
+
+    def __init__(self, reaction: Reaction) -> None:
+        self._reaction = reaction
+        self.forces = 0
+        self.tangents = 0
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        return self._reaction.clearance
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the reaction is meant."""
+        return largest_eccentricity_ratio(self._reaction)
+
+    @property
+    def nominal_force(self) -> float:
+        """Nominal force [N]."""
+        return self._reaction.outputs[0].nominal
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the force (2, ...) [N], one count for each state."""
+        result = self._reaction.force(position, velocity, speed)
+        self.forces += int(np.prod(result.shape[1:], dtype=int))
+        return result
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d force/d(x, y, vx, vy, speed) (2, 5, ...), one count for each state."""
+        result = self._reaction.jacobian(position, velocity, speed)
+        self.tangents += int(np.prod(result.shape[2:], dtype=int))
+        return result
+
+    prepared_force, prepared_jacobian = force, jacobian
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the reaction has an added mass, which comes with its forces."""
+        return inertial(self._reaction) is not None
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the added mass [kg], shape (2, 2, ...)."""
+        return self._reaction.mass(position, velocity, speed)  # type: ignore[attr-defined]
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        return self._reaction.mass_slopes(position, velocity, speed)  # type: ignore[attr-defined]
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the inertia of the reaction ends, at a frequency [rad/s]."""
+        heavy = inertial(self._reaction)
+        if heavy is not None:
+            heavy.require_range(frequency)
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers."""
+        call = prepared_tangent(self._reaction)
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            self.tangents += 1
+            return call(x, y, vx, vy, speed)
+
+        return tangent
+
+
+class CountedWall(Counted):
+    """The same of a reaction that says itself where its journal touches."""
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
+        return minimum_film(self._reaction, require_vector("position", position))
+
+
+def counted_calls(reaction: Reaction) -> Counted:
+    """Return a reaction that counts its evaluations."""
+    return (CountedWall if isinstance(reaction, WalledReaction) else Counted)(reaction)

@@ -1,1 +1,0 @@
-"""Scenes of journal bearings: films, remarks, candidates."""

@@ -1,0 +1,395 @@
+"""The film, its rupture, and openings of the bearing in scene files: schema 1."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..analysis import equilibrium
+from ..bearings import journal
+from ..bearings.films.geometry import (
+    Complementarity,
+    FeedHole,
+    FreeStart,
+    FullFilm,
+    Groove,
+    HalfSommerfeld,
+    HeldLine,
+    Pad,
+    WidestGap,
+)
+from ..bearings.films.law import FilmLaw
+from ..bearings.films.mass_conserving import require_conserved_cells
+from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from ..bearings.oil.laminar import TAYLOR, TURBULENT, film_reynolds
+from ..bearings.oil.oil import compression
+from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
+from ..core.limits import FILM_CELLS, FUNCTIONS, MAP_NODES
+from ..core.readable import Readable
+from .families import Remark, said
+from .lubricant_table import Lubricant
+from .reading import Count, Counts, Keyed, Quantity, Variant, flag, made_from, takes
+
+ORDER = Count(FUNCTIONS)
+
+
+@takes([ORDER, (ORDER, {"inf": None})])
+def read_order(where: str, value: Any) -> tuple[int, int | None]:
+    """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {brief(value)}")
+    n, m = value
+    return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
+
+
+CELLS = Counts(("around", "along"), FILM_CELLS)
+"""Reader of the cells of a two-dimensional film, around it and along half its length."""
+
+NODES = Counts(("over", "turning", "moving"), MAP_NODES)
+"""Reader of the nodes of a map with openings."""
+
+RUPTURES: dict[str, Callable[[], Keyed]] = {
+    "fixed": lambda: Keyed(journal.FixedArc, {"start": Quantity("rad"), "extent": Quantity("rad")}),
+    "rotating": lambda: Keyed(journal.RotatingArc),
+    "reynolds": lambda: Keyed(journal.ReynoldsArc, {"start": Quantity("rad")}),
+    "complementarity": lambda: Keyed(journal.ComplementarityArc),
+}
+"""`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
+
+CAVITATIONS: dict[str, Keyed] = {
+    "complementarity": Keyed(Complementarity),
+    "half_sommerfeld": Keyed(HalfSommerfeld),
+    "full": Keyed(FullFilm),
+}
+"""What the two-dimensional film does in tension, by name."""
+
+STARTS: dict[str, Keyed] = {
+    "free": Keyed(FreeStart),
+    "widest_gap": Keyed(WidestGap),
+    "line": Keyed(HeldLine, {"line": Quantity("rad")}),
+}
+"""Where the two-dimensional film of a bearing without openings starts, by name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConservedOil:
+    """`film = {name = "jfo"}`: the film that conserves its oil, which is no law of the moment; see `JFOFilm`.
+
+    Parameters
+    ----------
+    cells : tuple of int
+    """
+
+    cells: tuple[int, int] = (144, 12)
+
+    def __post_init__(self) -> None:
+        require_conserved_cells(self.cells)
+
+
+FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
+    # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
+    "map": lambda: Keyed(journal.MapFilm),
+    "grooved_map": lambda: Keyed(
+        journal.GroovedMapFilm,
+        {"cells": CELLS, "nodes": NODES, "largest_eccentricity_ratio": Quantity("1")},
+    ),
+    "reynolds": lambda: Keyed(
+        journal.ReynoldsFilm,
+        {
+            "cells": CELLS,
+            "cavitation": Variant("kind", CAVITATIONS),
+            "film_start": Variant("kind", STARTS),
+        },
+    ),
+    "jfo": lambda: Keyed(ConservedOil, {"cells": CELLS}),
+    "short": lambda: Keyed(journal.ShortFilm),
+    "splitting": lambda: Keyed(
+        journal.SplittingFilm,
+        {"order": read_order, "constant": flag, "rupture": Variant("kind", RUPTURES)},
+        required=("order",),
+    ),
+}
+"""`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
+
+PAD = Keyed(Pad, {"start": Quantity("rad"), "extent": Quantity("rad")})
+"""`pads = [{start, extent}]`: a fixed pad."""
+
+GROOVE = Keyed(Groove, {"center": Quantity("rad"), "width": Quantity("rad"), "length": Quantity("m")})
+"""`grooves = [{center, width, length}]`: an axial groove."""
+
+FEED_HOLE = Keyed(FeedHole, {"center": Quantity("rad"), "diameter": Quantity("m")})
+"""`feed_holes = [{center, diameter}]`: a round hole at mid-length."""
+
+
+# Which journals the map that comes with the package holds.
+
+
+TABLE_RANGE = (0.1, 4.0)
+"""Length / diameter of the map that is there from the start; other bearings have to make theirs."""
+
+
+def has_map(bearing: JournalBearing) -> bool:
+    """Return whether the map that comes with the package holds a bearing."""
+    low, high = TABLE_RANGE
+    return bearing.geometry.plain and low <= bearing.slenderness <= high
+
+
+# What the physics of every rung leaves out, judged by dimensionless numbers.
+
+
+ATMOSPHERE = 1e5
+"""Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
+
+NOTABLE = 0.25
+"""Relative change of the film that is worth a word."""
+
+TILT = 0.1
+"""Tilt of the journal [mrad] that an ordinary machine has; a smaller margin is worth a word."""
+
+
+COARSE = (48, 4)
+"""Cells of a film whose loss and flow tell how far the oil warms where its own would take long."""
+
+
+CONSERVED = (48, 4)
+"""The same of a film that conserves its oil."""
+
+
+CONCENTRIC = 1e-3
+"""Eccentricity ratio below which nothing to speak of flows out of a film."""
+
+SLIGHT = 0.1
+"""Eccentricity ratio below which the oil that leaves is too little to take all heat along."""
+
+
+REMARKS = (
+    Remark(
+        "thinning",
+        NOTABLE,
+        "heat: the oil warms by about {warming:.2g} K ({power:.3g} W in the film, {side_flow:.3g} m3/s out "
+        "of its ends, Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+        moves="heat",
+    ),
+    Remark(
+        "unknown",
+        0.0,
+        "heat: not known, as the coarse film that would tell it has no answer under this load",
+    ),
+    Remark(
+        "turbulence",
+        0.0,
+        f"turbulence: Taylor vortices above {TAYLOR}, the film has {{taylor:.3g}}; turbulent above Reynolds "
+        f"number {TURBULENT:g}, it has {{reynolds:.4g}}",
+        moves="turbulence",
+    ),
+    Remark("inertia", 1.0, "inertia of the film: {inertia:.2g} of the viscous stress"),
+    Remark(
+        "pressure",
+        1.0,
+        "cavitation: the load makes {pressure:.2g} times the ambient pressure, so that the oil may hold "
+        "tension and rupture elsewhere",
+        below=True,
+    ),
+    Remark(
+        "compression",
+        0.01,
+        "compressibility: {compression:.2%} by the mean pressure",
+        moves="compressibility",
+    ),
+    Remark(
+        "tilt",
+        TILT,
+        "misalignment: a tilt of {tilt:.2g} mrad closes even a centered film",
+        below=True,
+    ),
+)
+"""What the physics of a journal's film leaves out, by the numbers of `journal_numbers`."""
+
+
+def journal_numbers(
+    bearing: JournalBearing,
+    oil: Lubricant,
+    speed: float,
+    load: tuple[float, float],
+    film: Any = None,
+) -> dict[str, float]:
+    """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
+
+    Loss and flow are those of a film, or if None is given of a quick one of the bearing.
+
+    Returns
+    -------
+    dict of str to float
+        reynolds : speed R c/nu; taylor : that times sqrt(c/R). Laminar below `TURBULENT` and `TAYLOR`.
+        turbulence : how much stiffer it makes the film, about; 0 of a laminar one.
+        inertia : speed c^2/nu, inertia of the film over its viscous stress.
+        peclet : speed c^2/diffusivity, heat carried along over heat conducted across the film.
+        power [W] : loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow,
+        warming and thinning are, where the coarse film has no answer; `unknown` is 1 then, else 0.
+        side_flow [m3/s] : oil that leaves at both ends.
+        warming [K] : rise of temperature, of the oil that leaves (Peclet number above 1) or between cold
+        walls; thinning : relative loss of viscosity by that.
+        pressure : mean pressure of the load over the ambient one: how much the rupture pressure matters.
+        compression : mean pressure of the load over the bulk modulus.
+        tilt [mrad] : of the journal, that closes even a centered film.
+
+    Notes
+    -----
+    The oil that leaves carries the power that the film takes, both of an isothermal film under the load.
+    Between cold walls, and where nothing flows, the middle of the film is warmer by viscosity U^2/(8
+    conductivity). Between an eccentricity ratio of `SLIGHT` and the center one passes into the other with the
+    square of the ratio, since power/flow grows as its inverse.
+    """
+    R, c, mu, omega = bearing.radius, bearing.clearance, bearing.film_viscosity, abs(speed)
+    volumetric = oil.density * oil.heat_capacity
+    numbers = film_numbers((R, bearing.length, c, mu), oil, speed, load)
+    peclet = numbers["peclet"]
+    power, flow, eccentricity_ratio = film_loss(bearing, speed, load, film)
+    conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
+    carried = power / (volumetric * flow) if flow else conducted
+    share = min(eccentricity_ratio / SLIGHT, 1.0) ** 2
+    warming = min(carried, conducted + share * (carried - conducted))
+    if peclet <= 1.0:
+        warming = min(warming, conducted)
+    return {
+        **numbers,
+        "power": power,
+        "side_flow": flow,
+        "warming": warming,
+        "unknown": float(math.isnan(warming)),
+        # A bearing that is given its oil is answered as warm as it gets.
+        "thinning": 0.0 if bearing.oil is not None else -math.expm1(-oil.thinning * warming),
+    }
+
+
+def film_numbers(
+    dimensions: tuple[float, float, float, float], oil: Lubricant, speed: float, load: tuple[float, float]
+) -> dict[str, float]:
+    """Return the numbers of `journal_numbers` that need no film.
+
+    Parameters
+    ----------
+    dimensions : (float, float, float, float) [m], [m], [m], [Pa s]
+        Radius, length, clearance and viscosity.
+    oil : Lubricant
+    speed : float [rad/s]
+    load : (float, float) [N]
+    """
+    (R, L, c, mu), omega = dimensions, abs(speed)
+    kinematic = mu / oil.density
+    compressed = compression(load, R, L, oil.bulk_modulus)
+    flow = film_reynolds(R, c, mu, oil.density, omega)
+    return {
+        "reynolds": flow.reynolds,
+        "taylor": flow.taylor,
+        "turbulence": flow.turbulence,
+        "inertia": omega * c**2 / kinematic,
+        "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
+        "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
+        "compression": compressed,
+        "tilt": 2e3 * c / L,
+    }
+
+
+def film_loss(
+    bearing: JournalBearing, speed: float, load: tuple[float, float], film: Any = None
+) -> tuple[float, float, float]:
+    """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
+
+    If none is given it is the film of the bearing where that is quick: a map of the package, or the short
+    film; else a coarse grid. Not-a-number, all three, where that film has no answer under the load.
+    """
+    R, L, c = bearing.radius, bearing.length, bearing.clearance
+    concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0
+    if not speed or not any(load):
+        return concentric
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        try:
+            at = equilibrium(film or _quick(bearing), load, speed)
+            losses = at.losses
+        except RotorfilmError:
+            return math.nan, math.nan, math.nan
+    if at.eccentricity_ratio < CONCENTRIC or losses is None:
+        return concentric
+    return float(losses.power_loss), float(losses.side_flow), at.eccentricity_ratio
+
+
+def _quick(bearing: JournalBearing) -> JournalBearing:
+    """Return the bearing with its own film, or with one on a coarse grid."""
+    film = bearing.fitted_film
+    if isinstance(film, ShortFilm) or (isinstance(film, MapFilm) and has_map(bearing)):
+        return bearing
+    coarse = replace(film if isinstance(film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
+    return replace(bearing, film=coarse)
+
+
+def film_remarks(
+    bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N].
+
+    Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
+    """
+    remarks: tuple[Remark, ...] = REMARKS
+    film: Any = None
+    if isinstance(bearing, JFOFilm):
+        film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
+    if bearing.is_warming:
+        remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
+        bearing = _warmed(bearing, film or _quick(bearing), speed, load)
+        film = film and film.at_temperature(bearing.temperature)
+    return said(remarks, journal_numbers(bearing, oil, speed, load, film))
+
+
+def _warmed(bearing: JournalBearing, quick: Any, speed: float, load: tuple[float, float]) -> JournalBearing:
+    """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        try:
+            temperature = equilibrium(quick, load, speed).temperature
+        except RotorfilmError:
+            temperature = None
+    return bearing.at_temperature(bearing.coldest() if temperature is None else temperature)
+
+
+# What an answer repeats of the question: the bearing in SI, and the film law that answered.
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingData(Readable):
+    """A journal bearing as it was understood.
+
+    Attributes
+    ----------
+    radius, length, clearance : float [m]
+    slenderness : float [1]
+        Length / diameter of the film.
+    viscosity : float [Pa s]
+        Of the film, or of fresh oil where the temperature follows from the balance of its heat.
+    pads : tuple of Pad
+        Empty for the full circumference; angles in the bearing frame [rad].
+    grooves : tuple of Groove or FeedHole
+        Angles in the bearing frame [rad].
+    supply_pressure : float [Pa]
+        Gauge pressure in grooves and holes.
+    circumferential_groove : float or None [m]
+        Axial width of a groove all round; None for none.
+    """
+
+    radius: float
+    length: float
+    slenderness: float
+    clearance: float
+    viscosity: float
+    pads: tuple[Pad, ...]
+    grooves: tuple[Groove | FeedHole, ...]
+    supply_pressure: float
+    circumferential_groove: float | None = None
+
+
+def bearing_data(bearing: JournalBearing) -> BearingData:
+    """Return what a journal bearing is, without its film."""
+    viscosity = bearing.film_viscosity
+    return made_from(BearingData, bearing, slenderness=bearing.slenderness, viscosity=viscosity)

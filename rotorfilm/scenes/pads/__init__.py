@@ -1,1 +1,0 @@
-"""Scenes of bearings made of pads: tables, candidates, remarks."""

@@ -1,0 +1,582 @@
+"""`[ball_bearing]` of a scene: a ball bearing by its dimensions, or a pair of them."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, NamedTuple, Self
+
+import numpy as np
+
+from ..analysis import equilibrium
+from ..bearings.rolling import (
+    BallBearing,
+    BallLoads,
+    BearingPair,
+    RaceControl,
+    RollingMaterial,
+    RunningBalls,
+    StaticBalls,
+    back_to_back,
+    ball_films,
+    face_to_face,
+    film_parameter,
+)
+from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief, require_positive
+from ..core.model import Array
+from ..core.progress import Report
+from ..core.readable import Readable
+from .families import Remark, said
+from .lubricant_table import Lubricant, LubricantTable
+from .reading import Count, Keyed, Named, Quantity, Table, flag, made_from, one_of, takes
+
+MOST_BALLS = 200
+"""Balls of a row: thin slewing rings have about so many."""
+
+ARRANGEMENTS: dict[str, Callable[..., BearingPair]] = {
+    "back_to_back": back_to_back,
+    "face_to_face": face_to_face,
+    "tandem": lambda bearing, distance, **_: BearingPair(
+        bearing=bearing, distance=distance, directions=(1, 1)
+    ),
+}
+"""Pairs, by the name in scene files."""
+
+MATERIALS = {"steel": RollingMaterial.steel, "silicon_nitride": RollingMaterial.silicon_nitride}
+OWN_MATERIAL = Keyed(
+    RollingMaterial,
+    {"young_modulus": Quantity("Pa"), "poisson_ratio": Quantity("1"), "density": Quantity("kg/m3")},
+)
+INERTIAS = {"static": StaticBalls, "running": RunningBalls, "race_control": RaceControl}
+BALL_LAWS = {
+    "traction_coefficient": RunningBalls,
+    "slide_to_roll_ratio": RunningBalls,
+    "outer_control": RaceControl,
+}
+"""Which law a number of the table belongs to."""
+
+
+@takes(Named(MATERIALS), Table(OWN_MATERIAL))
+def read_material(where: str, value: Any) -> RollingMaterial:
+    """Read the name of a material, or its properties."""
+    if isinstance(value, str):
+        return Named(MATERIALS)(where, value)
+    return Table(OWN_MATERIAL)(where, value)
+
+
+@takes([Quantity("rad"), Quantity("rad")])
+def read_tilt(where: str, value: Any) -> tuple[float, float]:
+    """Read two angles."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise SceneError(f"{where} must be two angles, about x and about y, got {brief(value)}")
+    about_x, about_y = (Quantity("rad")(f"{where}[{k}]", one) for k, one in enumerate(value))
+    return about_x, about_y
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallTable:
+    """`[ball_bearing]`: a deep groove or angular contact ball bearing, or a pair of angular contact bearings.
+
+    Parameters
+    ----------
+    balls : int
+        Number of balls of a row.
+    ball_diameter, pitch_diameter : float [m]
+    internal_clearance : float or None [m]
+        Radial internal clearance of a deep groove bearing; give this or the contact angle.
+    contact_angle : float or None [rad]
+        Of the unloaded balls of an angular contact bearing.
+    inner_conformity, outer_conformity : float [1]
+        Groove radius over ball diameter.
+    ball_material, ring_material : RollingMaterial
+        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density.
+    growth : float [m]
+        Radial growth of the inner ring.
+    axial_displacement : float [m]
+        z of the shaft, where there is no axial load.
+    axial_load : float or None [N]
+        External force along z, to which z gives way.
+    tilt : (float, float) [rad]
+        Of the shaft about x and y, held.
+    cage_angle : float [rad]
+        Where the first ball is.
+    damping : float [N s/m]
+        Beside the balls.
+    arrangement : str or None
+        Of a pair: "back_to_back", "face_to_face", "tandem"; None for one bearing.
+    distance : float or None [m]
+        Of the rows of a pair.
+    preload : float or None [N]
+        Of a pair, as clamped at rest, dry and without growth.
+    inertia : StaticBalls or RunningBalls or RaceControl or None
+        "static" balls, "running" ones that friction holds, or "race_control"; if the file does not say,
+        running ones, or what a question needs.
+    traction_coefficient, slide_to_roll_ratio : float or None [1]
+        Of running balls; None for 0.06 and 0.005.
+    outer_control : bool or None
+        Whether balls under race control spin on the inner race only; None for true.
+    viscosity : float or None [Pa s]
+        Of the oil on the races; None without oil, or where `[lubricant]` gives it.
+    pressure_coefficient : float or None [1/Pa]
+        Of that viscosity.
+    roughness : float or None [m]
+        Of ball and race together, for the film parameter.
+    """
+
+    balls: Annotated[int, Count(MOST_BALLS, 3)]
+    ball_diameter: Annotated[float, Quantity("m")]
+    pitch_diameter: Annotated[float, Quantity("m")]
+    internal_clearance: Annotated[float | None, Quantity("m")] = None
+    contact_angle: Annotated[float | None, Quantity("rad")] = None
+    inner_conformity: Annotated[float, Quantity("1")] = BallBearing.inner_conformity
+    outer_conformity: Annotated[float, Quantity("1")] = BallBearing.outer_conformity
+    ball_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
+    ring_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
+    growth: Annotated[float, Quantity("m")] = 0.0
+    axial_displacement: Annotated[float, Quantity("m")] = 0.0
+    axial_load: Annotated[float | None, Quantity("N")] = None
+    tilt: Annotated[tuple[float, float], read_tilt] = (0.0, 0.0)
+    cage_angle: Annotated[float, Quantity("rad")] = 0.0
+    damping: Annotated[float, Quantity("N.s/m")] = 0.0
+    arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
+    distance: Annotated[float | None, Quantity("m")] = None
+    preload: Annotated[float | None, Quantity("N")] = None
+    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, Named(INERTIAS)] = None
+    traction_coefficient: Annotated[float | None, Quantity("1")] = None
+    slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
+    outer_control: Annotated[bool | None, flag] = None
+    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    pressure_coefficient: Annotated[float | None, Quantity("1/Pa")] = None
+    roughness: Annotated[float | None, Quantity("m")] = None
+
+    def __post_init__(self) -> None:
+        for name in ("viscosity", "pressure_coefficient", "roughness"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
+        if self.viscosity is not None and self.pressure_coefficient is None:
+            raise InputError("pressure_coefficient must be given with a viscosity, got None")
+        if self.arrangement is None:
+            for name in ("distance", "preload"):
+                if getattr(self, name) is not None:
+                    raise InputError(f"{name} must be given with an arrangement, got {getattr(self, name)!r}")
+        elif self.distance is None:
+            raise InputError("distance must be given with an arrangement, got None")
+        self.build()
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the inertia of the balls, so that no other law may answer."""
+        return self.inertia is not None
+
+    @property
+    def oil(self) -> RaceOil | None:
+        """The oil on the races; None without."""
+        if self.viscosity is None or self.pressure_coefficient is None:
+            return None
+        return RaceOil(self.viscosity, self.pressure_coefficient)
+
+    def on(self, where: str, lubricant: LubricantTable) -> Self:
+        """Return this table with the viscosity of the scene's fresh oil, unless it has its own.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+        """
+        if self.viscosity is not None or not lubricant.has_viscosity:
+            return self
+        if self.pressure_coefficient is None:
+            raise InputError(f"{where}.pressure_coefficient is required where [lubricant] gives an oil")
+        fresh = lubricant.cooling.supply_temperature
+        return replace(self, viscosity=float(lubricant.oil.viscosity(fresh)))
+
+    def _law(self) -> StaticBalls | RunningBalls | RaceControl:
+        """Return the law of the balls with the numbers that the file gives."""
+        law = self.inertia or RunningBalls()
+        given = {name: getattr(self, name) for name in BALL_LAWS if getattr(self, name) is not None}
+        for name, value in given.items():
+            if not isinstance(law, BALL_LAWS[name]):
+                called = next(one for one, kind in INERTIAS.items() if kind is BALL_LAWS[name])
+                raise InputError(f"{name} must be given with inertia {called!r}, got {value!r}")
+        return replace(law, **given)
+
+    def build(self) -> Balls:
+        """Return the bearing, its contacts dry; raise InputError where a value breaks its rule."""
+        law = self._law()
+        place = {
+            name: getattr(self, name) for name in ("axial_displacement", "axial_load", "tilt", "damping")
+        }
+        if self.arrangement is None:
+            return made_from(BallBearing, self, law=law)
+        alone = {"axial_displacement": 0.0, "axial_load": None, "tilt": (0.0, 0.0), "damping": 0.0}
+        one = made_from(BallBearing, self, law=law, **alone)
+        if self.arrangement == "tandem" and self.preload is not None:
+            raise InputError(f"preload must not be given in tandem, got {self.preload!r}")
+        pair = ARRANGEMENTS[self.arrangement](one, distance=self.distance, preload=self.preload)
+        return replace(pair, **place)
+
+    def echo(self, bearing: Balls) -> tuple[Readable, str]:
+        """Return what an answer repeats of the bearing, and the name of the law of its balls."""
+        name = law_name(bearing)
+        if isinstance(bearing, BearingPair):
+            return made_from(PairData, self, arrangement=self.arrangement or "", preload=self.preload), name
+        return made_from(BallData, self), name
+
+    def remarks(
+        self,
+        bearing: Balls,
+        oil: Lubricant,
+        speed: float,
+        load: tuple[float, float],
+    ) -> tuple[str, ...]:
+        """Return what its physics leaves out and should not."""
+        return ball_remarks(bearing, speed, load, self.oil, self.roughness)
+
+    def make_map(self, report: Report) -> None:
+        """Do nothing: ball bearings have no map."""
+
+
+LAW_NAMES = {
+    StaticBalls: "static balls",
+    RunningBalls: "running balls",
+    RaceControl: "running balls under race control",
+}
+
+
+def law_name(bearing: Balls) -> str:
+    """Return what the law of the balls is called in print."""
+    single = single_of(bearing)
+    name = next(called for law, called in LAW_NAMES.items() if isinstance(single.law, law))
+    return f"{name} on films" if any(single.films) else name
+
+
+# What answers repeat of ball bearings.
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallData(Readable):
+    """A ball bearing as it was understood.
+
+    Attributes
+    ----------
+    balls : int
+        Of a row.
+    ball_diameter, pitch_diameter : float [m]
+    internal_clearance : float or None [m]
+    contact_angle : float or None [rad]
+    inner_conformity, outer_conformity : float [1]
+    growth : float [m]
+        Of the inner ring.
+    axial_load : float or None [N]
+    """
+
+    balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    internal_clearance: float | None
+    contact_angle: float | None
+    inner_conformity: float
+    outer_conformity: float
+    growth: float
+    axial_load: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairData(BallData):
+    """A pair of ball bearings as it was understood.
+
+    Attributes
+    ----------
+    arrangement : str
+    distance : float [m]
+        Of the rows.
+    preload : float or None [N]
+        As clamped.
+    """
+
+    arrangement: str
+    distance: float
+    preload: float | None
+
+
+# A shaft at rest in ball bearings: where it is, what each ball carries, and what follows from that.
+
+
+Balls = BallBearing | BearingPair
+
+STEPS, EXACT = 3, 1e-9
+"""Newton steps by which a richer law moves a rest, and the share of the load that may be left of it."""
+
+
+class RaceOil(NamedTuple):
+    """The oil on the races.
+
+    Attributes
+    ----------
+    viscosity : float [Pa s]
+        At ambient pressure and the temperature of the races.
+    pressure_coefficient : float [1/Pa]
+    """
+
+    viscosity: float
+    pressure_coefficient: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RestingBalls:
+    """A shaft at rest, or nearly so, in a bearing.
+
+    Attributes
+    ----------
+    bearing : BallBearing or BearingPair
+    position : ndarray, shape (2,) [m]
+    displacement : ndarray, shape (5,) [m]
+        x, y, z [m], tilt_x, tilt_y [rad].
+    speed : float [rad/s]
+    force : ndarray, shape (2,) [N]
+        On the shaft.
+    stiffness : ndarray, shape (2, 2) [N/m]
+        Over x and y; z gives way where there is an axial load.
+    axial_stiffness : float [N/m]
+        Over z, with x, y and tilts held.
+    balls : BallLoads
+    """
+
+    bearing: Balls
+    position: Array
+    displacement: Array
+    speed: float
+    force: Array
+    stiffness: Array
+    axial_stiffness: float
+    balls: BallLoads
+
+    @property
+    def most_loaded(self) -> int:
+        """Which ball presses most on the inner ring."""
+        return int(np.argmax(self.balls.inner_load))
+
+    @property
+    def contact_load(self) -> float:
+        """Largest load of a contact [N]."""
+        return float(max(self.balls.inner_load.max(), self.balls.outer_load.max()))
+
+    @property
+    def contact_angle(self) -> float:
+        """Inner contact angle of the most loaded ball [rad]."""
+        return float(self.balls.inner_angle[self.most_loaded])
+
+    @property
+    def relative_film(self) -> float:
+        """Both films over the approach of both contacts, at the mean load of the balls that carry [1]."""
+        single = single_of(self.bearing)
+        carrying = self.balls.inner_load > 0.0
+        means = [float(loads[carrying].mean()) for loads in (self.balls.inner_load, self.balls.outer_load)]
+        approach = sum(one.approach(load) for one, load in zip(single.contacts, means, strict=True))
+        return sum(single.films) / approach
+
+    def film_parameter(self, oil: RaceOil, roughness: float) -> float:
+        """Return lambda [1], the smallest film thickness over the roughness [m]."""
+        return film_parameter(
+            single_of(self.bearing), self.balls, speed=self.speed, **oil._asdict(), roughness=roughness
+        )
+
+
+def single_of(bearing: Balls) -> BallBearing:
+    """Return a bearing itself, or one of a pair."""
+    return bearing.bearing if isinstance(bearing, BearingPair) else bearing
+
+
+def with_single(bearing: Balls, single: BallBearing) -> Balls:
+    """Return a bearing, or a pair, made of another single bearing."""
+    return replace(bearing, bearing=single) if isinstance(bearing, BearingPair) else single
+
+
+def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
+    """Return what the balls of a shaft at a position (2,) [m] do, z and tilts as the bearing says."""
+    x, y = position.tolist()
+    tangent = bearing.prepare_tangent()
+    *force, slopes = tangent(x, y, 0.0, 0.0, speed)
+    displacement = np.array([x, y, bearing.axial_place(position, speed), *bearing.tilt])
+    return RestingBalls(
+        bearing=bearing,
+        position=position,
+        displacement=displacement,
+        speed=speed,
+        force=np.array(force),
+        stiffness=-np.array(slopes).reshape(2, 5)[:, :2],
+        axial_stiffness=float(bearing.stiffness(displacement, speed)[2, 2]),
+        balls=bearing.loads(displacement, speed),
+    )
+
+
+def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> RestingBalls:
+    """Return the equilibrium under a load [N], sought from that of static balls, or without one the center.
+
+    Raises
+    ------
+    InputError
+        If there is no load, and thrust or preload do not center the shaft.
+    """
+    free = not any(load)
+    try:
+        place = np.zeros(2) if free else equilibrium(still(bearing), load, speed).position
+        near = rest_at(still(bearing), place, speed)
+        found, left = moved_to(bearing, near, load)
+    except RotorfilmError:
+        left = math.inf
+    if free and not left <= EXACT:
+        raise InputError(
+            "load must not be zero for balls that neither thrust nor preload centers, got [0, 0]"
+        )
+    return found if left <= EXACT else rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
+
+
+def still(bearing: Balls) -> Balls:
+    """Return a bearing with static balls."""
+    return with_single(bearing, replace(single_of(bearing), law=StaticBalls()))
+
+
+def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> tuple[RestingBalls, float]:
+    """Return where a richer law takes a rest, by Newton steps, and what of the load is left [1].
+
+    Without a load, what is left over the largest load of a contact.
+    """
+    at = rest_at(bearing, near.position, near.speed)
+    for _ in range(STEPS):
+        step = np.linalg.lstsq(at.stiffness, at.force + load, rcond=1e-9)[0]
+        at = rest_at(bearing, at.position + step, near.speed)
+    size = np.hypot(*load) if any(load) else at.contact_load
+    return at, float(np.hypot(*(at.force + load)) / size) if size > 0.0 else math.inf
+
+
+def rest_near(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> RestingBalls:
+    """Return the equilibrium of another law, sought first from that of one near it."""
+    at, left = moved_to(bearing, near, load)
+    return at if left <= EXACT else rest_under(bearing, load, near.speed)
+
+
+def on_films(near: RestingBalls, oil: RaceOil) -> Balls:
+    """Return the bearing of a rest with the oil films of its most loaded ball in all contacts."""
+    single = single_of(near.bearing)
+    load = float(near.balls.inner_load.max())
+    films = ball_films(single, load=load, speed=near.speed, **oil._asdict())
+    return with_single(near.bearing, replace(single, films=films))
+
+
+# What the physics of ball bearings leaves out, judged by numbers of a rest.
+
+
+APART, TOUCHING = 3.0, 1.0
+"""Film parameters above which the surfaces are apart, and below which they touch."""
+
+HEAVY = 0.06
+"""Centrifugal force over the contact load beyond which balls are not to be taken as static."""
+
+REMARKS = (
+    Remark(
+        "sliding",
+        1.0,
+        "sliding: the gyroscopic moment asks for a traction coefficient of {traction:.3g}, and balls slide "
+        "beyond about {most_traction:.3g}",
+    ),
+    Remark(
+        "lifted",
+        0.0,
+        "lift-off: {lifted:.0f} of {all:.0f} balls have left the inner race, or inertia only holds them, in "
+        "spite of thrust or preload",
+    ),
+    Remark("idle_rows", 0.0, "loss of contact: {idle_rows:.0f} of 2 rows carry nothing"),
+    Remark(
+        "neglected_inertia",
+        HEAVY,
+        "inertia: the centrifugal force of a ball would be {neglected_inertia:.2g} of the largest contact "
+        "load, and static balls have none",
+    ),
+    Remark(
+        "film_parameter",
+        TOUCHING,
+        "mixed lubrication: the film parameter is {film_parameter:.2g}, below 1 the surfaces touch",
+        below=True,
+    ),
+)
+"""What the physics of a ball bearing leaves out, by the numbers of `ball_numbers`."""
+
+
+def ball_numbers(rest: RestingBalls, oil: RaceOil | None, roughness: float | None) -> dict[str, float]:
+    """Return the numbers of a rest that decide on remarks.
+
+    Parameters
+    ----------
+    rest : RestingBalls
+    oil : RaceOil or None
+    roughness : float or None [m]
+
+    Returns
+    -------
+    dict of str to float
+        traction : traction coefficient that the gyroscopic moment asks for.
+        most_traction : that beyond which balls slide; sliding : the first over it.
+        lifted : balls that the rings do not press although thrust or preload should; all : all balls.
+        idle_rows : rows of a preloaded pair whose balls are not pressed.
+        neglected_inertia : centrifugal force over the largest contact load of static balls; else 0.
+        film_parameter : lambda, nan without oil and roughness.
+    """
+    balls, bearing = rest.balls, rest.bearing
+    idle = _idle(rest)
+    traction, most = float(balls.traction.max()), bearing.running[0].most_traction
+    known = oil is not None and roughness is not None and rest.speed != 0.0
+    return {
+        "traction": traction,
+        "most_traction": most,
+        "sliding": traction / most,
+        "lifted": float(idle.sum()),
+        "all": float(idle.size),
+        "idle_rows": float(_idle_rows(bearing, idle)),
+        "neglected_inertia": _neglected(bearing, rest),
+        "film_parameter": rest.film_parameter(oil, roughness) if known else float("nan"),  # type: ignore[arg-type]
+    }
+
+
+def ball_remarks(
+    bearing: Balls, speed: float, load: tuple[float, float], oil: RaceOil | None, roughness: float | None
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each; that there is no rest where there is none."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        try:
+            rest = rest_under(bearing, load, speed)
+        except RotorfilmError as error:
+            return (f"rest: none found, {error}",)
+        return said(REMARKS, ball_numbers(rest, oil, roughness))
+
+
+def _presses_all(bearing: Balls) -> bool:
+    preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
+    return preloaded or (single_of(bearing).separates and bearing.axial_load is not None)
+
+
+def _idle(rest: RestingBalls) -> Array:
+    """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
+    if not _presses_all(rest.bearing):
+        return np.zeros(rest.balls.inner_load.size, dtype=bool)
+    pressed = still(rest.bearing).loads(rest.displacement).inner_load
+    return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
+
+
+def _idle_rows(bearing: Balls, idle: Array) -> int:
+    if not isinstance(bearing, BearingPair):
+        return 0
+    return sum(bool(row.all()) for row in np.split(idle, 2))
+
+
+def _neglected(bearing: Balls, rest: RestingBalls) -> float:
+    """Return the centrifugal force that static balls do not have, over the largest contact load."""
+    single = single_of(bearing)
+    if not isinstance(single.law, StaticBalls):
+        return 0.0
+    running = with_single(bearing, replace(single, law=RunningBalls()))
+    centrifugal = running.loads(rest.displacement, rest.speed).centrifugal_force.max()
+    return float(centrifugal / rest.contact_load)

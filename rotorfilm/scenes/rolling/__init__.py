@@ -1,1 +1,0 @@
-"""Ball bearings by their dimensions in scene files."""

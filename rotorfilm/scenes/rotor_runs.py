@@ -1,0 +1,415 @@
+"""Runs of a scene's rotor on its films over time: run-ups, motors in place of a speed, ground that shakes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
+from ..bearings.seal import AnnularSeal
+from ..core.errors import ContactError, InputError, warn_user
+from ..core.inputs import arguments
+from ..core.model import Array, Reaction
+from ..core.progress import Report, silent
+from ..core.readable import Readable
+from ..core.results import Trajectory
+from ..rotors import (
+    FlexibleRotor,
+    MotorDrivenRotor,
+    ReducedRotor,
+    Reduction,
+    RigidRotor,
+    ShaftRotor,
+    ShakenBaseRotor,
+    SteadyRotor,
+    mount,
+    reduce_rotor,
+)
+from ..rotors.structure import station_names
+from .excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
+from .solve_shaft import added_unbalance
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+RTOL = 1e-6
+
+A_TURN = 24
+"""Samples in a turn at the highest speed."""
+
+FEWEST, MOST = 1001, 200_001
+"""Samples of a run."""
+
+BETWEEN = 8
+"""Places between two samples at which the spline through them is looked at."""
+
+OTHER_RUNS = {"blade_loss": "rotorfilm damper-run"}
+"""Command for an excitation that is none of these runs."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorRun(Readable):
+    """A motion of a rotor on its films.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+        Up to contact, if there is one.
+    peaks : mapping of str to float [m]
+        Greatest distance, among the samples, of each journal from the center of its bearing, and of each
+        probe from its place in a straight shaft.
+    at_rest : mapping of str to float [m]
+        The same at the beginning: how far the weight holds each down.
+    vibrations : mapping of str to float [m]
+        Greatest distance of each, among the samples, from its place at the beginning.
+    vibration_speeds : mapping of str to float [rad/s]
+        Speed of the shaft at that sample.
+    end_speed : float [rad/s]
+    contact_time : float or None [s]
+        When a journal reached the wall; None if none did.
+    """
+
+    trajectory: Trajectory
+    peaks: Mapping[str, float]
+    at_rest: Mapping[str, float]
+    vibrations: Mapping[str, float]
+    vibration_speeds: Mapping[str, float]
+    end_speed: float
+    contact_time: float | None = None
+
+    def _own_units(self) -> dict[str, str]:
+        return dict.fromkeys(self.peaks, "m")
+
+
+class _Parts(NamedTuple):
+    """A rotor at rest in its bearings, by station, and how long it runs [s]."""
+
+    rotor: RigidRotor | ShaftRotor
+    bearings: dict[str, Reaction]
+    duration: float
+    fastest: float
+
+
+def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
+    """Return the motion of a rotor on its films, from rest at `operation.speed` on.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a `[shaft]`, or with a `[rigid_rotor]` on a film that carries it. Its excitation is an unbalance,
+        a `run_up`, a `motor` or `ground`.
+    report : callable
+        Is told the progress.
+
+    Raises
+    ------
+    InputError
+        If the scene has no such rotor, or another excitation.
+    EquilibriumError
+        If a film cannot carry its load.
+
+    Warns
+    -----
+    ValidityWarning
+        Where the run is so long that its samples are fewer in a turn, and of seals, whose added mass is
+        left out.
+
+    Notes
+    -----
+    A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
+    A shaft on a motor is integrated by scipy, all else in C.
+    """
+    report(0.0, "equilibrium")
+    parts = _parts(scene)
+    report(0.05, "motion")
+    times = run_times(parts.duration, parts.fastest)
+    contact = None
+    try:
+        trajectory = _motion(scene, parts, times)
+    except ContactError as error:
+        trajectory = error.partial
+        if trajectory is None:
+            raise
+        contact = float(trajectory.time[-1])
+    report(1.0, "done")
+    places = _places(trajectory)
+    moved = {name: np.hypot(*(place - place[:, :1])) for name, place in places.items()}
+    return RotorRun(
+        trajectory=trajectory,
+        peaks={name: float(np.hypot(*place).max()) for name, place in places.items()},
+        at_rest={name: float(np.hypot(*place[:, 0])) for name, place in places.items()},
+        vibrations={name: float(far.max()) for name, far in moved.items()},
+        vibration_speeds={name: float(trajectory["speed"][far.argmax()]) for name, far in moved.items()},
+        end_speed=float(trajectory["speed"][-1]),
+        contact_time=contact,
+    )
+
+
+def run_times(duration: float, fastest: float) -> Array:
+    """Return the times [s] of the samples of a run up to a speed [rad/s]; warn of few in a turn."""
+    turns = fastest * duration / (2.0 * np.pi)
+    count = max(int(A_TURN * turns) + 1, FEWEST)
+    if count > MOST:
+        warn_user(
+            f"{MOST} samples of a run are {(MOST - 1) / turns:.3g} in a turn at the highest speed, fewer "
+            f"than {A_TURN}: peaks may lie between them; a shorter operation.duration has more"
+        )
+    return np.linspace(0.0, duration, min(count, MOST))
+
+
+def largest_distance(time: Array, x: Array, y: Array) -> float:
+    """Return the largest distance from the origin of the splines through samples (n,) [m]."""
+    share = np.arange(BETWEEN) / BETWEEN
+    fine = np.append((time[:-1, None] + np.diff(time)[:, None] * share).ravel(), time[-1])
+    return float(np.hypot(CubicSpline(time, x)(fine), CubicSpline(time, y)(fine)).max())
+
+
+def run_span(scene: Scene) -> tuple[float, float]:
+    """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
+    excitation, speed, duration = scene.excitation, scene.speed, None
+    fastest = abs(speed)
+    if isinstance(excitation, RunUpTable):
+        duration = excitation.profile(speed).times[-1]
+        fastest = max(fastest, abs(excitation.end_speed))
+    if isinstance(excitation, MotorTable):
+        fastest = max(fastest, abs(excitation.idle_speed))
+    given = None if scene.operation is None else scene.operation.duration
+    if isinstance(excitation, GroundTable) and given is None:
+        duration = excitation.end
+    return duration or scene.duration, fastest
+
+
+def _parts(scene: Scene) -> _Parts:
+    """Return the rotor of a scene at rest in its bearings."""
+    excitation = scene.excitation
+    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
+    duration, fastest = run_span(scene)
+    rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
+    if isinstance(excitation, RunUpTable):
+        rotor = replace(rotor, speed=excitation.profile(scene.speed))
+    return _Parts(rotor, bearings, duration, fastest)
+
+
+def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
+    """Return the shaft of a scene, and its bearings."""
+    assert scene.shaft is not None
+    extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
+    rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
+    bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
+    still = rotor_equilibrium(rotor, bearings, scene.speed).displacement
+    return replace(rotor, initial=(*still, *0.0 * still)), bearings
+
+
+def _massless(name: str, bearing: Reaction) -> Reaction:
+    """Return a bearing that the compiled integration takes: a seal without its added mass, and a warning."""
+    if not isinstance(bearing, AnnularSeal):
+        return bearing
+    warn_user(f"the added mass of the seal {name!r} is left out of a run over time")
+    return replace(bearing, added_mass=False)
+
+
+def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
+    """Return the rigid rotor of a scene, and its bearing."""
+    rotor, bearing = _rigid_parts(scene)
+    if isinstance(scene.excitation, UnbalanceTable):
+        if rotor.unbalance:
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {scene.excitation.unbalance:g} kg m"
+            )
+        one = scene.excitation
+        rotor = replace(rotor, unbalance=one.unbalance, unbalance_angle=one.unbalance_angle)
+    return rotor, {"": bearing}
+
+
+def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
+    """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
+    if scene.damper is not None and scene.rigid_rotor is not None:
+        return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
+    rotor, bearing = scene.rotor, scene.bearing
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    return replace(rotor, position=tuple(at.position.tolist())), bearing
+
+
+def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
+    """Return the motion of rotor and bearings."""
+    rotor: Any = parts.rotor
+    if isinstance(scene.excitation, MotorTable):
+        return _on_motor(scene.excitation, parts, times)
+    if isinstance(scene.excitation, GroundTable):
+        rotor = ShakenBaseRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
+    if isinstance(parts.rotor, RigidRotor):
+        return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
+    return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
+
+
+def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
+    """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
+    rotor, last = parts.rotor, next(reversed(parts.bearings))
+    if isinstance(rotor, ShaftRotor):
+        own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
+        rotor = replace(rotor, stations=own)
+    driven = MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
+    others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
+    mounted: Any = mount(driven, others) if others else driven
+    found = simulate(mounted, parts.bearings[last], duration=parts.duration, times=times, rtol=RTOL)
+    plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if last else set()
+    return replace(
+        found, signals={f"{last}_{k}" if k in plain else k: row for k, row in found.signals.items()}
+    )
+
+
+def _places(run: Trajectory) -> dict[str, Array]:
+    """Return each displacement (x, y) over time, shape (2, n)."""
+    pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
+    moved = [name for name in pairs if not name.endswith("force_x")]
+    return {
+        name[:-2] or "journal": np.stack([run.signals[name], run.signals[f"{name[:-1]}y"]]) for name in moved
+    }
+
+
+# FMUs of a flexible rotor, alone or with its bearings, in as few states as a tolerance allows.
+
+
+class ExportedSystem(NamedTuple):
+    """Where the FMU of a flexible rotor in its bearings is.
+
+    Attributes
+    ----------
+    system : Path
+    """
+
+    system: Path
+
+
+@arguments
+def export_rotor_fmu(
+    rotor: FlexibleRotor,
+    path: str | Path,
+    version: str = "2.0",
+    *,
+    frequency: float,
+    tolerance: float = 1e-3,
+    bearings: Mapping[str, Reaction] | None = None,
+    platforms: str = "host",
+    component: str = "rotor",
+) -> Reduction:
+    """Write a rotor at constant speed as a native FMU, reduced as far as a tolerance allows.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        With a constant speed; held by its stations, whose signals are those of the FMU.
+    path, version, platforms, component
+        As in `export_fmu`.
+    frequency : float [rad/s]
+        Highest frequency of interest, as in `reduce_rotor`.
+    tolerance : float [1]
+        Largest error of the reduction.
+    bearings : mapping of str to Reaction, optional
+        By station: the FMU begins at rest in them, under their forces; without, straight and without forces.
+
+    Returns
+    -------
+    Reduction
+        The rotor in the FMU, with its error.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    ConvergenceError
+        If no reduction is within the tolerance.
+    EquilibriumError
+        If there is no equilibrium in the bearings.
+    """
+    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
+
+    reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
+    start = {}
+    if bearings is not None:
+        rotor, loads = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
+        reduction = replace(reduction, rotor=rotor)
+        start = {
+            name: -value
+            for station, load in loads.items()
+            for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
+        }
+    model = SteadyRotor(rotor=reduction.rotor)
+    export_fmu(model, path, version, platforms=platforms, component=component, start=start)
+    return reduction
+
+
+def export_system(
+    scene: Scene,
+    folder: Path,
+    *,
+    version: str = "2.0",
+    backend: str | None = None,
+    platforms: str = "host",
+    tolerance: float = 1e-3,
+) -> ExportedSystem:
+    """Write `system.fmu`: the flexible rotor of a scene with all its bearings, at rest in them.
+
+    Its speed is `operation.speed`, without an operation the first one of `shaft.speeds`.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a shaft.
+    folder : Path
+        Made if absent.
+    version, backend, platforms : str
+        See `export_fmu`.
+    tolerance : float [1]
+        Largest error of the reduction of the rotor, up to the highest frequency of the shaft.
+
+    Raises
+    ------
+    InputError
+        If the scene has no shaft, or an excitation other than an unbalance.
+    ConvergenceError
+        If no reduction is within the tolerance.
+    EquilibriumError
+        If there is no equilibrium in the bearings.
+    FmuError
+        If a model cannot be exported.
+    """
+    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
+
+    if scene.shaft is None:
+        raise InputError("shaft is required for the FMU of a rotor and its bearings, got no such table")
+    speeds = scene.shaft.speeds
+    speed = speeds.first if scene.operation is None else scene.speed
+    highest = scene.shaft.highest_frequency or 2.0 * speeds.last
+    whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
+    bearings = scene.shaft.build_bearings()
+    rotor, _ = _at_rest(reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor, bearings, speed)
+    model = mount(rotor, bearings)
+    path = folder / "system.fmu"
+    turning = abs(speed) or 1.0
+    export_fmu(
+        model,
+        path,
+        version,
+        backend,
+        platforms=platforms,
+        component="system",
+        step_size=scene.cosimulation.macro_angle / turning,
+        stop_time=2.0 * np.pi / turning,  # a turn: what Python takes for it is some seconds
+    )
+    return ExportedSystem(system=path)
+
+
+def _at_rest(
+    rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
+) -> tuple[ReducedRotor, Mapping[str, Array]]:
+    """Return the rotor as it rests in its bearings at a speed [rad/s], and its load on each [N]."""
+    at = rotor_equilibrium(rotor, bearings, speed)
+    rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
+    return replace(rotor, initial=tuple(rest.tolist())), at.loads

@@ -1,1 +1,0 @@
-"""Scenes of flexible rotors: table, export, remarks."""

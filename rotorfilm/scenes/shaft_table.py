@@ -1,0 +1,553 @@
+"""`[shaft]`: a flexible rotor, its disks and its bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from typing import Annotated, Any
+
+import numpy as np
+
+from ..analysis import AxialStage, DisturbingStage, Impeller
+from ..bearings.journal import JournalBearing
+from ..bearings.linear import LinearBearing
+from ..bearings.seal import AnnularSeal
+from ..core.errors import InputError, SceneError, brief, require_positive
+from ..core.inputs import nearest
+from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
+from ..core.model import Array, Reaction
+from ..rotors import (
+    Beam,
+    ClassicalBeam,
+    Coupling,
+    Disk,
+    ElasticMaterial,
+    FourthOrderBeam,
+    Probe,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    Support,
+    TiltSpring,
+    Unbalance,
+)
+from .excitation_table import UnbalanceTable
+from .lubricant_table import LubricantTable
+from .reading import (
+    Count,
+    Keyed,
+    Named,
+    Quantity,
+    Table,
+    TableList,
+    made_from,
+    read_names,
+    read_table,
+    require_table,
+    takes,
+    text,
+)
+from .schema import JournalTable
+
+# What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
+
+
+Pair = tuple[tuple[float, float], tuple[float, float]]
+
+
+def matrix(unit: str) -> Callable[[str, Any], float | Pair]:
+    """Return the reader of one quantity, the same along x and y, or of 2 x 2 of them."""
+    read = Quantity(unit)
+
+    @takes(read, [[read, read], [read, read]])
+    def reader(where: str, value: Any) -> float | Pair:
+        if not isinstance(value, list):
+            return read(where, value)
+        if len(value) != 2 or any(not isinstance(row, list) or len(row) != 2 for row in value):
+            raise SceneError(f"{where} must be one quantity or 2 x 2 of them, got {brief(value)}")
+        (a, b), (c, d) = (
+            [read(f"{where}[{i}][{j}]", x) for j, x in enumerate(r)] for i, r in enumerate(value)
+        )
+        return (a, b), (c, d)
+
+    return reader
+
+
+NODE = Count(SHAFT_ELEMENTS, 0)
+"""Reader of the number of a node."""
+
+MATERIAL = Keyed(
+    ElasticMaterial,
+    {"young_modulus": Quantity("Pa"), "shear_modulus": Quantity("Pa"), "density": Quantity("kg/m3")},
+)
+"""`shaft.material`: an elastic material."""
+
+COUPLING = Keyed(Coupling, {"stiffness": Quantity("N/m"), "tilt_stiffness": Quantity("N.m/rad")})
+"""An entry of `shaft.elements` with a stiffness: a coupling between two nodes."""
+
+SUPPORT = Keyed(Support, {"mass": Quantity("kg"), "stiffness": matrix("N/m"), "damping": matrix("N.s/m")})
+"""`support` of a bearing: its housing on springs."""
+
+TILT_SPRING = Keyed(
+    TiltSpring, {"node": NODE, "stiffness": matrix("N.m/rad"), "damping": matrix("N.m.s/rad")}
+)
+"""An entry of `shaft.tilt_springs`: springs against the tilt of a node."""
+
+PROBE = Keyed(Probe, {"node": NODE, "name": text})
+"""An entry of `shaft.probes`: a node whose displacement is shown."""
+
+SEAL = Keyed(
+    AnnularSeal,
+    {
+        "radius": Quantity("m", twice="diameter"),
+        **dict.fromkeys(("length", "clearance"), Quantity("m")),
+        "pressure_drop": Quantity("Pa"),
+        "viscosity": Quantity("Pa.s"),
+        "density": Quantity("kg/m3"),
+        **dict.fromkeys(("inlet_loss", "inlet_swirl"), Quantity("1")),
+    },
+)
+"""`seal` of a bearing: an annular seal, with its added mass."""
+
+ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
+"""With it the parts of a shaft check their own keys, before the shaft has its material."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PieceTable:
+    """An entry of `shaft.elements`: a piece of shaft, in so many equally long elements.
+
+    Parameters
+    ----------
+    length, outer_diameter, inner_diameter : float [m]
+    pieces : int
+    end_outer_diameter, end_inner_diameter : float or None [m]
+        Of a cone, at its end.
+    axial_force : float [N]
+    torque : float [N m]
+    material : ElasticMaterial or None
+        Another one than that of the shaft.
+    """
+
+    length: Annotated[float, Quantity("m")]
+    outer_diameter: Annotated[float, Quantity("m")]
+    inner_diameter: Annotated[float, Quantity("m")] = 0.0
+    pieces: Annotated[int, Count(SHAFT_ELEMENTS)] = 1
+    end_outer_diameter: Annotated[float | None, Quantity("m")] = None
+    end_inner_diameter: Annotated[float | None, Quantity("m")] = None
+    axial_force: Annotated[float, Quantity("N")] = 0.0
+    torque: Annotated[float, Quantity("N.m")] = 0.0
+    material: Annotated[ElasticMaterial | None, Table(MATERIAL)] = None
+
+    def __post_init__(self) -> None:
+        self.build(ANY_MATERIAL)
+
+    def build(self, material: ElasticMaterial) -> tuple[ShaftElement, ...]:
+        """Return the elements."""
+        whole = made_from(ShaftElement, self, material=self.material or material)
+        return whole.split(self.pieces)
+
+
+@takes([(Table(COUPLING), Table(PieceTable)), ...])
+def read_pieces(where: str, value: Any) -> tuple[PieceTable | Coupling, ...]:
+    """Read the elements of a shaft: an entry with a stiffness is a coupling."""
+    if not isinstance(value, list) or not value:
+        raise SceneError(f"{where} must be a list of tables, got {brief(value)}")
+    pieces: list[PieceTable | Coupling] = []
+    for k, entry in enumerate(value):
+        if "stiffness" in require_table(f"{where}[{k}]", entry):
+            pieces.append(read_table(COUPLING, f"{where}[{k}].", entry))
+        else:
+            pieces.append(read_table(PieceTable, f"{where}[{k}].", entry))
+    return tuple(pieces)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiskTable:
+    """An entry of `shaft.disks`: a disk of given size, or of given mass and inertia.
+
+    Parameters
+    ----------
+    node : int
+    width, outer_diameter, inner_diameter : float [m]
+    density : float or None [kg/m3]
+        Of a disk of given size; that of the shaft unless given.
+    mass : float or None [kg]
+    diametral_inertia, polar_inertia : float [kg m2]
+    skew, skew_angle : float [rad]
+        By which its axis leans, and where to.
+    """
+
+    node: Annotated[int, NODE]
+    width: Annotated[float | None, Quantity("m")] = None
+    outer_diameter: Annotated[float | None, Quantity("m")] = None
+    inner_diameter: Annotated[float, Quantity("m")] = 0.0
+    density: Annotated[float | None, Quantity("kg/m3")] = None
+    mass: Annotated[float | None, Quantity("kg")] = None
+    diametral_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
+    polar_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
+    skew: Annotated[float, Quantity("rad")] = 0.0
+    skew_angle: Annotated[float, Quantity("rad")] = 0.0
+
+    def __post_init__(self) -> None:
+        sized = self.width is not None and self.outer_diameter is not None
+        if (self.mass is None) is not sized:
+            raise InputError("mass, or else width and outer_diameter, is required, got both or neither")
+        self.build(ANY_MATERIAL)
+
+    def build(self, material: ElasticMaterial) -> Disk:
+        """Return the disk, of this material unless it has a density."""
+        if self.mass is not None:
+            return made_from(Disk, self)
+        assert self.width is not None  # checked in __post_init__, as the next
+        assert self.outer_diameter is not None
+        solid = Disk.solid(
+            self.node,
+            density=material.density if self.density is None else self.density,
+            width=self.width,
+            outer_diameter=self.outer_diameter,
+            inner_diameter=self.inner_diameter,
+        )
+        return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingTable:
+    """An entry of `shaft.bearings`: a journal bearing, an annular seal, or springs and dampers, at a node.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of its signals.
+    node : int
+    journal : JournalTable or None
+    stiffness : float [N/m] or 2 x 2 numbers, or None
+    damping : float [N s/m] or 2 x 2 numbers
+    seal : AnnularSeal or None
+        With its added mass, which a run over time leaves out.
+    support : Support or None
+        Its housing; rigid unless given.
+    """
+
+    name: Annotated[str, text]
+    node: Annotated[int, NODE]
+    journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+    stiffness: Annotated[float | Pair | None, matrix("N/m")] = None
+    damping: Annotated[float | Pair, matrix("N.s/m")] = 0.0
+    seal: Annotated[AnnularSeal | None, Table(SEAL)] = None
+    support: Annotated[Support | None, Table(SUPPORT)] = None
+
+    def __post_init__(self) -> None:
+        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
+            raise InputError("journal, or else stiffness or seal, is required, got several or none")
+        if self.journal is None or self.journal.has_lubricant:
+            self.build()
+        self.station()
+
+    def on(self, where: str, lubricant: LubricantTable) -> BearingTable:
+        """Return this entry with the oil of the scene in a journal bearing; see `JournalTable.on`."""
+        return (
+            self
+            if self.journal is None
+            else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
+        )
+
+    def build(self) -> JournalBearing | LinearBearing | AnnularSeal:
+        """Return the bearing."""
+        if self.seal is not None:
+            return self.seal
+        if self.journal is not None:
+            self.journal.require_law("a shaft")
+            return self.journal.bearing()
+        assert self.stiffness is not None  # checked in __post_init__
+        return LinearBearing(stiffness=self.stiffness, damping=self.damping)
+
+    def station(self) -> Station:
+        """Return where it is."""
+        return made_from(Station, self)
+
+
+class BearingList(TableList):
+    """Reader of `shaft.bearings`."""
+
+    def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
+        """Return the bearings; raise SceneError for one of balls, too."""
+        for k, entry in enumerate(value if isinstance(value, list) else ()):
+            if isinstance(entry, Mapping) and "ball_bearing" in entry:
+                raise SceneError(
+                    f"{where}[{k}].ball_bearing must be left out: a shaft in a scene takes no ball bearings; "
+                    "rotorfilm.TiltingBalls in Python does"
+                )
+        return super().__call__(where, value)
+
+
+# `[shaft.compressor]`: what API 617 asks of a shaft with impellers or blades.
+
+
+IMPELLER = Keyed(
+    Impeller,
+    {
+        "power": Quantity("W"),
+        "diameter": Quantity("m"),
+        "width": Quantity("m"),
+        "suction_density": Quantity("kg/m3"),
+        "discharge_density": Quantity("kg/m3"),
+        "alford_factor": Quantity("1"),
+    },
+)
+"""An entry of `shaft.compressor.impellers`."""
+
+AXIAL_STAGE = Keyed(
+    AxialStage,
+    {
+        "power": Quantity("W"),
+        "diameter": Quantity("m"),
+        "height": Quantity("m"),
+        "alford_factor": Quantity("1"),
+    },
+)
+"""An entry of `shaft.compressor.axial_stages`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingShare:
+    """An entry of `shaft.compressor.nodes`: where cross-coupling acts.
+
+    Parameters
+    ----------
+    node : int
+    share : float [1]
+        Part of the cross-coupling; the parts are scaled to a sum of 1.
+    """
+
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
+    share: Annotated[float, Quantity("1")] = 1.0
+
+    def __post_init__(self) -> None:
+        require_positive("share", self.share)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressorTable:
+    """`[shaft.compressor]`: the stability analysis of level I by API 617.
+
+    Parameters
+    ----------
+    speed : float [rad/s]
+        Maximum continuous speed.
+    impellers : tuple of Impeller
+        Of a centrifugal compressor.
+    axial_stages : tuple of AxialStage
+        Of an axial one, beside impellers or alone.
+    stage_speed : float or None [rad/s]
+        At which the stages have their power; `speed` unless given.
+    average_density : float or None [kg/m3]
+        Of the gas; by default of the lowest suction and the highest discharge.
+    nodes : tuple of CouplingShare
+        Where cross-coupling acts; the node next to mid-span unless given.
+    supports : tuple of str
+        Names of the bearings that are rigid for the critical speed ratio, and between which mid-span is; all
+        but seals unless given.
+    smallest_clearance, largest_clearance : float or None [m]
+        Radial clearances of all bearings with a `journal`, each a curve of its own; as they are unless given.
+    """
+
+    speed: Annotated[float, Quantity("rad/s")]
+    impellers: Annotated[tuple[Impeller, ...], TableList(IMPELLER)] = ()
+    axial_stages: Annotated[tuple[AxialStage, ...], TableList(AXIAL_STAGE)] = ()
+    stage_speed: Annotated[float | None, Quantity("rad/s")] = None
+    average_density: Annotated[float | None, Quantity("kg/m3")] = None
+    nodes: Annotated[tuple[CouplingShare, ...], TableList(CouplingShare)] = ()
+    supports: Annotated[tuple[str, ...], read_names] = ()
+    smallest_clearance: Annotated[float | None, Quantity("m")] = None
+    largest_clearance: Annotated[float | None, Quantity("m")] = None
+
+    def __post_init__(self) -> None:
+        require_positive("speed", self.speed)
+        for name in ("stage_speed", "average_density", "smallest_clearance", "largest_clearance"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
+        if not self.stages:
+            raise InputError("impellers or axial_stages must be at least one, got none")
+
+    @property
+    def stages(self) -> tuple[DisturbingStage, ...]:
+        """All that disturbs the rotor."""
+        return (*self.impellers, *self.axial_stages)
+
+    @property
+    def shares(self) -> dict[int, float] | None:
+        """Parts of the cross-coupling by node; None for the middle."""
+        return {one.node: one.share for one in self.nodes} or None
+
+    def cases(self, bearings: tuple[BearingTable, ...]) -> dict[str, Mapping[str, Reaction]]:
+        """Return the bearings of each curve, by its name; InputError for clearances of no journal bearing."""
+        wanted = {"smallest clearance": self.smallest_clearance, "largest clearance": self.largest_clearance}
+        given = {name: clearance for name, clearance in wanted.items() if clearance is not None}
+        if not given:
+            return {"as given": {one.name: one.build() for one in bearings}}
+        if all(one.journal is None for one in bearings):
+            said = " and ".join(name.replace(" ", "_") for name in given)
+            raise InputError(f"{said} must be left out without a journal bearing, got none with journal")
+        return {
+            name: {one.name: _with_clearance(one, clearance).build() for one in bearings}
+            for name, clearance in given.items()
+        }
+
+
+def _with_clearance(bearing: BearingTable, clearance: float) -> BearingTable:
+    if bearing.journal is None:
+        return bearing
+    return replace(bearing, journal=replace(bearing.journal, clearance=clearance))
+
+
+# `[shaft]`: a flexible rotor, its disks and its bearings.
+
+
+BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
+"""Beam elements by their names in scene files."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedRangeTable:
+    """`shaft.speeds`: the range that is looked at.
+
+    Parameters
+    ----------
+    first, last : float [rad/s]
+        Ends of the range.
+    count : int
+        Number of speeds, at equal distance.
+    """
+
+    first: Annotated[float, Quantity("rad/s")]
+    last: Annotated[float, Quantity("rad/s")]
+    count: Annotated[int, Count(SPEEDS, 2)] = 60
+
+    def __post_init__(self) -> None:
+        require_positive("first", self.first)
+        if not self.last > self.first:
+            raise InputError(f"last must be above first {self.first!r}, got {self.last!r}")
+
+    def build(self) -> Array:
+        """Return the speeds [rad/s]."""
+        return np.linspace(self.first, self.last, self.count)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftTable:
+    """`[shaft]`: a flexible rotor in its bearings.
+
+    Parameters
+    ----------
+    material : ElasticMaterial
+    elements : tuple of PieceTable and Coupling
+        From the first node to the last.
+    bearings : tuple of BearingTable
+    speeds : SpeedRangeTable
+    disks, unbalances, probes, tilt_springs : tuple
+        Of DiskTable, UnbalanceTable, Probe, TiltSpring.
+    internal_damping : float [s]
+    mass_damping, stiffness_damping : float [1/s, s]
+    loss_factor : float [1]
+    beam : Beam
+    highest_frequency : float or None [rad/s]
+        Of the modes shown; twice the last speed unless given.
+    compressor : CompressorTable or None
+        What API 617 asks.
+    """
+
+    material: Annotated[ElasticMaterial, Table(MATERIAL)]
+    elements: Annotated[tuple[PieceTable | Coupling, ...], read_pieces]
+    bearings: Annotated[tuple[BearingTable, ...], BearingList(BearingTable)]
+    speeds: Annotated[SpeedRangeTable, Table(SpeedRangeTable)]
+    disks: Annotated[tuple[DiskTable, ...], TableList(DiskTable)] = ()
+    unbalances: Annotated[tuple[UnbalanceTable, ...], TableList(UnbalanceTable)] = ()
+    probes: Annotated[tuple[Probe, ...], TableList(PROBE)] = ()
+    tilt_springs: Annotated[tuple[TiltSpring, ...], TableList(TILT_SPRING)] = ()
+    internal_damping: Annotated[float, Quantity("s")] = 0.0
+    mass_damping: Annotated[float, Quantity("1/s")] = 0.0
+    stiffness_damping: Annotated[float, Quantity("s")] = 0.0
+    loss_factor: Annotated[float, Quantity("1")] = 0.0
+    beam: Annotated[Beam, Named(BEAMS)] = field(default_factory=FourthOrderBeam)
+    highest_frequency: Annotated[float | None, Quantity("rad/s")] = None
+    compressor: Annotated[CompressorTable | None, Table(CompressorTable)] = None
+
+    def __post_init__(self) -> None:
+        if not self.bearings:
+            raise InputError("bearings must be at least one, got none")
+        if self.highest_frequency is not None:
+            require_positive("highest_frequency", self.highest_frequency)
+        require_at_most("elements", self.node_count - 1, SHAFT_ELEMENTS)
+        for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
+            for k, part in enumerate(getattr(self, name)):
+                require_node(f"{name}[{k}].node", part.node, self)
+        for k, share in enumerate(self.compressor.nodes if self.compressor else ()):
+            require_node(f"compressor.nodes[{k}].node", share.node, self)
+        self._require_supports()
+        self.build()
+
+    def _require_supports(self) -> None:
+        """Raise InputError unless a compressor names bearings of this shaft."""
+        known = [bearing.name for bearing in self.bearings]
+        for k, name in enumerate(self.compressor.supports if self.compressor else ()):
+            if name not in known:
+                raise InputError(
+                    f"compressor.supports[{k}] must be a bearing of the shaft, {', '.join(known)}, "
+                    f"got {name!r}{nearest(name, known)}"
+                )
+
+    def on(self, lubricant: LubricantTable) -> ShaftTable:
+        """Return this table with the oil of the scene in its journal bearings; see `JournalTable.on`."""
+        oiled = tuple(one.on(f"shaft.bearings[{k}]", lubricant) for k, one in enumerate(self.bearings))
+        return self if oiled == self.bearings else replace(self, bearings=oiled)
+
+    @property
+    def node_count(self) -> int:
+        """Number of nodes, at the ends of the elements."""
+        return 1 + sum(one.pieces if isinstance(one, PieceTable) else 1 for one in self.elements)
+
+    def build(self, speed: float = 0.0, extra: tuple[UnbalanceTable, ...] = ()) -> ShaftRotor:
+        """Return the rotor at a speed [rad/s], with further unbalances."""
+        elements = (
+            (piece,) if isinstance(piece, Coupling) else piece.build(self.material) for piece in self.elements
+        )
+        return made_from(
+            ShaftRotor,
+            self,
+            elements=tuple(chain.from_iterable(elements)),
+            disks=tuple(disk.build(self.material) for disk in self.disks),
+            stations=tuple(bearing.station() for bearing in self.bearings),
+            unbalances=tuple(made_from(Unbalance, one) for one in (*self.unbalances, *extra)),
+            speed=speed,
+        )
+
+    def build_bearings(self) -> dict[str, Reaction]:
+        """Return the bearings by station."""
+        return {bearing.name: bearing.build() for bearing in self.bearings}
+
+    def places(self, *, forces: bool) -> tuple[str, ...]:
+        """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
+        probes = () if forces else tuple(probe.name for probe in self.probes)
+        return (*(bearing.name for bearing in self.bearings), *probes)
+
+
+def require_node(name: str, node: int, shaft: ShaftTable | None) -> None:
+    """Raise InputError unless a shaft has this node; where there is none, it is 0."""
+    if shaft is None and node:
+        raise InputError(f"{name} must be 0 where there is no [shaft], got {node}")
+    if shaft is not None and node >= shaft.node_count:
+        raise InputError(f"{name} must be a node of the shaft, 0 to {shaft.node_count - 1}, got {node}")
+
+
+def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
+    """Raise InputError unless a question about a place names a bearing or a probe of a shaft."""
+    if shaft is None:
+        raise InputError(f"question.at must be left out where there is no [shaft], got {brief(name)}")
+    known = shaft.places(forces=quantity == "unbalance_force")
+    if name not in known:
+        raise InputError(
+            f"question.at must be one of {', '.join(known)} for {quantity}, "
+            f"got {name!r}{nearest(name, known)}"
+        )

@@ -1,0 +1,343 @@
+"""What a scene with a flexible rotor is asked: modes over speed, critical speeds, stability, response."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..analysis import (
+    Campbell,
+    CriticalSpeed,
+    RotorThreshold,
+    StabilityLevelOne,
+    campbell,
+    critical_speeds,
+    resonant_speeds,
+    rotor_equilibrium,
+    rotor_modes,
+    rotor_threshold,
+    stability_level_one,
+)
+from ..analysis.closed_loop import driven_by_unbalance
+from ..bearings.journal import JournalBearing
+from ..bearings.linear import LinearBearing
+from ..bearings.seal import AnnularSeal
+from ..core.answers import ISOTHERMAL
+from ..core.errors import InputError, RotorfilmError
+from ..core.model import Array, Reaction
+from ..core.progress import Report, part_of, silent
+from ..core.readable import Drawable
+from ..rotors import ShaftElement, ShaftRotor
+from .excitation_table import GroundTable, UnbalanceTable, oil_remarks, require_kind
+from .families import Remark, prefixed, said
+from .journal_tables import film_remarks
+from .lubricant_table import Lubricant
+
+if TYPE_CHECKING:
+    import control
+
+    from .scene import Scene
+    from .shaft_table import CompressorTable, ShaftTable
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorAnswer(Drawable):
+    """A flexible rotor in its bearings over a range of speeds.
+
+    Attributes
+    ----------
+    title : str
+    mass : float [kg]
+        Of shaft and disks.
+    states : int
+    loads : dict of str to ndarray, shape (2,) [N]
+        Static load on each bearing, at the first speed.
+    residual : float [1]
+        Largest imbalance of forces / weight there.
+    critical_speeds : tuple of CriticalSpeed
+        Where a whirl has the frequency of the rotation.
+    threshold : RotorThreshold
+        Where a whirl begins to grow.
+    campbell : Campbell
+        All whirls over the speed.
+    amplitudes : dict of str to ndarray, shape (n_response,)
+        Over the frequencies of `response`, which are closer about the critical speeds.
+        Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.
+    response : control.FrequencyResponseData or None
+        The same with phases.
+    remarks : tuple of str
+        What the physics of shaft and films leaves out and should not, at the last speed.
+    """
+
+    title: str
+    mass: float
+    states: int
+    loads: Mapping[str, Array]
+    residual: float
+    critical_speeds: tuple[CriticalSpeed, ...]
+    threshold: RotorThreshold
+    campbell: Campbell
+    amplitudes: Mapping[str, Array]
+    response: control.FrequencyResponseData | None = field(repr=False)
+    remarks: tuple[str, ...] = ()
+
+    def _own_units(self) -> dict[str, str]:
+        return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
+
+
+def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
+    """Return what the shaft of a scene does over its speeds.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a shaft; an unbalance as excitation is added to those of the shaft.
+    report : callable
+        Is told the progress.
+
+    Raises
+    ------
+    InputError
+        If the scene has no shaft, or an excitation of another kind.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    if scene.shaft is None:
+        raise InputError("shaft is required for the analyses of a flexible rotor, got no such table")
+    rotor, bearings = scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
+    speeds = scene.shaft.speeds.build()
+    highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
+    report(0.0, "equilibrium")
+    at = rotor_equilibrium(rotor, bearings, float(speeds[0]))
+    report(0.05, "modes over speed")
+    chart = campbell(rotor, bearings, speeds, highest)
+    report(0.35, "critical speeds")
+    critical = critical_speeds(rotor, bearings, speeds)
+    report(0.65, "threshold of stability")
+    threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
+    report(0.85, "unbalance response")
+    turned = resonant_speeds(speeds, critical)
+    response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
+    report(1.0, "done")
+    return RotorAnswer(
+        title=scene.title,
+        mass=rotor.mass,
+        states=len(rotor.states),
+        loads=at.loads,
+        residual=at.residual,
+        critical_speeds=critical,
+        threshold=threshold,
+        campbell=chart,
+        amplitudes={} if response is None else _amplitudes(response),
+        response=response,
+        remarks=(
+            *oil_remarks(scene.tables, scene.lubricant),
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        ),
+    )
+
+
+def campbell_columns(answer: RotorAnswer) -> dict[str, list[float | None]]:
+    """Return the columns of a table of the modes over speed; None where one is overdamped."""
+    chart = answer.campbell
+    columns: dict[str, list[float | None]] = {"speed [rad/s]": chart.speeds.tolist()}
+    for k in range(len(chart.eigenvalues)):
+        columns[f"frequency {k} [rad/s]"] = _known(chart.frequency[k])
+        columns[f"log decrement {k} [1]"] = _known(chart.log_decrement[k])
+        columns[f"direction {k} [1]"] = _known(chart.direction[k])
+    return columns
+
+
+def response_columns(answer: RotorAnswer) -> dict[str, list[float]]:
+    """Return the columns of a table of amplitude and phase over speed."""
+    if answer.response is None:
+        raise InputError("unbalance is required for a response, got a rotor without one")
+    columns = {"speed [rad/s]": np.asarray(answer.response.frequency).tolist()}
+    for k, name in enumerate(answer.response.output_labels):
+        phasor = np.asarray(answer.response.complex)[k, 0]
+        unit = _unit(name)
+        columns[f"{name} [{unit}]"] = np.abs(phasor).tolist()
+        columns[f"{name} phase [rad]"] = np.angle(phasor).tolist()
+    return columns
+
+
+def _known(values: Array) -> list[float | None]:
+    return [None if math.isnan(value) else value for value in values.tolist()]
+
+
+def _amplitudes(response: control.FrequencyResponseData) -> dict[str, Array]:
+    values = np.abs(np.asarray(response.complex)[:, 0])
+    return {name: values[k] for k, name in enumerate(response.output_labels) if _unit(name) != "m/s"}
+
+
+def _unit(name: str) -> str:
+    if "_force_" in name:
+        return "N"
+    return "m/s" if name.rpartition("_")[2] in ("vx", "vy") else "m"
+
+
+def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
+    """Return the unbalance that excites a shaft; raise InputError for an excitation of another kind.
+
+    Ground that shakes has none; that of a run-up or of a rotor on a motor acts at any speed.
+    """
+    found = scene.excitation
+    if found is None or isinstance(found, GroundTable):
+        return ()
+    require_kind(found, ("unbalance", "run_up", "motor", "ground"))
+    assert isinstance(found, UnbalanceTable)
+    return (found,)
+
+
+# What a scene with a compressor is asked: stability by API 617.
+
+
+def solve_level_one(scene: Scene) -> StabilityLevelOne:
+    """Return the stability analysis of level I of the compressor of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a table `[shaft.compressor]`.
+
+    Raises
+    ------
+    InputError
+        If the scene has none.
+    EquilibriumError
+        If the rotor does not rest in its bearings.
+    AbsentError
+        If it has no forward whirl with a resonance.
+    """
+    shaft, table = _compressor(scene)
+    return stability_level_one(
+        shaft.build(),
+        table.cases(shaft.bearings),
+        table.speed,
+        table.stages,
+        nodes=table.shares,
+        stage_speed=table.stage_speed,
+        average_density=table.average_density,
+        supports=table.supports or None,
+    )
+
+
+def level_one_remarks(scene: Scene) -> tuple[str, ...]:
+    """Return what the physics leaves out and should not at the maximum continuous speed, one line each.
+
+    Where there are several cases, a line that is not of all of them begins with the name of its own.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a table `[shaft.compressor]`.
+
+    Raises
+    ------
+    InputError
+        If the scene has none.
+    """
+    shaft, table = _compressor(scene)
+    rotor, oil = shaft.build(), scene.lubricant.properties
+    said = {
+        name: shaft_remarks(rotor, bearings, oil, table.speed)
+        for name, bearings in table.cases(shaft.bearings).items()
+    }
+    common = [line for line in next(iter(said.values())) if all(line in lines for lines in said.values())]
+    own = [f"{name}: {line}" for name, lines in said.items() for line in lines if line not in common]
+    return (*oil_remarks(scene.tables, scene.lubricant), *common, *own)
+
+
+def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
+    """Return the tables of a compressor; InputError where there are none."""
+    if scene.shaft is None or scene.shaft.compressor is None:
+        raise InputError("shaft.compressor is required for stability by API 617, got no such table")
+    return scene.shaft, scene.shaft.compressor
+
+
+# What the physics of all rungs leaves out of a flexible rotor.
+
+
+STIFF = 1e10
+"""Stiffness of bearings [N/m] by which the weight is shared out."""
+
+SLENDER = 4.0
+"""Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
+
+GROWTH = 1e-6
+"""Growth rate / frequency from which a whirl counts as unstable."""
+
+STEPPED = 2.0
+"""Ratio of neighboring diameters from which the material in the corner of a step does not carry."""
+
+
+BEAM = (
+    Remark(
+        "slenderness",
+        SLENDER,
+        "beam theory: {slenderness:.2g} diameters long, cross sections may not stay plane",
+        below=True,
+    ),
+    Remark(
+        "step",
+        STEPPED,
+        "beam theory: diameters change by {step:.2g} in a step, whose corner does not carry",
+    ),
+)
+"""Where a shaft is no beam."""
+
+UNSTABLE = Remark(
+    "growth",
+    GROWTH,
+    "stability: the rotor whirls by itself at {whirl:.2f} of the speed; orbits that repeat with each turn do "
+    "not last",
+)
+
+
+def shaft_remarks(
+    rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, of a shaft in its bearings at a speed."""
+    seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
+    stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
+    loads = rotor_equilibrium(rotor, stiff, speed).loads
+    lines = list(beam_remarks(rotor))
+    for name, bearing in bearings.items():
+        if isinstance(bearing, JournalBearing):
+            x, y = loads[name].tolist()
+            found = film_remarks(bearing, oil, speed, (x, y))
+            lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)
+    return tuple(lines)
+
+
+def shaft_physics(bearings: Mapping[str, Reaction]) -> str:
+    """Return the physics in which the answers of a shaft are meant: that of its films, if it has some."""
+    return ISOTHERMAL if any(isinstance(bearing, JournalBearing) for bearing in bearings.values()) else ""
+
+
+def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
+    """Return where a shaft is no beam, one line each."""
+    pieces = [element for element in rotor.elements if isinstance(element, ShaftElement)]
+    if not pieces:
+        return ()
+    length, diameters = sum(piece.length for piece in pieces), [piece.outer_diameter for piece in pieces]
+    largest = max((max(a, b) / min(a, b) for a, b in pairwise(diameters)), default=1.0)
+    return said(BEAM, {"slenderness": length / max(diameters), "step": largest})
+
+
+def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float) -> tuple[str, ...]:
+    """Return that a rotor whirls by itself, if the model of the file does: no orbit is steady then."""
+    try:
+        modes = rotor_modes(rotor, bearings, speed)
+    except RotorfilmError:
+        return ()  # the rungs say what is wrong
+    growth = modes.eigenvalues.real / np.abs(modes.eigenvalues)
+    if not growth.size:
+        return ()
+    k = int(np.argmax(growth))
+    return said([UNSTABLE], {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})

@@ -1,0 +1,352 @@
+"""Error against cost of the models of ball bearings, on random loads and speeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..analysis import VariableCompliance, coefficients, equilibrium, variable_compliance
+from ..bearings.rolling import (
+    BallBearing,
+    BallLoads,
+    PalmgrenBalls,
+    RollingMaterial,
+    StaticBalls,
+    back_to_back,
+    ball_films,
+)
+from ..core.errors import InputError, RotorfilmError, require_count, require_finite, require_kind
+from ..core.inputs import arguments
+from ..core.model import Array, Reaction, prepared_tangent
+from ..core.progress import Report, silent
+from ..core.readable import Readable
+
+SEED, ROUNDS = 1907, 200
+VISCOSITY, COEFFICIENT = 0.02, 18e-9
+"""Of the oil [Pa s], [1/Pa]."""
+
+PRESSURES, SPEEDS = (0.8e9, 1.8e9), (50.0, 3000.0)
+"""Ranges of the largest contact pressure under a share of the load [Pa], and of the speed [rad/s]."""
+
+CLOSED, STATIC, RUNNING, FILMS = "closed form", "static balls", "running balls", "running balls on films"
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallModelRung(Readable):
+    """Error and cost of one model.
+
+    Attributes
+    ----------
+    name : str
+    median_error, usual_error : float [1]
+        Median and 90th percentile of the error of the stiffness, relative to its largest entry.
+    states : int
+        Where the model has an answer.
+    call_time : float [s]
+        Of force and derivatives at one place.
+    """
+
+    name: str
+    median_error: float
+    usual_error: float
+    states: int
+    call_time: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallAccuracy(Readable):
+    """Error against cost of the models of ball bearings.
+
+    Attributes
+    ----------
+    states, seed : int
+        Of each of two bearings: deep groove under a radial load, angular contact under thrust too.
+    reference : str
+        What errors are measured against.
+    rungs : tuple of BallModelRung
+    """
+
+    states: int
+    seed: int
+    reference: str
+    rungs: tuple[BallModelRung, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table of the rungs, headings with units; the conditions repeat in every row."""
+        rows = [
+            {
+                "model [-]": rung.name,
+                "median error of K [1]": rung.median_error,
+                "90 % error of K [1]": rung.usual_error,
+                "states [1]": rung.states,
+                "force and derivatives [s]": rung.call_time,
+                "states of each bearing [1]": self.states,
+                "seed [-]": self.seed,
+                "reference [-]": self.reference,
+            }
+            for rung in self.rungs
+        ]
+        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+
+
+@arguments
+def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent) -> BallAccuracy:
+    """Return how far the stiffness of each model is from that of running balls on oil films, and its cost.
+
+    Parameters
+    ----------
+    states : int
+        Random loads and speeds of each bearing.
+    seed : int
+        Of the random numbers.
+    report : Report
+        Of progress.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+    require_count("states", states)
+    random = np.random.default_rng(seed)
+    errors: dict[str, list[float]] = {CLOSED: [], STATIC: [], RUNNING: []}
+    bearings = grooved(usual_bearing()), usual_bearing()
+    for number in range(2 * states):
+        bearing, load, speed = _drawn(bearings[number % 2], random)
+        for name, error in _errors(bearing, load, speed).items():
+            errors[name].append(error)
+        report((number + 1) / (2 * states), "states")
+    last: dict[str, Reaction] = {
+        CLOSED: _closed(bearings[0]),
+        STATIC: replace(bearings[0], law=StaticBalls()),
+        RUNNING: bearings[0],
+    }
+    return BallAccuracy(
+        states=states,
+        seed=seed,
+        reference=f"{FILMS} of {1e3 * VISCOSITY:g} mPa s, those of the most loaded ball",
+        rungs=tuple(
+            BallModelRung(
+                name=name,
+                median_error=float(np.median(found)),
+                usual_error=float(np.quantile(found, 0.9)),
+                states=len(found),
+                call_time=_time(last[name]),
+            )
+            for name, found in errors.items()
+        ),
+    )
+
+
+def _drawn(
+    bearing: BallBearing, random: np.random.Generator
+) -> tuple[BallBearing, tuple[float, float], float]:
+    """Return a bearing with its thrust, a radial load [N] and a speed [rad/s]."""
+    pressure, speed = (math.exp(random.uniform(*np.log(span))) for span in (PRESSURES, SPEEDS))
+    reference = bearing.contacts[0].load_at(pressure) * bearing.balls
+    if not bearing.separates:
+        return bearing, (0.0, -reference / 5.0), speed
+    thrust = reference * math.sin(bearing.free_contact_angle)
+    return replace(bearing, axial_load=thrust), (0.0, -0.3 * thrust), speed
+
+
+def _closed(bearing: BallBearing) -> PalmgrenBalls:
+    return PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
+
+
+def _errors(bearing: BallBearing, load: tuple[float, float], speed: float) -> dict[str, float]:
+    """Return the errors of the models that have an answer; none where the reference has none."""
+    models: dict[str, Reaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
+    if not bearing.separates:
+        models[CLOSED] = _closed(bearing)
+    try:
+        best = _stiffness(_on_films(bearing, load, speed), load, speed)
+    except RotorfilmError:
+        return {}
+    found = {}
+    for name, model in models.items():
+        try:
+            gap = _stiffness(model, load, speed) - best
+        except RotorfilmError:
+            continue
+        found[name] = float(np.max(np.abs(gap)) / np.max(np.abs(best)))
+    return found
+
+
+def _on_films(bearing: BallBearing, load: tuple[float, float], speed: float) -> BallBearing:
+    """Return the bearing with the films of its most loaded ball."""
+    most = float(balls_under(bearing, load, speed).inner_load.max())
+    films = ball_films(bearing, load=most, speed=speed, viscosity=VISCOSITY, pressure_coefficient=COEFFICIENT)
+    return replace(bearing, films=films)
+
+
+def _stiffness(model: Reaction, load: Sequence[float], speed: float) -> Array:
+    at = equilibrium(model, tuple(load), speed)
+    return coefficients(model, at.position, speed).stiffness
+
+
+def _time(model: Reaction) -> float:
+    """Return the shortest time of force and derivatives at one place [s]."""
+    tangent, way = prepared_tangent(model), 0.3 * model.clearance
+    spent = []
+    for _ in range(ROUNDS):
+        begin = perf_counter()
+        tangent(0.2 * way, -way, 0.0, 0.0, 1000.0)
+        spent.append(perf_counter() - begin)
+    return min(spent)
+
+
+# Ball bearings over speed and preload: loads of the balls, contact angles, stiffness, swing.
+
+
+DISTANCE = 2.5
+"""Of the rows of a pair, in ball diameters."""
+
+GROOVE_SHARE = 1.25e-3
+"""Radial clearance of the deep groove bearing whose swing is shown, over the ball diameter: 10 um of 8 mm."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallCurves(Readable):
+    """An angular contact bearing under thrust and radial load, and pairs of it, over speed.
+
+    Attributes
+    ----------
+    thrust, load : float [N]
+        Along +z, and along -y.
+    speeds : ndarray, shape (n,) [rad/s]
+    ball_angle : ndarray, shape (balls,) [rad]
+        Where the balls are.
+    inner_load, outer_load : ndarray, shape (n, balls) [N]
+        Of their contacts under both loads.
+    inner_angle, outer_angle : ndarray, shape (n,) [rad]
+        Contact angles under the thrust alone.
+    preloads : tuple of float [N]
+        As pairs back to back were clamped.
+    running_preload : ndarray, shape (preloads, n) [N]
+        With which the rows of these pairs press each other at speed.
+    radial_stiffness, axial_stiffness : ndarray, shape (preloads, n) [N/m]
+        Of these pairs, unloaded.
+    swing : VariableCompliance
+        Of a deep groove bearing with the same balls under the radial load at the highest speed.
+    """
+
+    thrust: float
+    load: float
+    speeds: Array
+    ball_angle: Array
+    inner_load: Array
+    outer_load: Array
+    inner_angle: Array
+    outer_angle: Array
+    preloads: tuple[float, ...]
+    running_preload: Array
+    radial_stiffness: Array
+    axial_stiffness: Array
+    swing: VariableCompliance
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table over speed and preload, headings with units."""
+        rows = [
+            {
+                "speed [rad/s]": speed,
+                "inner contact angle under thrust [rad]": self.inner_angle[k],
+                "outer contact angle under thrust [rad]": self.outer_angle[k],
+                "largest inner load [N]": self.inner_load[k].max(),
+                "largest outer load [N]": self.outer_load[k].max(),
+                "preload of a pair [N]": preload,
+                "running preload [N]": self.running_preload[m, k],
+                "radial stiffness of the pair [N/m]": self.radial_stiffness[m, k],
+                "axial stiffness of the pair [N/m]": self.axial_stiffness[m, k],
+            }
+            for m, preload in enumerate(self.preloads)
+            for k, speed in enumerate(self.speeds.tolist())
+        ]
+        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+
+
+def usual_bearing() -> BallBearing:
+    """Return a hybrid bearing of a spindle: 16 balls of 7.938 mm, 25 deg."""
+    return BallBearing(
+        balls=16,
+        ball_diameter=7.938e-3,
+        pitch_diameter=46.5e-3,
+        contact_angle=math.radians(25.0),
+        ball_material=RollingMaterial.silicon_nitride(),
+    )
+
+
+def ball_curves(
+    bearing: BallBearing,
+    speeds: ArrayLike,
+    *,
+    thrust: float = 500.0,
+    load: float = 300.0,
+    preloads: Sequence[float] = (50.0, 150.0, 400.0),
+    report: Report = silent,
+) -> BallCurves:
+    """Return how an angular contact bearing and pairs of it change with speed.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+        With a contact angle; how it holds its shaft does not count.
+    speeds : array_like, shape (n,) [rad/s]
+    thrust, load : float [N]
+    preloads : sequence of float [N]
+    report : Report
+        Of progress.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If there is no rest at one of the speeds.
+    """
+    require_kind("bearing", bearing, BallBearing, "a BallBearing")
+    if not bearing.separates:
+        raise InputError(f"bearing must have a contact angle, got {bearing.contact_angle!r}")
+    grid = np.atleast_1d(require_finite("speeds", speeds))
+    pressed = replace(bearing, axial_load=thrust, tilt=(0.0, 0.0))
+    both = [balls_under(pressed, (0.0, -load), speed) for speed in grid.tolist()]
+    alone = [bearing.rest((0.0, 0.0, thrust, 0.0, 0.0), speed).balls for speed in grid.tolist()]
+    report(0.3, "bearing")
+    pairs = [
+        back_to_back(bearing, distance=DISTANCE * bearing.ball_diameter, preload=one) for one in preloads
+    ]
+    still = np.zeros(5)
+    stiffness = np.array([[pair.stiffness(still, speed) for speed in grid.tolist()] for pair in pairs])
+    report(0.7, "pairs")
+    return BallCurves(
+        thrust=thrust,
+        load=load,
+        speeds=grid,
+        ball_angle=both[0].ball_angle,
+        inner_load=np.array([one.inner_load for one in both]),
+        outer_load=np.array([one.outer_load for one in both]),
+        inner_angle=np.array([one.inner_angle.mean() for one in alone]),
+        outer_angle=np.array([one.outer_angle.mean() for one in alone]),
+        preloads=tuple(preloads),
+        running_preload=np.array([[pair.running_preload(s) for s in grid.tolist()] for pair in pairs]),
+        radial_stiffness=stiffness[:, :, 1, 1],
+        axial_stiffness=stiffness[:, :, 2, 2],
+        swing=variable_compliance(grooved(bearing), (0.0, -load), float(grid.max())),
+    )
+
+
+def balls_under(bearing: BallBearing, load: tuple[float, float], speed: float) -> BallLoads:
+    """Return the balls of a bearing under a radial load [N], with tilts held, and z as the bearing says."""
+    place = equilibrium(bearing, load, speed).position
+    return bearing.loads((*place, bearing.axial_place(place, speed), *bearing.tilt), speed)
+
+
+def grooved(bearing: BallBearing) -> BallBearing:
+    """Return a deep groove bearing with the same balls and races."""
+    clearance = GROOVE_SHARE * bearing.ball_diameter
+    return replace(bearing, contact_angle=None, internal_clearance=clearance, axial_load=None)

@@ -1,0 +1,270 @@
+"""The tiers of the melting bush under a growing load: error of the contact angle beside the cost of the run.
+
+The reference is an exact reduction. While the contact grows its edge is unworn, so that the integrals of the
+contact condition against cos(phi) and 1 close, whatever the shape of the pressure:
+
+    c F(alpha) = a_1 N + W,   2 c (tan(alpha) - alpha) = a_1 Q + V,   W' = g N,   V' = g Q
+
+with W, V the integrals of the wear against cos(phi) and 1, N and Q those of the pressure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from ..bearings.bush import (
+    BushReaction,
+    BushWear,
+    LocalMelting,
+    MeltingBush,
+    approximate_flux,
+    arc_angle,
+    exact_flux,
+    f4k20_bush,
+    published_stage,
+)
+from ..core.model import Array, Dynamic
+from ..core.progress import Report, silent
+from ..core.readable import Readable
+
+HEAT = 1e8
+"""Melting heat [J/m3]; it scales the time and nothing else."""
+
+LOADS = (3000.0, 4500.0)
+"""Load at the beginning and at the end [N]."""
+
+SPEED, DURATION = 12.0, 1.0
+SAMPLES = 41
+TIGHT = {"rtol": 1e-10, "atol": 1e-15}
+USUAL = {"rtol": 1e-6, "atol": 1e-12}
+
+COOLINGS = tuple(np.linspace(0.02, 0.3, 15).tolist())
+"""Biot numbers kappa_1 R_1/lambda_1 of the shaft."""
+
+STUBBINESSES = (0.1, 0.25, 0.5, 1.0)
+"""Shaft radius / half length of the bush."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushTier(Readable):
+    """One tier.
+
+    Attributes
+    ----------
+    name : str
+    family : str
+        Tiers of one family differ in a number of steps or nodes.
+    error : float [1]
+        Largest relative error of the contact angle.
+    cost : float [s]
+        Time of the run.
+    contact_angle : tuple of floats [rad]
+        Half the contact angle at the times of the ladder.
+    """
+
+    name: str
+    family: str
+    error: float
+    cost: float
+    contact_angle: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftFluxError(Readable):
+    """Relative error of the closed form (2.13) of the heat into the shaft at one pair of its numbers.
+
+    Attributes
+    ----------
+    cooling : float [1]
+        Biot number of the shaft, air_transfer radius / conductivity.
+    stubbiness : float [1]
+        Radius of the shaft / half length of the bush.
+    error : float [1]
+        Relative.
+    """
+
+    cooling: float
+    stubbiness: float
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushTiers(Readable):
+    """What `bush_tiers` answers.
+
+    Attributes
+    ----------
+    reference : str
+        What errors are measured against.
+    times : tuple of floats [s]
+        Times at which the tiers are compared.
+    exact : tuple of floats [rad]
+        Half the contact angle of the reference at these times.
+    tiers : tuple of BushTier
+        The models of the bush.
+    shaft : tuple of ShaftFluxError
+    """
+
+    reference: str
+    times: tuple[float, ...]
+    exact: tuple[float, ...]
+    tiers: tuple[BushTier, ...]
+    shaft: tuple[ShaftFluxError, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the tiers as columns of a table."""
+        return {
+            "tier": [tier.name for tier in self.tiers],
+            "family": [tier.family for tier in self.tiers],
+            "angle error [1]": [tier.error for tier in self.tiers],
+            "time of the run [s]": [tier.cost for tier in self.tiers],
+        }
+
+    def shaft_columns(self) -> dict[str, list[object]]:
+        """Return the errors of the closed form as columns of a table."""
+        return {
+            "cooling [1]": [row.cooling for row in self.shaft],
+            "stubbiness [1]": [row.stubbiness for row in self.shaft],
+            "error of the closed form [1]": [row.error for row in self.shaft],
+        }
+
+
+def bush_tiers(
+    nodes: Sequence[int] = (17, 33, 65, 129),
+    steps: Sequence[int] = (20, 200, 2000),
+    *,
+    report: Report = silent,
+) -> BushTiers:
+    """Return error and cost of every tier, one run each, and the error of the closed form of the shaft.
+
+    Parameters
+    ----------
+    nodes : sequence of int
+        Nodes of the worn profiles, on 1.5 rad.
+    steps : sequence of int
+        Steps of the published stage.
+    report : Report
+    """
+    bush, times = f4k20_bush(), np.linspace(0.0, DURATION, SAMPLES)
+    exact = two_moments(bush, times, **TIGHT)
+    worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
+    local = replace(worn, nodes=max(nodes), melting=LocalMelting())
+    runs: list[tuple[str, str, Callable[[], Array]]] = [
+        ("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
+        ("BushWear", "BushWear", lambda: _one_state(bush, times)),
+        *(
+            ("BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n)))
+            for n in nodes
+        ),
+        (
+            "LocalMelting: another law",
+            f"LocalMelting, {local.nodes} nodes",
+            lambda: worn_run(times, local),
+        ),
+        *(
+            ("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
+            for n in steps
+        ),
+    ]
+    tiers = []
+    for number, (family, name, run) in enumerate(runs):
+        report(number / (len(runs) + 1), name)
+        begin = perf_counter()
+        angle = run()
+        cost = perf_counter() - begin
+        error = float(np.abs(angle / exact - 1.0).max())
+        tiers.append(
+            BushTier(name=name, family=family, error=error, cost=cost, contact_angle=tuple(angle.tolist()))
+        )
+    report(len(runs) / (len(runs) + 1), "heat into the shaft")
+    return BushTiers(
+        reference="two moments of the wear, integrated at 1e-10",
+        times=tuple(times.tolist()),
+        exact=tuple(exact.tolist()),
+        tiers=tuple(tiers),
+        shaft=shaft_flux_errors(),
+    )
+
+
+def shaft_flux_errors(
+    coolings: Sequence[float] = COOLINGS, stubbinesses: Sequence[float] = STUBBINESSES
+) -> tuple[ShaftFluxError, ...]:
+    """Return the error of the closed form (2.13) against the mixed problem, for all pairs."""
+    return tuple(
+        ShaftFluxError(
+            cooling=cooling,
+            stubbiness=stubbiness,
+            error=approximate_flux(cooling, stubbiness) / exact_flux(cooling, stubbiness) - 1.0,
+        )
+        for stubbiness in stubbinesses
+        for cooling in coolings
+    )
+
+
+def two_moments(bush: MeltingBush, times: Array, *, rtol: float, atol: float) -> Array:
+    """Return half the contact angle [rad] at the times [s], by the two moments of the wear."""
+    law = bush.law
+    gap = law.gap(law.melting)
+    work = law.pressure_work * SPEED * law.coefficient(law.melting)
+
+    def angle(t: float, moment: float) -> float:
+        return float(arc_angle((law.compliance * float(bush.load_ratio(_load(t))) + moment) / gap))
+
+    def rate(t: float, state: Array) -> list[float]:
+        a = angle(t, state[0])
+        total = (2.0 * gap * (math.tan(a) - a) - state[1]) / law.compliance
+        kept = max(0.0, work - 2.0 * a * law.losses(a) / total) / (HEAT * bush.geometry.radius)
+        return [kept * float(bush.load_ratio(_load(t))), kept * total]
+
+    run = solve_ivp(rate, (0.0, DURATION), [0.0, 0.0], t_eval=times, rtol=rtol, atol=atol)
+    return np.array([angle(t, moment) for t, moment in zip(times, run.y[0], strict=True)])
+
+
+def _load(t: float) -> float:
+    return LOADS[0] + (LOADS[1] - LOADS[0]) * t / DURATION
+
+
+def _one_state(bush: MeltingBush, times: Array) -> Array:
+    model = BushWear(bush=bush, melting_heat=HEAT)
+    return _output(times, model, 0, lambda t, wear: [_load(t), SPEED])
+
+
+def worn_run(times: Array, model: BushReaction) -> Array:
+    """Return half the contact angle [rad] at the times [s], by a worn profile."""
+
+    def point(t: float, wear: Array) -> list[float]:
+        return [*model.position([0.0, -_load(t)], 0.0, wear).tolist(), 0.0, 0.0, SPEED]
+
+    return _output(times, model, 3, point)
+
+
+def _output(
+    times: Array, model: Dynamic, number: int, inputs: Callable[[float, Array], list[float]]
+) -> Array:
+    """Return one output of a model at the times, with inputs that depend on time and state."""
+    run = solve_ivp(
+        lambda t, x: model.derivative(t, x, inputs(t, x)),
+        (0.0, DURATION),
+        model.initial_state,
+        t_eval=times,
+        rtol=USUAL["rtol"],
+        atol=USUAL["atol"],
+    )
+    return np.array([model.output(t, x, inputs(t, x))[number] for t, x in zip(times, run.y.T, strict=True)])
+
+
+def published_run(bush: MeltingBush, times: Array, steps: int) -> Array:
+    """Return half the contact angle [rad] at the times [s], by the published stage in so many steps."""
+    law = bush.law
+    unit = bush.geometry.radius * HEAT / (law.liner * bush.outer_swing)
+    grid = np.linspace(0.0, DURATION, steps + 1)
+    loads = np.array([_load(t) for t in grid])
+    stage = published_stage(bush, loads, SPEED, grid / unit)
+    return np.interp(times, grid, stage.contact_angle)

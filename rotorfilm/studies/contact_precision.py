@@ -1,0 +1,256 @@
+"""Error of a ball's motion against its cost: schemes in time and space, steps, grids, reduced laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from time import process_time
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ..bearings.contact import (
+    HERTZ_LOAD,
+    AdaptiveSteps,
+    ContactScheme,
+    ContactState,
+    FixedSteps,
+    PointContact,
+    SineLoad,
+    SmallMotion,
+    StaggeredScheme,
+    StepLoad,
+    UpwindScheme,
+    reduce_contact,
+    ride,
+)
+from ..core.errors import ConvergenceError
+from ..core.model import Array
+from ..core.progress import Report, part_of, silent
+from .contact_cases import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
+
+LOAD = SineLoad(amplitude=0.5, frequency=2.0)
+INERTIA = 1.0
+RIDES = 5
+"""Runs of a reduced law, the shortest of which counts."""
+
+
+class ContactRung(NamedTuple):
+    """One way to the motion.
+
+    Attributes
+    ----------
+    family, label : str
+    error : float
+        Rms of the error of delta / rms of its change from rest.
+    cost : float
+        Processor time [s] of the motion; building a law not counted.
+    """
+
+    family: str
+    label: str
+    error: float
+    cost: float
+
+
+class ContactPrecision(NamedTuple):
+    """The rungs, and what they were measured against."""
+
+    duration: float
+    reference: str
+    rungs: tuple[ContactRung, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the rungs as columns of a table."""
+        headings = {"family": "family", "label": "label", "error": "rms error of delta", "cost": "cost [s]"}
+        return {text: [getattr(rung, name) for rung in self.rungs] for name, text in headings.items()}
+
+
+def contact_precision(
+    cells: int = 64,
+    duration: float = 10.0,
+    tolerance: float = 1e-5,
+    orders: tuple[int, ...] = (2, 3, 5, 8),
+    report: Report = silent,
+) -> ContactPrecision:
+    """Return the ladder for W = 1 under the load 1 + 0.5 sin(2 t) from rest; some minutes.
+
+    Parameters
+    ----------
+    cells : int
+        Cells along each side of the reference; the rungs have a half to three quarters of them.
+    duration : float [1]
+    tolerance : float
+        Of the steps of the reference.
+    orders : tuple of int
+        Of the reduced laws.
+    report : callable
+        Told how far the work is.
+    """
+    report(0.0, "reference")
+    exact = _full(cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)()
+    times = np.linspace(0.0, duration, 2001)
+    reference = CubicSpline(*exact)(times)
+    size = float(np.sqrt(np.mean((reference - reference[0]) ** 2)))
+    plan = [*_full_plan(cells, duration), *_law_plan(cells // 2, duration, orders)]
+    rungs = []
+    for number, (family, label, run, repeats) in enumerate(plan):
+        report((number + 1) / (len(plan) + 1), f"{family}, {label}")
+        cost = np.inf
+        for _ in range(repeats):
+            begin = process_time()
+            found = run()
+            cost = min(cost, process_time() - begin)
+        miss = CubicSpline(*found)(times) - reference
+        rungs.append(ContactRung(family, label, float(np.sqrt(np.mean(miss**2))) / size, float(cost)))
+    name = f"BDF2 of tolerance {tolerance:g}, {cells} x {cells} upwind cells"
+    return ContactPrecision(duration, name, tuple(rungs))
+
+
+Series = tuple[Array, Array]
+
+
+def _full_plan(cells: int, duration: float) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+    coarse, middle = cells // 2, 3 * cells // 4
+    middle -= middle % 2
+    published = FixedSteps(step=PUBLISHED_STEP, order=1)
+    run = _full(PUBLISHED_CELLS, StaggeredScheme(), published, duration)
+    yield "published scheme", f"dt {PUBLISHED_STEP:g}", run, 1
+    for step in (0.2, 0.1, 0.05, 0.025):
+        control = FixedSteps(step=step, order=1)
+        yield f"Euler, {middle} cells", f"dt {step:g}", _full(middle, UpwindScheme(), control, duration), 1
+    for size in (coarse, middle):
+        for step in (0.2, 0.1, 0.05):
+            control = FixedSteps(step=step)
+            yield f"BDF2, {size} cells", f"dt {step:g}", _full(size, UpwindScheme(), control, duration), 1
+        for tolerance in (1e-3, 1e-4):
+            run = _full(size, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)
+            yield f"adaptive, {size} cells", f"tol {tolerance:g}", run, 1
+
+
+def _law_plan(
+    cells: int, duration: float, orders: tuple[int, ...]
+) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+    contact = published_contact(cells, UpwindScheme())
+    for order in orders:
+        law = reduce_contact(contact, order)
+
+        def run(law=law) -> Series:  # type: ignore[no-untyped-def]
+            motion = ride(
+                law, mass=INERTIA / HERTZ_LOAD, load=LOAD, start=law.operating, duration=duration,
+                samples=401, rtol=1e-4,
+            )  # fmt: skip
+            return motion.time, motion["z"]
+
+        yield "reduced law", f"order {order}", run, RIDES
+
+
+def _full(
+    cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps, duration: float
+) -> Callable[[], Series]:
+    contact = published_contact(cells, scheme)
+    rest = contact.stationary()
+
+    def run() -> Series:
+        with as_published():
+            motion = contact.simulate(rest, duration=duration, W=INERTIA, load=LOAD, control=control)
+        return motion.time, motion.delta
+
+    return run
+
+
+# Where the published scheme of a rolling ball fails: load steps it cannot take, decay it makes up itself.
+
+
+STEPS = (0.05, 0.1, 0.2, 0.5, 1.0)
+AMPLITUDES = (0.7, 1.5, 3.0, 5.0, 8.0)
+INERTIAS = (0.1, 0.3, 0.5, 1.0, 3.0)
+SPAN = 4.0
+"""Time after a load step within which a run has to hold."""
+
+STIFFNESS = 1.57
+"""Static stiffness of the contact, from which the search for its natural motion starts."""
+
+
+class ContactLimits(NamedTuple):
+    """Where implicit Euler with fixed steps on the published grid ends, and what it does to the decay.
+
+    Attributes
+    ----------
+    steps, load_steps, inertias : tuple of float
+        Lengths of the steps; load steps at W = 1; inertias W.
+    reached : ndarray, shape (steps, load_steps)
+        Time after the load step at which the run failed, infinite if it did not.
+    physical : ndarray, shape (inertias,)
+        Decay time of small oscillations by the linearized equations.
+    shown : ndarray, shape (steps, inertias)
+        Decay time that the scheme shows.
+    """
+
+    steps: tuple[float, ...]
+    load_steps: tuple[float, ...]
+    inertias: tuple[float, ...]
+    reached: np.ndarray
+    physical: np.ndarray
+    shown: np.ndarray
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return both maps as one table; no time of failure where a run holds, dt = 0 for the equations."""
+        rows = [
+            ("load step", step, a, float(self.reached[i, j]) if np.isfinite(self.reached[i, j]) else None)
+            for i, step in enumerate(self.steps)
+            for j, a in enumerate(self.load_steps)
+        ]
+        rows += [
+            ("decay time", step, W, float(self.shown[i, j]))
+            for i, step in enumerate(self.steps)
+            for j, W in enumerate(self.inertias)
+        ]
+        rows += [
+            ("decay time", 0.0, W, float(time)) for W, time in zip(self.inertias, self.physical, strict=True)
+        ]
+        headings = ("map", "dt", "amplitude or W", "time of failure or decay time")
+        return dict(zip(headings, map(list, zip(*rows, strict=True)), strict=True))
+
+
+def contact_limits(
+    cells: int = PUBLISHED_CELLS,
+    steps: Sequence[float] = STEPS,
+    amplitudes: Sequence[float] = AMPLITUDES,
+    inertias: Sequence[float] = INERTIAS,
+    report: Report = silent,
+) -> ContactLimits:
+    """Return the limits of the published scheme on its grid, or one of `cells` x `cells`; a minute."""
+    contact = published_contact(cells, StaggeredScheme())
+    with as_published():
+        rest = contact.stationary()
+    s = natural_motions(contact, rest, inertias, part_of(report, 0.0, 0.3))
+    reached = np.full((len(steps), len(amplitudes)), np.inf)
+    for i, step in enumerate(steps):
+        for j, amplitude in enumerate(amplitudes):
+            report(0.3 + 0.7 * (i + j / len(amplitudes)) / len(steps), f"dt = {step:g}, A = {amplitude:g}")
+            reached[i, j] = _reached(contact, rest, step, amplitude)
+    shown = np.array([step / np.log(np.abs(1.0 - step * s)) for step in steps])
+    return ContactLimits(tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown)
+
+
+def natural_motions(
+    contact: PointContact, rest: ContactState, inertias: Sequence[float], report: Report = silent
+) -> Array:
+    """Return s of the natural motions exp(s t) about rest with some inertias, by the linearized equations."""
+    small = SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
+    found = []
+    for number, W in enumerate(inertias):
+        report(number / len(inertias), f"natural motion, W = {W:g}")
+        found.append(small.natural_motion(W, 1j * np.sqrt(STIFFNESS / W)))
+    return np.array(found)
+
+
+def _reached(contact: PointContact, rest: ContactState, step: float, amplitude: float) -> float:
+    load, control = StepLoad(amplitude=amplitude, start=step), FixedSteps(step=step, order=1)
+    try:
+        with as_published():
+            contact.simulate(rest, duration=step + SPAN, W=1.0, load=load, control=control)
+    except ConvergenceError as error:
+        return float(error.partial.time[-1] - step)
+    return np.inf

@@ -1,0 +1,421 @@
+"""Error of each coupling scheme against the film calls that it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from ..analysis import simulate
+from ..bearings.journal import JournalBearing, MapFilm, ShortFilm
+from ..core.errors import PartialResultError
+from ..core.model import Array, Dynamic
+from ..core.progress import Report, silent
+from ..core.readable import Readable
+from ..core.results import Trajectory, orbit_distance
+from ..cosim import (
+    CoSimulation,
+    GaussSeidel,
+    InProcessSlave,
+    Jacobi,
+    Newton,
+    Scheme,
+    SIExp,
+    SIExp3,
+    couple,
+    critical_macro_step,
+)
+from ..cosim.watch import quietly
+from ..rotors.jeffcott import JeffcottRotor
+from ..rotors.rigid import RigidRotor
+
+# What couplings are compared on: the schemes by kind, and a rigid rotor at rest in its bearing.
+
+
+SPEED = 157.0
+"""Angular speed [rad/s]; in dimensionless form nothing depends on it."""
+
+
+class SchemeName(StrEnum):
+    """Labels of the schemes that are compared."""
+
+    HELD = "Gauss-Seidel 0"
+    LINEAR = "Gauss-Seidel 1"
+    QUADRATIC = "Gauss-Seidel 2"
+    JACOBI_HELD = "Jacobi 0"
+    JACOBI_LINEAR = "Jacobi 1"
+    JACOBI_QUADRATIC = "Jacobi 2"
+    SI_EXP = "SI-exp"
+    SI_EXP3 = "SI-exp3"
+    NEWTON = "Newton"
+
+
+EXPLICIT: tuple[Scheme, ...] = (
+    *(GaussSeidel(degree=degree) for degree in range(3)),
+    *(Jacobi(degree=degree) for degree in range(3)),
+)
+"""Schemes with a longest stable macro step."""
+
+SCHEMES: tuple[Scheme, ...] = (*EXPLICIT, SIExp(), SIExp3(), Newton())
+"""All schemes; those that are not explicit are stable where explicit ones are not."""
+
+
+def resting_rotor(
+    bearing: JournalBearing,
+    eccentricity_ratio: float,
+    *,
+    speed: float = SPEED,
+    mass_ratio: float = 1.0,
+    direction: float = 0.0,
+    unbalance_ratio: float = 0.0,
+) -> RigidRotor:
+    """Return a rigid rotor whose load holds it at rest at a place in its bearing.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    eccentricity_ratio : float [1]
+    speed : float [rad/s]
+    mass_ratio : float [1]
+        speed^2 clearance mass / load, the square of the speed parameter.
+    direction : float [rad]
+        Of the eccentricity.
+    unbalance_ratio : float [1]
+        Unbalance / (mass clearance).
+    """
+    c = bearing.clearance
+    rest = eccentricity_ratio * c * np.array([np.cos(direction), np.sin(direction)])
+    load = -bearing.force(rest, (0.0, 0.0), speed)
+    mass = mass_ratio * float(np.hypot(*load)) / (speed**2 * c)
+    return RigidRotor(
+        mass=mass,
+        speed=speed,
+        unbalance=unbalance_ratio * c * mass,
+        gravity=(0.0, 0.0),
+        static_force=(float(load[0]), float(load[1])),
+        position=(float(rest[0]), float(rest[1])),
+    )
+
+
+# Error of each coupling scheme against the film calls that it takes.
+
+
+REVOLUTIONS = 2
+ECCENTRICITY_RATIO = 0.7
+UNBALANCE_RATIO = 0.45
+ANGLES = tuple(np.radians([0.5, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0]).tolist())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CostRow(Readable):
+    """One run of one scheme.
+
+    Attributes
+    ----------
+    scheme : SchemeName
+    macro_angle : float [rad]
+    orbit_error : float or None [1]
+        Largest distance from the monolithic solution / clearance; None where the run was refused.
+    film_calls : float [1]
+        Film evaluations per turn, with the derivatives that the scheme asks for.
+    refused : str
+        Empty, or why the run is no answer.
+    """
+
+    scheme: SchemeName
+    macro_angle: float
+    orbit_error: float | None
+    film_calls: float
+    refused: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingCost(Readable):
+    """Runs of all schemes on one orbit.
+
+    Attributes
+    ----------
+    eccentricity_ratio : float [1]
+        Largest one of the orbit.
+    rows : tuple of CostRow
+        One for each run.
+    """
+
+    eccentricity_ratio: float
+    rows: tuple[CostRow, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table, angles in degrees."""
+        return {
+            "scheme": [row.scheme for row in self.rows],
+            "macro_angle [deg]": [float(np.degrees(row.macro_angle)) for row in self.rows],
+            "orbit_error [1]": [row.orbit_error for row in self.rows],
+            "film_calls [1/turn]": [row.film_calls for row in self.rows],
+            "refused": [row.refused for row in self.rows],
+        }
+
+
+def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = silent) -> CouplingCost:
+    """Return the errors and the work of all schemes at several macro steps.
+
+    Parameters
+    ----------
+    macro_angles : sequence of float [rad]
+        Each a whole part of a turn.
+    report : callable, optional
+        Told how far the job is.
+    """
+    rotor, bearing = cost_case()
+    duration = REVOLUTIONS * 2.0 * np.pi / SPEED
+    # Schemes that begin with short steps have more points than these.
+    starts = [angle / SPEED * (2.0**k - 1.0) / 63.0 for angle in macro_angles for k in range(6)]
+    points = np.concatenate(
+        [*(np.linspace(0.0, duration, round(duration * SPEED / angle) + 1) for angle in macro_angles), starts]
+    )
+    exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
+    rows = []
+    for number, angle in enumerate(macro_angles):
+        for count, scheme in enumerate(SCHEMES):
+            done = (number + count / len(SCHEMES)) / len(macro_angles)
+            report(done, f"{scheme.label}, {np.degrees(angle):.3g} deg")
+            rows.append(_row(rotor, bearing, scheme, angle, exact))
+    largest = float(np.hypot(*exact.position).max()) / bearing.clearance
+    return CouplingCost(eccentricity_ratio=largest, rows=tuple(rows))
+
+
+def cost_case() -> tuple[RigidRotor, JournalBearing]:
+    """Return a rotor with strong unbalance on a map film, from rest at eccentricity ratio .7."""
+    bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.05, film=MapFilm())
+    rotor = resting_rotor(bearing, ECCENTRICITY_RATIO, unbalance_ratio=UNBALANCE_RATIO)
+    return rotor, bearing
+
+
+def _row(
+    rotor: RigidRotor, bearing: JournalBearing, scheme: Scheme, angle: float, exact: Trajectory
+) -> CostRow:
+    try:
+        with quietly():
+            run = couple(
+                InProcessSlave(rotor),
+                InProcessSlave(bearing),
+                macro_step=angle / SPEED,
+                duration=float(exact.time[-1]),
+                scheme=scheme,
+            )
+    except PartialResultError as failure:
+        partial: CoSimulation = failure.partial
+        turns = max(partial.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
+        error, calls, refused = None, partial.film_calls / turns, str(failure)
+    else:
+        error = orbit_distance(run.trajectory, exact) / bearing.clearance
+        calls, refused = run.film_calls / REVOLUTIONS, ""
+    return CostRow(
+        scheme=SchemeName(scheme.label),
+        macro_angle=angle,
+        orbit_error=error,
+        film_calls=calls,
+        refused=refused,
+    )
+
+
+# How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself.
+
+
+SHAFT = 4.0
+"""Stiffness of the shaft of the rotor with a light journal, in load / clearance."""
+
+SATURATED = 1e-3
+"""Swing of the force, relative to it, where growth may have come to its end."""
+
+DISTURBANCE = 1e-6
+"""Of the start from rest, in clearances."""
+
+SETTLED, COUNTED = 40, 40
+"""Macro steps that are not counted, and those over which growth is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LimitRow(Readable):
+    """The limit of one scheme at one place.
+
+    Attributes
+    ----------
+    scheme : SchemeName
+    eccentricity_ratio : float [1]
+        Of the static equilibrium.
+    mass_ratio : float [1]
+        Mass of the journal's station / mass of the rotor; 1 of a rigid rotor.
+    critical_macro_angle : float or None [rad]
+        By linear theory; None where the scheme has no limit.
+    simulated : float or None [rad]
+        From where a run of the scheme grows; None where it was not asked for.
+    """
+
+    scheme: SchemeName
+    eccentricity_ratio: float
+    mass_ratio: float
+    critical_macro_angle: float | None
+    simulated: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingLimits(Readable):
+    """Limits of all schemes, over the eccentricity ratio and over the mass ratio.
+
+    Attributes
+    ----------
+    speed_parameter : float [1]
+        speed * sqrt(clearance * mass / load).
+    rows : tuple of LimitRow
+        One for each scheme and place.
+    """
+
+    speed_parameter: float
+    rows: tuple[LimitRow, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table, angles in degrees."""
+        return {
+            "scheme": [row.scheme for row in self.rows],
+            "eccentricity_ratio [1]": [row.eccentricity_ratio for row in self.rows],
+            "mass_ratio [1]": [row.mass_ratio for row in self.rows],
+            "critical_macro_angle [deg]": [_degrees(row.critical_macro_angle) for row in self.rows],
+            "simulated [deg]": [_degrees(row.simulated) for row in self.rows],
+        }
+
+
+def coupling_limits(
+    *,
+    eccentricity_ratios: Sequence[float] = tuple(np.linspace(0.1, 0.95, 18)),
+    simulated_at: Sequence[float] = (0.3, 0.5, 0.7, 0.9),
+    mass_ratios: Sequence[float] = tuple(np.geomspace(0.005, 0.5, 9)),
+    simulated_ratios: Sequence[float] = (0.02, 0.2),
+    report: Report = silent,
+) -> CouplingLimits:
+    """Return the limits of all schemes on a short bearing of a rigid rotor, and of one with a light journal.
+
+    Parameters
+    ----------
+    eccentricity_ratios, simulated_at : sequence of float [1]
+        Where theory is asked, and where the scheme is run; a rigid rotor with speed parameter 1.
+    mass_ratios, simulated_ratios : sequence of float [1]
+        The same for a disk on a shaft whose journal has this part of its mass, at eccentricity ratio .7.
+    report : callable, optional
+        Told how far the job is.
+    """
+    jobs: list[tuple[float, float, bool]] = [
+        *((float(e), 1.0, False) for e in eccentricity_ratios),
+        *((float(e), 1.0, True) for e in simulated_at),
+        *((0.7, float(ratio), False) for ratio in mass_ratios),
+        *((0.7, float(ratio), True) for ratio in simulated_ratios),
+    ]
+    rows = []
+    for number, (eccentricity, ratio, run) in enumerate(jobs):
+        report(number / len(jobs), f"eccentricity ratio {eccentricity:.2f}, mass ratio {ratio:.3g}")
+        rows += [limit_row(scheme, eccentricity, ratio, run) for scheme in SCHEMES]
+    return CouplingLimits(speed_parameter=1.0, rows=tuple(rows))
+
+
+def limit_row(scheme: Scheme, eccentricity: float, ratio: float, run: bool) -> LimitRow:
+    """Return the limit of a scheme by theory and, if asked, by runs."""
+    rotor, bearing, state = limit_case(eccentricity, ratio)
+    theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
+    found = None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
+    return LimitRow(
+        scheme=SchemeName(scheme.label),
+        eccentricity_ratio=eccentricity,
+        mass_ratio=ratio,
+        critical_macro_angle=None if theory is None else theory * SPEED,
+        simulated=None if found is None else found * SPEED,
+    )
+
+
+def limit_case(
+    eccentricity: float, ratio: float = 1.0, w: float = 1.0
+) -> tuple[Dynamic, JournalBearing, Array]:
+    """Return a rotor at rest in a short bearing, the bearing, and the rotor's state.
+
+    Parameters
+    ----------
+    eccentricity : float [1]
+    ratio : float [1]
+        1 for a rigid rotor; otherwise the share of the mass that a journal on an elastic shaft has.
+    w : float [1]
+        Speed parameter.
+    """
+    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+    rigid = resting_rotor(bearing, eccentricity, mass_ratio=w**2)
+    if ratio == 1.0:
+        return rigid, bearing, rigid.initial_state
+    rest, load = np.array(rigid.position), np.array(rigid.static_force)
+    # The weight of both masses is the load, so each hangs by its own share.
+    pull = load / rigid.mass
+    stiffness = SHAFT * float(np.hypot(*load)) / bearing.clearance
+    disk = rest + load * (1.0 - ratio) / stiffness
+    state = np.array([disk[0], rest[0], disk[1], rest[1], 0.0, 0.0, 0.0, 0.0])
+    light = JeffcottRotor(
+        mass=(1.0 - ratio) * rigid.mass,
+        journal_mass=ratio * rigid.mass,
+        stiffness=stiffness,
+        speed=SPEED,
+        gravity=(float(pull[0]), float(pull[1])),
+        initial=tuple(state.tolist()),
+    )
+    return light, bearing, state
+
+
+def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, theory: float) -> float | None:
+    """Return the macro step from which a small disturbance of a run grows [s]; None if not near `theory`.
+
+    It is searched for within 4 % of the theory, to 0.5 %.
+    """
+    low, high = 0.96 * theory, 1.04 * theory
+    if _growth(rotor, bearing, scheme, low) > 1.0 or _growth(rotor, bearing, scheme, high) < 1.0:
+        return None
+    while high - low > 5e-3 * theory:
+        middle = 0.5 * (low + high)
+        grows = _growth(rotor, bearing, scheme, middle) > 1.0
+        low, high = (low, middle) if grows else (middle, high)
+    return 0.5 * (low + high)
+
+
+def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> float:
+    """Return how much a small alternation of the force grows over some steps, after others."""
+    forces = _disturbed(rotor, bearing, scheme, step)
+    swing = np.hypot(*np.diff(forces, n=2, axis=1))[SETTLED:]
+    half = len(swing) // 2
+    if half < COUNTED // 4 or swing[-1] > SATURATED * np.abs(forces).max():
+        return np.inf
+    return float(np.linalg.norm(swing[half : 2 * half]) / np.linalg.norm(swing[:half]))
+
+
+def _disturbed(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> Array:
+    try:
+        with quietly():
+            run = couple(
+                InProcessSlave(nudged(rotor, DISTURBANCE * bearing.clearance)),
+                InProcessSlave(bearing),
+                macro_step=step,
+                duration=(SETTLED + COUNTED) * step,
+                scheme=scheme,
+            ).trajectory
+    except PartialResultError as error:
+        run = error.partial.trajectory
+    return np.stack([run["force_x"], run["force_y"]])
+
+
+def nudged(rotor: Dynamic, distance: float) -> Dynamic:
+    """Return the rotor with its journal moved along x [m]."""
+    if isinstance(rotor, RigidRotor):
+        x, y = rotor.position
+        return replace(rotor, position=(x + distance, y))
+    assert isinstance(rotor, JeffcottRotor)
+    initial = np.array(rotor.initial)
+    initial[1] += distance
+    return replace(rotor, initial=tuple(initial.tolist()))
+
+
+def _degrees(angle: float | None) -> float | None:
+    return None if angle is None else float(np.degrees(angle))

@@ -1,0 +1,422 @@
+"""Error against cost of the models of a film's heat: one temperature, a field, layers across the film."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import partial
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+from ..analysis import coefficients, equilibrium, heated_equilibrium
+from ..bearings.films.geometry import Groove
+from ..bearings.journal import (
+    BushRing,
+    FilmProfile,
+    HeatedFilm,
+    HeatedState,
+    HeatNumbers,
+    JournalBearing,
+    LayeredTemperature,
+    MeanTemperature,
+    heat_numbers,
+)
+from ..bearings.oil import Cooling, Oil
+from ..core.model import Array, Reaction
+from ..core.progress import Report, silent
+from ..core.units import CELSIUS
+
+# Models of a film's heat: as cold as the supply, one temperature, a field, layers across the film.
+
+
+CELLS, LAYERS = (80, 8), 12
+REFERENCE_CELLS, REFERENCE_LAYERS = (160, 12), 20
+"""Of the models with fields, and of the reference: cells around the film and along half of it."""
+
+
+class HeatModel(StrEnum):
+    """Models of a film's heat, from the cheapest to the richest."""
+
+    SUPPLY = "T0"
+    BALANCE = "T1"
+    HOUSING = "T1 housing"
+    ADIABATIC = "T2"
+    BUSH = "T2 bush"
+    LAYERS = "T3"
+
+    @property
+    def said(self) -> str:
+        """Return the model in words."""
+        return f"{self.value[:2]}, {_SAID[self]}"
+
+
+_SAID = {
+    HeatModel.SUPPLY: "as cold as the supply",
+    HeatModel.BALANCE: "heat balance",
+    HeatModel.HOUSING: "with housing",
+    HeatModel.ADIABATIC: "over the film",
+    HeatModel.BUSH: "with bush",
+    HeatModel.LAYERS: "across the film",
+}
+
+ONE_TEMPERATURE = (HeatModel.SUPPLY, HeatModel.BALANCE, HeatModel.HOUSING)
+"""Models in which a film has one temperature."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatAnswer:
+    """What a model says of a bearing under its load.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+    eccentricity_ratio : float [1]
+    attitude_angle : float [rad]
+    power_loss : float [W]
+    temperature : float [K]
+        The one temperature of the film, or the largest of its field.
+    load_stiffness : float [N/m]
+        Entry yy of the stiffness, along the load.
+    """
+
+    position: Array
+    eccentricity_ratio: float
+    attitude_angle: float
+    power_loss: float
+    temperature: float
+    load_stiffness: float
+
+
+def answered(case: HeatCase, model: HeatModel, *, cells: tuple[int, int], layers: int) -> HeatAnswer:
+    """Return what a model says of a case, those with fields on so many cells and layers."""
+    if model in ONE_TEMPERATURE:
+        return _with_one_temperature(bearing_of(case, model), case)
+    profile: FilmProfile = LayeredTemperature(layers) if model is HeatModel.LAYERS else MeanTemperature()
+    walls = {} if model is HeatModel.ADIABATIC else {"walls": case.ring}
+    film = HeatedFilm(bearing=case.bearing, cells=cells, profile=profile, **walls)
+    found = heated_equilibrium(film, case.load, case.speed)
+    state = found.state
+    at = found.rest
+    return _answer(at.position, case, state.film, state.power_loss, state.maximum_temperature)
+
+
+def heated_film(
+    case: HeatCase, *, cells: tuple[int, int] = REFERENCE_CELLS, layers: int = REFERENCE_LAYERS
+) -> HeatedState:
+    """Return the film of a case under its load, with its bush, over so many cells and layers."""
+    profile = LayeredTemperature(layers)
+    film = HeatedFilm(bearing=case.bearing, walls=case.ring, cells=cells, profile=profile)
+    found: HeatedState = heated_equilibrium(film, case.load, case.speed).state
+    return found
+
+
+def housing_of(case: HeatCase) -> float:
+    """Return the heat [W/K] that the bush of a case takes per kelvin, as warm all round."""
+    R, L = case.bearing.radius, case.bearing.length
+    return 2.0 * math.pi * R * L * case.ring.mean_transfer(R)
+
+
+def position_error(answer: HeatAnswer, reference: HeatAnswer) -> float:
+    """Return how far a journal is from where a reference has it, in its eccentricity."""
+    return float(np.hypot(*(answer.position - reference.position)) / np.hypot(*reference.position))
+
+
+def bearing_of(case: HeatCase, model: HeatModel) -> JournalBearing:
+    """Return the bearing of a model with one temperature."""
+    bearing, (_, cooling) = case.bearing, case.bearing.cooled
+    if model is HeatModel.SUPPLY:
+        return bearing.at_temperature(cooling.supply_temperature)
+    if model is HeatModel.BALANCE:
+        return bearing
+    ambient = case.ring.ambient_temperature
+    housed = replace(cooling, housing_conductance=housing_of(case), ambient_temperature=ambient)
+    return replace(bearing, cooling=housed)
+
+
+def _with_one_temperature(bearing: JournalBearing, case: HeatCase) -> HeatAnswer:
+    at = equilibrium(bearing, case.load, case.speed)
+    temperature = bearing.temperature if at.temperature is None else at.temperature
+    assert temperature is not None
+    assert at.losses is not None
+    film = bearing.at_temperature(temperature)
+    return _answer(at.position, case, film, float(at.losses.power_loss), temperature)
+
+
+def _answer(
+    position: Array, case: HeatCase, film: Reaction, power_loss: float, temperature: float
+) -> HeatAnswer:
+    x, y = position
+    return HeatAnswer(
+        position=position,
+        eccentricity_ratio=float(np.hypot(x, y)) / case.bearing.clearance,
+        attitude_angle=math.atan2(x, -y) * math.copysign(1.0, case.speed),
+        power_loss=power_loss,
+        temperature=temperature,
+        load_stiffness=float(coefficients(film, position, case.speed).stiffness[1, 1]),
+    )
+
+
+# Bearings that warm, on which models of heat are compared.
+
+
+AMBIENT = 30.0 + CELSIUS
+"""Around the bush [K]."""
+
+RING = 2.0
+"""Outer radius of the bush over that of the bearing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatCase:
+    """A bearing that warms under its load.
+
+    Attributes
+    ----------
+    name : str
+    bearing : JournalBearing
+        Its temperature left to the heat balance, without housing.
+    force : float [N]
+        Load along -y.
+    speed : float [rad/s]
+    """
+
+    name: str
+    bearing: JournalBearing
+    force: float
+    speed: float
+
+    @property
+    def load(self) -> list[float]:
+        """External force on the journal, shape (2,) [N]."""
+        return [0.0, -self.force]
+
+    @property
+    def ring(self) -> BushRing:
+        """The steel bush around it."""
+        return BushRing(outer_radius=RING * self.bearing.radius, ambient_temperature=AMBIENT)
+
+
+def two_grooves(width: float) -> tuple[Groove, Groove]:
+    """Return two grooves of a width [rad] at right angles to a load along -y."""
+    return Groove(center=0.0, width=width), Groove(center=np.pi, width=width)
+
+
+def _case(
+    name: str,
+    size: tuple[float, float, float],
+    oil: tuple[int, float],
+    run: tuple[float, float],
+    grooves: int,
+) -> HeatCase:
+    """Return a case of radius, length, clearance [m], grade and supply [degC], load [N] and speed [rpm]."""
+    bearing = JournalBearing(
+        radius=size[0],
+        length=size[1],
+        clearance=size[2],
+        oil=Oil.iso_vg(oil[0]),
+        cooling=Cooling(supply_temperature=oil[1] + CELSIUS),
+        grooves=two_grooves(np.radians(20.0)) if grooves else (),
+    )
+    return HeatCase(name=name, bearing=bearing, force=run[0], speed=run[1] * np.pi / 30.0)
+
+
+HEAT_CASES = (
+    _case("textbook, VG 100", (0.05, 0.03, 1e-4), (100, 37.1), (525.0, 1500.0), 0),
+    _case("two grooves, VG 46", (0.05, 0.05, 75e-6), (46, 45.0), (5e3, 3000.0), 2),
+    _case("turbine, VG 32", (0.1, 0.16, 150e-6), (32, 45.0), (3e4, 3000.0), 2),
+    _case("small, VG 22", (0.01, 0.01, 20e-6), (22, 50.0), (100.0, 6e4), 0),
+)
+"""Between them the thinning of the oil by its rise is 2 to 40, the Peclet number 20 to 90."""
+
+
+# Error against cost of the models of a film's heat: one temperature, a field, layers across the film.
+
+
+ROUNDS = 5
+"""Runs of a model with one temperature, the shortest of which counts."""
+
+
+SHOWN = {
+    "eps": ("eccentricity ratio [1]", 1.0, 0.0, ".4f"),
+    "angle [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0, ".1f"),
+    "power [W]": ("power loss [W]", 1.0, 0.0, ".0f"),
+    "T [degC]": ("temperature, or largest [K]", 1.0, CELSIUS, ".1f"),
+    "Kyy [MN/m]": ("stiffness yy [N/m]", 1e-6, 0.0, ".4g"),
+    "place off [%]": ("error of the position [1]", 100.0, 0.0, ".1f"),
+    "power off [%]": ("error of the power [1]", 100.0, 0.0, ".1f"),
+    "time [ms]": ("CPU time [s]", 1e3, 0.0, ".4g"),
+}
+"""What a print-out shows: column of the table, its factor, its zero and its format. T is the one temperature
+of the film, or the largest of its field."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatRung:
+    """Answer, error and cost of one model for one bearing.
+
+    Attributes
+    ----------
+    model : HeatModel
+    answer : HeatAnswer
+    position_error : float [1]
+        Distance from the journal's position by the reference / its eccentricity.
+    power_error : float [1]
+        |power loss - reference| / reference.
+    cost : float [s]
+        CPU time of an equilibrium with its coefficients.
+    """
+
+    model: HeatModel
+    answer: HeatAnswer
+    position_error: float
+    power_error: float
+    cost: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatLadder:
+    """All models for one bearing.
+
+    Attributes
+    ----------
+    case : HeatCase
+    numbers : HeatNumbers
+        Of the film at supply temperature.
+    reference : HeatAnswer
+        Layers across the film, on finer cells.
+    rungs : tuple of HeatRung
+    """
+
+    case: HeatCase
+    numbers: HeatNumbers
+    reference: HeatAnswer
+    rungs: tuple[HeatRung, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatAccuracy:
+    """Error against cost of the models of heat on several bearings.
+
+    Attributes
+    ----------
+    ladders : tuple of HeatLadder
+    reference : str
+    """
+
+    ladders: tuple[HeatLadder, ...]
+    reference: str
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table: a row for each model and bearing, and one for each reference."""
+        rows = [row for ladder in self.ladders for row in _rows(ladder)]
+        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+
+    def summary(self) -> dict[str, list[str]]:
+        """Return the answers as a print-out, under a row with the name of each bearing."""
+        table, previous = self.columns(), None
+        rows: list[list[str]] = []
+        for k, (name, model) in enumerate(zip(table["bearing [-]"], table["model [-]"], strict=True)):
+            if name != previous:
+                rows.append([str(name), *("" for _ in SHOWN)])
+                previous = name
+            rows.append([f"  {model}", *(_shown(table, k, *how) for how in SHOWN.values())])
+        return {heading: [row[k] for row in rows] for k, heading in enumerate(("model", *SHOWN))}
+
+
+def heat_accuracy(
+    cases: Sequence[HeatCase] = HEAT_CASES,
+    *,
+    cells: tuple[int, int] = REFERENCE_CELLS,
+    layers: int = REFERENCE_LAYERS,
+    report: Report = silent,
+) -> HeatAccuracy:
+    """Return error and cost of all models of heat.
+
+    Parameters
+    ----------
+    cases : sequence of HeatCase
+    cells : tuple of int
+        Of the reference.
+    layers : int
+        Of the reference.
+    report : callable, optional
+        Told how far the job is.
+    """
+    ladders = []
+    for number, case in enumerate(cases):
+        report(number / len(cases), case.name)
+        ladders.append(_ladder(case, cells, layers))
+    text = f"temperature over {cells[0]} x {cells[1]} cells and in {layers} layers across the film"
+    return HeatAccuracy(ladders=tuple(ladders), reference=text)
+
+
+def _ladder(case: HeatCase, cells: tuple[int, int], layers: int) -> HeatLadder:
+    reference = answered(case, HeatModel.LAYERS, cells=cells, layers=layers)
+    cold = bearing_of(case, HeatModel.SUPPLY)
+    at = equilibrium(cold, case.load, case.speed)
+    return HeatLadder(
+        case=case,
+        numbers=heat_numbers(case.bearing, at.position, case.speed),
+        reference=reference,
+        rungs=tuple(_rung(case, model, reference) for model in HeatModel),
+    )
+
+
+def _rung(case: HeatCase, model: HeatModel, reference: HeatAnswer) -> HeatRung:
+    solve = partial(answered, case, model, cells=CELLS, layers=LAYERS)
+    answer, cost = _timed(solve, ROUNDS if model in ONE_TEMPERATURE else 1)
+    return HeatRung(
+        model=model,
+        answer=answer,
+        position_error=position_error(answer, reference),
+        power_error=abs(answer.power_loss / reference.power_loss - 1.0),
+        cost=cost,
+    )
+
+
+def _timed(solve: partial[HeatAnswer], rounds: int) -> tuple[HeatAnswer, float]:
+    """Return an answer, and the shortest of the CPU times that it took."""
+    times = []
+    for _ in range(rounds):
+        begin = process_time()
+        answer = solve()
+        times.append(process_time() - begin)
+    return answer, min(times)
+
+
+def _shown(
+    table: dict[str, list[object]], row: int, column: str, factor: float, zero: float, form: str
+) -> str:
+    value: Any = table[column][row]
+    return "" if value is None else format(factor * value - zero, form)
+
+
+def _rows(ladder: HeatLadder) -> Iterator[dict[str, object]]:
+    for rung in ladder.rungs:
+        errors = (rung.position_error, rung.power_error, rung.cost)
+        yield _row(ladder, rung.model.value, rung.answer, errors)
+    yield _row(ladder, "reference", ladder.reference, (None, None, None))
+
+
+def _row(
+    ladder: HeatLadder, model: str, answer: HeatAnswer, errors: tuple[float | None, ...]
+) -> dict[str, object]:
+    return {
+        "bearing [-]": ladder.case.name,
+        "thinning x rise E [1]": ladder.numbers.thinning_rise,
+        "Peclet number [1]": ladder.numbers.peclet,
+        "Nahme number [1]": ladder.numbers.nahme,
+        "model [-]": model,
+        "eccentricity ratio [1]": answer.eccentricity_ratio,
+        "attitude angle [rad]": answer.attitude_angle,
+        "power loss [W]": answer.power_loss,
+        "temperature, or largest [K]": answer.temperature,
+        "stiffness yy [N/m]": answer.load_stiffness,
+        "error of the position [1]": errors[0],
+        "error of the power [1]": errors[1],
+        "CPU time [s]": errors[2],
+    }
