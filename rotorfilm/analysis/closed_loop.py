@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,22 +19,23 @@ from ..core.model import (
     Array,
     Dynamic,
     JournalForce,
+    Linearization,
     Model,
     Reaction,
     inertial,
     require_reaction,
     require_turning,
 )
-from ..core.results import Equilibrium
+from ..core.results import Coefficients, Equilibrium
 from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from ..rotors import FlexibleRotor, require_flexible, translations
 from ..rotors.mounted import with_mass
 from ..rotors.structure import output_rows, station_name
 from .equilibrium import equilibrium
-from .linearize import OperatingPoint, checked_vector, control_system, linearize
+from .linearize import OperatingPoint, checked_vector, control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import rest_near, second_order, small_motion
+from .rotor_matrices import journal_rows, remembering, rest_near, second_order, small_motion
 from .rotor_threshold import first_growing
 from .truncation_error import LeftOut
 
@@ -219,7 +220,16 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
         opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
         bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
-        the counters `work` of `unbalance_response`.
+        the counters `work` of `unbalance_response`. States of bearings whose stiffness is K(s) follow those
+        of the rotor, as `left_memory_0`: tilting pads and lubricated balls exactly, a film that conserves
+        its oil with an error up to 1e-3 at frequencies up to that of the shaft, as `film_system`.
+
+    Raises
+    ------
+    InputError
+        If the shaft has a loss factor, or rests on a film that conserves its oil and does not turn.
+    ConvergenceError
+        As `film_system`.
     """
     return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
 
@@ -244,7 +254,8 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground. With its counters `work`.
+        [m/s2]. Outputs and states: as of `rotor_system`, displacements from the ground. With its counters
+        `work`, and its errors.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
@@ -277,7 +288,7 @@ def base_response(
     responses, labels = [], names(rotor.outputs)
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
     for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
-        sense, labels = _outputs(rotor, near)
+        sense, labels = response_rows(rotor, near)
         moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
         responses.append(sense @ with_rates(moved, frequency))
     import control
@@ -362,7 +373,7 @@ def synchronous_response(
     with counted(*SOLVED) as work:
         for speed in grid:
             at, motion = turned.at(float(speed), amplitudes(float(speed)))
-            sense, labels = _outputs(rotor, at)
+            sense, labels = response_rows(rotor, at)
             responses.append(sense @ motion)
     data = np.stack(responses, axis=-1)
     import control
@@ -408,7 +419,7 @@ def rotor_transmissibility(
     with counted(*SOLVED) as work:
         for speed in grid:
             at, motion = shaken.at(float(speed), np.eye(len(push)))
-            sense, labels = _outputs(rotor, at)
+            sense, labels = response_rows(rotor, at)
             wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
             responses.append(sense[wanted] @ motion)
     if not wanted:
@@ -429,42 +440,12 @@ def _state_space(
     rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array, inputs: Sequence[str], name: str | None
 ) -> control.StateSpace:
     """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
-    if rotor.structure.hysteresis is not None:
-        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    mass, damping, stiffness = second_order(rotor.structure, at)
-    n = len(mass)
     with counted(*SOLVED) as work:
-        tally("factorizations")
-        motion, pushed = np.split(
-            np.linalg.solve(mass, np.hstack([-stiffness, -damping, loads])), [2 * n], axis=1
-        )
-    sense, labels = _outputs(rotor, at)
-    by_state, by_acceleration = sense[:, : 2 * n], sense[:, 2 * n :]
+        found = rotor_states(rotor, at, loads)
     system = control_system(
-        np.vstack([np.eye(n, 2 * n, n), motion]),
-        np.vstack([np.zeros_like(pushed), pushed]),
-        by_state + by_acceleration @ motion,
-        by_acceleration @ pushed,
-        inputs=inputs,
-        outputs=labels,
-        states=names(rotor.states),
-        name=name,
+        *found.matrices, inputs=inputs, outputs=found.outputs, states=found.states, name=name
     )
     return with_work(system, work)
-
-
-def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
-    """Return rows over (q, q', q'') and names of all outputs."""
-    s = rotor.assembly
-    own = output_rows(s)
-    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
-    labels = names(rotor.outputs)[:-1]
-    for name, film in at.coefficients.items():
-        felt = film_rows(s, name, len(film.stiffness))
-        parts = (film.stiffness, film.damping, added_mass(film))
-        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
-        labels += [station_name(name, signal) for signal in HOUSING]
-    return np.vstack(rows), labels
 
 
 # The synchronous response of a rotor to forces that turn with it.
@@ -537,3 +518,92 @@ class _Driven:
 def with_rates(motion: np.ndarray, frequency: float) -> np.ndarray:
     """Return phasors of (q, q', q'') at exp(i frequency t), shape (3 N, ...), of those of q."""
     return np.concatenate([motion, 1j * frequency * motion, -(frequency**2) * motion])
+
+
+# A flexible rotor on its films as a state space, with the states of bearings whose stiffness is K(s).
+
+
+class RotorStates(NamedTuple):
+    """A rotor on its films: matrices, and the names of outputs and states."""
+
+    matrices: Linearization
+    outputs: list[str]
+    states: list[str]
+
+
+def rotor_states(rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array) -> RotorStates:
+    """Return a rotor on its films about a rest, under loads (N, m) [N] per unit of the inputs.
+
+    Raises
+    ------
+    InputError
+        If the rotor has hysteresis, which no state space has, or as `film_states`.
+    """
+    structure = rotor.structure
+    if structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+    films = {name: film_states(film) for name, film in remembering(at).items()}
+    direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
+    mass, damping, stiffness = second_order(structure, direct)
+    n, sizes = len(mass), [len(film.A) for film in films.values()]
+    rows = {name: journal_rows(structure, name) for name in films}
+    pushes = [np.zeros((n, 0)), *(rows[name].T @ film.C for name, film in films.items())]
+    tally("factorizations")
+    columns = np.hstack([-stiffness, -damping, *pushes, loads])
+    motion, pushed = np.split(np.linalg.solve(mass, columns), [2 * n + sum(sizes)], axis=1)
+    felt = [np.hstack([f.B[:, :2] @ rows[name], f.B[:, 2:] @ rows[name]]) for name, f in films.items()]
+    own = _on_diagonal([film.A for film in films.values()])
+    sense, outputs = response_rows(rotor, direct)
+    by_state = np.hstack([sense[:, : 2 * n], np.zeros((len(sense), sum(sizes)))])
+    for name, first, film in zip(films, np.cumsum([2 * n, *sizes]), films.values(), strict=False):
+        row = outputs.index(station_name(name, HOUSING[0]))
+        by_state[row : row + 2, first : first + len(film.A)] -= film.C
+    by_acceleration = sense[:, 2 * n :]
+    A = [np.eye(n, motion.shape[1], n), motion, np.hstack([np.vstack([np.zeros((0, 2 * n)), *felt]), own])]
+    B = [np.zeros_like(pushed), pushed, np.zeros((len(own), pushed.shape[1]))]
+    further = [
+        station_name(name, f"memory_{k}")
+        for name, size in zip(films, sizes, strict=True)
+        for k in range(size)
+    ]
+    return RotorStates(
+        Linearization(
+            np.vstack(A), np.vstack(B), by_state + by_acceleration @ motion, by_acceleration @ pushed
+        ),
+        outputs,
+        [*names(rotor.states), *further],
+    )
+
+
+def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
+    """Return rows over (q, q', q'') and names of all outputs of a rotor on its films."""
+    s = rotor.assembly
+    own = output_rows(s)
+    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
+    labels = names(rotor.outputs)[:-1]
+    for name, film in at.coefficients.items():
+        felt = film_rows(s, name, len(film.stiffness))
+        parts = (film.stiffness, film.damping, added_mass(film))
+        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
+        labels += [station_name(name, signal) for signal in HOUSING]
+    return np.vstack(rows), labels
+
+
+def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, Coefficients]:
+    """Return stiffness and damping of films whose states are held."""
+    return {
+        name: Coefficients(
+            stiffness=-film.D[:, :2],
+            damping=-film.D[:, 2:],
+            position=at.coefficients[name].position,
+            speed=at.speed,
+        )
+        for name, film in films.items()
+    }
+
+
+def _on_diagonal(blocks: Sequence[Array]) -> Array:
+    """Return square blocks on a diagonal; of none an empty matrix."""
+    from scipy.linalg import block_diag
+
+    return np.asarray(block_diag(*blocks)) if blocks else np.zeros((0, 0))

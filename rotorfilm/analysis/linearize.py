@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import Complex, DynamicStiffness, MemoryCoefficients
+from ..bearings.reaction import Complex, MemoryCoefficients, StateSpaceStiffness
 from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Dynamic, Linearization, Model, Remembering, RestingStates, settled
@@ -139,6 +139,10 @@ SAMPLES = 192
 """Frequencies at which the film is asked; every second one is fitted, and the error is that at all."""
 
 
+TOLERANCE = 1e-3
+"""Largest error of a system unless another one is asked for."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class FilmSystem(Readable):
     """A film that remembers, as a linear system with few states.
@@ -163,10 +167,25 @@ class FilmSystem(Readable):
 class _Fit(NamedTuple):
     """K(s) = K(0) + s damping + sum of parts (k - k at s = 0), k = ((s - a)/(s + a))^j/(s + a)."""
 
+    still: Array
     decay: float
     damping: Array
     parts: Array
     error: float
+    highest_frequency: float
+
+    @property
+    def linearization(self) -> Linearization:
+        """The fit over x, y, vx, vy: x_j' = q - a x_j - 2 a (x_1 + ... + x_(j-1)) for x and for y."""
+        order = len(self.parts)
+        lags = -self.decay * (np.eye(order) + 2.0 * np.tril(np.ones((order, order)), -1))
+        static = self.still - np.tensordot(_at_rest(order, self.decay), self.parts, 1)
+        return Linearization(
+            np.asarray(np.kron(np.eye(2), lags), dtype=float),
+            np.hstack([np.kron(np.eye(2), np.ones((order, 1))), np.zeros((2 * order, 2))]),
+            -np.transpose(self.parts, (1, 2, 0)).reshape(2, 2 * order),
+            np.hstack([-static, -self.damping]),
+        )
 
 
 @arguments
@@ -175,7 +194,7 @@ def film_system(
     at: Equilibrium,
     *,
     highest_frequency: float | None = None,
-    tolerance: float = 1e-3,
+    tolerance: float = TOLERANCE,
     name: str | None = None,
 ) -> FilmSystem:
     """Return the small motion of a film that remembers as a stable system with few states.
@@ -209,21 +228,51 @@ def film_system(
     require_kind("film", film, Remembering, "a film that remembers, such as a JFOFilm")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)
-    if at.speed == 0.0:
-        raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")
-    top = abs(at.speed) if highest_frequency is None else highest_frequency
-    require_positive("highest_frequency", top)
     coefficients: MemoryCoefficients = film.coefficients(at.position, at.speed)
-    still = coefficients.dynamic_stiffness.stiffness(0j).real
-    fit = _fitted(coefficients.dynamic_stiffness, still, top, tolerance)
-    by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4]
-    return FilmSystem(
-        system=_system(fit, still, by_speed, name), error=fit.error, highest_frequency=float(top)
+    fit = _fitted(coefficients, highest_frequency, tolerance)
+    A, B, C, D = fit.linearization
+    by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
+    import control
+
+    system = control.StateSpace(
+        A,
+        np.hstack([B, np.zeros((len(A), 1))]),
+        C,
+        np.hstack([D, by_speed]),
+        inputs=list(JOURNAL_INPUTS),
+        outputs=list(FORCE_OUTPUTS),
+        states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(len(fit.parts))],
+        name=name,
+        remove_useless_states=False,
     )
+    return FilmSystem(system=system, error=fit.error, highest_frequency=float(fit.highest_frequency))
 
 
-def _fitted(motion: DynamicStiffness, still: Array, top: float, tolerance: float) -> _Fit:
+def film_states(film: MemoryCoefficients) -> Linearization:
+    """Return a film with K(s) as states under a journal: inputs x, y, vx, vy, outputs its force.
+
+    Exact where its states are known, as of tilting pads; else as `film_system` up to the speed of the shaft.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As `film_system`.
+    """
+    motion = film.dynamic_stiffness
+    if isinstance(motion, StateSpaceStiffness):
+        A, B, C, D = motion.at
+        return Linearization(A, B[:, :4], C[:2], D[:2, :4])
+    return _fitted(film, None, TOLERANCE).linearization
+
+
+def _fitted(film: MemoryCoefficients, highest_frequency: float | None, tolerance: float) -> _Fit:
     """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
+    if film.speed == 0.0:
+        raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")
+    top = abs(film.speed) if highest_frequency is None else highest_frequency
+    require_positive("highest_frequency", top)
+    motion = film.dynamic_stiffness
+    still = motion.stiffness(0j).real
     nu = top * np.arange(1, SAMPLES + 1) / SAMPLES
     K = np.array([motion.stiffness(1j * float(one)) for one in nu])
     least = math.inf
@@ -250,7 +299,7 @@ def _fits(nu: Array, K: Complex, still: Array, top: float) -> Iterator[_Fit]:
             found, *_ = np.linalg.lstsq(_real(terms[some]), _real(wanted[some]), rcond=None)
             error = float(np.abs(terms @ found - wanted).max())
             damping, parts = found[0].reshape(2, 2) / top, decay * found[1:].reshape(-1, 2, 2)
-            yield _Fit(decay, damping.astype(float), parts.astype(float), error)
+            yield _Fit(still, decay, damping.astype(float), parts.astype(float), error, top)
 
 
 def _at_rest(order: int, decay: float) -> Array:
@@ -260,23 +309,3 @@ def _at_rest(order: int, decay: float) -> Array:
 
 def _real(rows: Complex) -> Array:
     return np.concatenate([rows.real, rows.imag])
-
-
-def _system(fit: _Fit, still: Array, by_speed: Array, name: str | None) -> control.StateSpace:
-    """Return the fit as a state space: x_j' = q - a x_j - 2 a (x_1 + ... + x_(j-1)) for x and y."""
-    import control
-
-    order = len(fit.parts)
-    lags = -fit.decay * (np.eye(order) + 2.0 * np.tril(np.ones((order, order)), -1))
-    static = still - np.tensordot(_at_rest(order, fit.decay), fit.parts, 1)
-    return control.StateSpace(
-        np.kron(np.eye(2), lags),
-        np.hstack([np.kron(np.eye(2), np.ones((order, 1))), np.zeros((2 * order, 3))]),
-        -np.transpose(fit.parts, (1, 2, 0)).reshape(2, 2 * order),
-        np.hstack([-static, -fit.damping, by_speed[:, None]]),
-        inputs=list(JOURNAL_INPUTS),
-        outputs=list(FORCE_OUTPUTS),
-        states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(order)],
-        name=name,
-        remove_useless_states=False,
-    )

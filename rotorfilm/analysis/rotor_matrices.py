@@ -12,6 +12,7 @@ from scipy import sparse
 from ..bearings.reaction import MemoryCoefficients, added_mass
 from ..core.errors import ConvergenceError
 from ..core.model import Array
+from ..core.results import Coefficients
 from ..rotors.structure import Structure, across_planes, both_planes, is_sparse
 from .modal_reduction import BandedFactor, DenseFactor, film_rows
 from .rotor_equilibrium import RotorEquilibrium
@@ -102,8 +103,14 @@ def remembering(at: RotorEquilibrium) -> dict[str, MemoryCoefficients]:
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
     """Return an equilibrium with K(s) and its slope of the films that remember, for motion near e^(s t)."""
-    near = {name: film.near(s) for name, film in remembering(at).items()}
-    return replace(at, coefficients={**at.coefficients, **near}) if near else at
+    if not remembering(at):
+        return at
+    return replace(at, coefficients={n: coefficients_near(film, s) for n, film in at.coefficients.items()})
+
+
+def coefficients_near(film: Coefficients, s: complex) -> Coefficients:
+    """Return K(s) and its slope as K and C of a film that remembers; any other as it is."""
+    return film.near(s) if isinstance(film, MemoryCoefficients) else film
 
 
 def motion_near(
@@ -163,32 +170,20 @@ def _unit(vector: np.ndarray) -> np.ndarray:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def mode_near(
-    system: SecondOrder, value: complex, load: np.ndarray
+def whirl_near(
+    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, load: np.ndarray
 ) -> tuple[complex, np.ndarray, np.ndarray]:
-    """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
+    """Return the eigenvalue of a rotor about its rest next to another one, and its right and left vector.
+
+    Its shape is like that under a load; hysteresis is that at a frequency [rad/s]. Films that remember have
+    K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
 
     Raises
     ------
     ConvergenceError
         If the iteration does not end.
     """
-    return _iterated(lambda s: system, value, load)
-
-
-def whirl_near(
-    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, load: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray]:
-    """Return the same of a rotor about its rest, with hysteresis at a frequency [rad/s].
-
-    Films that remember have K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
-    """
-    return _iterated(motion_near(structure, at, frequency), value, load)
-
-
-def _iterated(
-    system_at: Callable[[complex], SecondOrder], value: complex, load: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray]:
+    system_at = motion_near(structure, at, frequency)
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
     found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]

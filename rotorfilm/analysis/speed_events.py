@@ -22,11 +22,12 @@ from .rotor_matrices import (
     CONVERGED,
     PATIENCE,
     ROUNDED,
+    coefficients_near,
     dynamics,
     journal_rows,
-    mode_near,
+    rest_near,
     second_order,
-    small_motion,
+    whirl_near,
 )
 from .rotor_modes import RotorModes, rotor_modes
 from .rotor_threshold import NEUTRAL, rotor_threshold
@@ -237,7 +238,7 @@ class Start(NamedTuple):
 
 
 class Whirl(NamedTuple):
-    """A whirl in L(s) = s^2 M + s C + K, all at one speed.
+    """A whirl in L(s) = s^2 M + s C + K, all at one speed; K and C are K(s) and its slope of films with it.
 
     Attributes
     ----------
@@ -260,22 +261,27 @@ def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquil
 
 
 def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
-    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s)."""
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
-    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
+    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, s, STEP).items():
         rows = journal_rows(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
-    _, slope = dynamics(second_order(structure, whirl.at), s)
+    _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
     return complex(-(left @ changed) / (left @ slope @ right))
 
 
-def coefficient_rates(films: RotorFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
-    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
+def coefficient_rates(
+    films: RotorFilms, at: RotorEquilibrium, s: complex, step: float
+) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart.
+
+    Of a film with K(s) they are those of its matrices near the exponent s.
+    """
     rates = {}
     for name, film in films.turning.items():
         low, high = (
-            coefficients(film, equilibrium(film, at.loads[name], speed).position, speed)
+            coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
         )
         width = 2.0 * step * at.speed
@@ -295,8 +301,7 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: 
     speed, value, load = start
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, reactions, speed)
-        system = small_motion(rotor.structure, at, event.frequency(value, speed))
-        whirl = Whirl(at, *mode_near(system, value, load))
+        whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
         lead = event.lead(whirl.value, speed)
         if abs(lead) < CONVERGED * speed:
             return whirl, count

@@ -535,6 +535,15 @@ class DynamicStiffness(Protocol):
         """
 
 
+@runtime_checkable
+class StateSpaceStiffness(Protocol):
+    """A `DynamicStiffness` of states that follow the journal, which a rotor may take as states of its own."""
+
+    @property
+    def at(self) -> Linearization:
+        """The states about the rest; its inputs begin with x, y, vx, vy, its outputs with the force."""
+
+
 @dataclass(frozen=True)
 class StatesStiffness:
     """K(s) of a reaction whose states follow the journal, exactly, from its linearization about a rest.

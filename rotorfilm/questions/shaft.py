@@ -14,9 +14,9 @@ from ..analysis.rotor_matrices import (
     dynamics,
     inverse_steps,
     journal_rows,
-    mode_near,
+    motion_near,
     second_order,
-    small_motion,
+    whirl_near,
 )
 from ..analysis.speed_events import (
     Critical,
@@ -157,10 +157,10 @@ class ShaftRung(BaseRung):
         rotor, reactions = model.rotor, self.films.reaction
         starts = []
         for speed, value in self.event.sightings(rotor, reactions, self.speeds):
-            at = rotor_equilibrium(rotor, reactions, speed)
-            system = small_motion(rotor.structure, at, self.event.frequency(value, speed))
-            shape = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
-            value, shape, _ = mode_near(system, value, shape)
+            at, structure = rotor_equilibrium(rotor, reactions, speed), rotor.structure
+            shape = np.random.default_rng(0).normal(size=len(structure.weight)) + 0j
+            frequency = self.event.frequency(value, speed)
+            value, shape, _ = whirl_near(structure, at, frequency, value, shape)
             seen = shape if model is self.model else self.model.seen(model.nodal(shape))
             starts.append(Start(speed, value, seen))
         return starts
@@ -262,7 +262,8 @@ class ShaftRung(BaseRung):
         self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
     ) -> CorrectedSpeed:
         frequency = self.event.frequency(whirl.value, whirl.at.speed)
-        system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients), frequency)
+        at, structure = on_films(whirl.at, coefficients), self.model.finer.structure
+        system = motion_near(structure, at, frequency)(whirl.value)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
         _, first, last = inverse_steps(system, whirl.value, right, left, 3)
         one, other = (-self.event.lead(step[0], whirl.at.speed) / rate for step in (first, last))

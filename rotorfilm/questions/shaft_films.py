@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 
 from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
-from ..analysis.rotor_matrices import mode_near, small_motion
+from ..analysis.rotor_matrices import whirl_near
 from ..analysis.speed_events import SpeedEvent, Whirl, on_films, secant_speed, value_rate
 from ..bearings.journal import JournalBearing
 from ..core.answers import HEATED, SAFETY, BaseRung, ErrorEstimate, Found, Rung, Work, WorkUnit
@@ -506,8 +506,8 @@ class FieldSpeedRung(BaseRung):
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
             rests = field_rests(rung.films, at, self.level)
             warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
-            system = small_motion(structure, warm, event.frequency(whirl.value, speed))
-            whirl = Whirl(warm, *mode_near(system, whirl.value, whirl.right))
+            frequency = event.frequency(whirl.value, speed)
+            whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
             found = Found(speed, {}, rung.solution(whirl))
             return event.lead(whirl.value, speed), FieldSpeed(found, rests)
 

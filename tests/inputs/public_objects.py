@@ -93,6 +93,7 @@ MADE = [
     rf.Pad(start=1.0, extent=0.5),
     rf.FixedArc(start=0.1, extent=3.0),
     rf.ReynoldsArc(start=0.1),
+    rf.SlitArc(slit=0.1, extent=3.0),
     rf.Measurements(speed=[100.0, 200.0], load=[0.0, -500.0], values={"x": [4e-5, 5e-5]}),
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),

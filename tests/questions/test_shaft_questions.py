@@ -24,10 +24,9 @@ from rotorfilm.analysis.speed_events import (
     Critical,
     Start,
     Threshold,
-    mode_near,
     on_films,
-    small_motion,
     value_rate,
+    whirl_near,
     whirl_of,
 )
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
@@ -101,8 +100,10 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
     forward = next(
         one.speed for one in found if one.direction > 0.5
     )  # the first of all is the backward whirl
-    shape = np.random.default_rng(1).normal(size=len(rungs[0].model.rotor.structure.mass))
-    nodal = rungs[0].model.nodal(mode_near(at_speed(rungs[0], forward), 1j * forward, shape)[1])
+    rotor = rungs[0].model.rotor
+    at, structure = rotor_equilibrium(rotor, rungs[0].films.reaction, forward), rotor.structure
+    shape = np.random.default_rng(1).normal(size=len(structure.weight))
+    nodal = rungs[0].model.nodal(whirl_near(structure, at, forward, 1j * forward, shape)[1])
     for rung in rungs[:-1]:
         whirl, _ = whirl_of(
             Critical(), rung.model.rotor, rung.films, Start(forward, 1j * forward, rung.model.seen(nodal))
@@ -112,11 +113,6 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
         error, about = abs(whirl.at.speed / exact - 1.0), abs(moved.speed / whirl.at.speed - 1.0)
         # bearings of 1e13 N/m give way by some 4e-8
         assert about == pytest.approx(error, rel=0.15, abs=1e-7 + moved.noise)
-
-
-def at_speed(rung, speed):
-    at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
-    return small_motion(rung.model.rotor.structure, at, speed)
 
 
 def test_critical_speed_agrees_with_the_whole_eigenproblem():
@@ -176,8 +172,8 @@ def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
     own, changes = coefficient_bounds(rung.films, whirl.at), []
     for _ in range(200):
         off = {name: with_error(film, random) for name, film in whirl.at.coefficients.items()}
-        system = small_motion(structure, on_films(whirl.at, off), abs(whirl.value))
-        value, *_ = mode_near(system, whirl.value, whirl.right)
+        at = on_films(whirl.at, off)
+        value, *_ = whirl_near(structure, at, abs(whirl.value), whirl.value, whirl.right)
         changes.append(abs(rung.event.lead(value, whirl.at.speed) / rate) / whirl.at.speed)
     # to 1e-3 of the largest entry, where the bounds are those of the films
     bound = rung._bound(whirl, rate) * 1e-3 / max(own.values())

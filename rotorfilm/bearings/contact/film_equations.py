@@ -306,6 +306,11 @@ class ContactEquations:
         """The grid with both lengths in the axis along x, as the equations have them."""
         return replace(self.grid, half_width=self.ellipse.ellipticity * self.grid.half_width)
 
+    @property
+    def is_dense(self) -> bool:
+        """Whether the cells are graded, so that their elastic matrix is dense."""
+        return self.grid.focus is not None
+
     @cached_property
     def sampling(self) -> Sampling:
         """Samples of the film and their matrices."""
@@ -315,7 +320,7 @@ class ContactEquations:
     def halved(self) -> ContactEquations | None:
         """The equations on cells twice as large, or None where the cells cannot be paired."""
         nx, ny = self.grid.cells
-        if nx % 2 or ny % 4 or min(nx, ny) < 2 * SMALLEST:
+        if self.is_dense or nx % 2 or ny % 4 or min(nx, ny) < 2 * SMALLEST:
             return None
         return replace(self, grid=replace(self.grid, cells=(nx // 2, ny // 2)))
 
@@ -328,8 +333,10 @@ class ContactEquations:
         return other
 
     @cached_property
-    def area(self) -> float:
-        """Area of a cell and its mirror image: the load is this times the sum of the pressures."""
+    def area(self) -> Any:
+        """Area of a cell and its mirror image; of each of graded cells, flat."""
+        if self.is_dense:
+            return 2.0 * np.outer(*self.plane.widths).ravel()
         return 2.0 * self.plane.spacing[0] * self.plane.spacing[1]
 
     def film(self, pressure: Array, delta: float) -> Array:
@@ -342,7 +349,7 @@ class ContactEquations:
 
     def load(self, pressure: Array) -> float:
         """Return the integral of the pressure over the plane."""
-        return self.area * float(pressure.sum())
+        return float(self.area @ pressure) if self.is_dense else float(self.area * float(pressure.sum()))
 
     def carried_load(self, pressure: Array) -> float:
         """Return the same over that of the dry contact: f."""
@@ -436,11 +443,11 @@ class ContactEquations:
 
     @cached_property
     def _flow(self) -> _Flow:
-        (nx, m), (dx, dy) = self.grid.shape, self.plane.spacing
+        (nx, m), (dx, dy) = self.grid.shape, self.plane.widths
         on_x, on_y = sparse.identity(nx), sparse.identity(m)
-        along = product(_differences(nx, wall=True) / dx, on_y)
-        across = product(on_x, _differences(m, wall=False) / dy)
-        divergence = product(_divergence(nx) / dx, on_y), product(on_x, _divergence(m) / dy)
+        along = product(_per(_distances(dx), _differences(nx, wall=True)), on_y)
+        across = product(on_x, _per(_distances(dy), _differences(m, wall=False)))
+        divergence = product(_per(dx, _divergence(nx)), on_y), product(on_x, _per(dy, _divergence(m)))
         return _Flow(
             (along, across),
             (along @ np.ones(nx * m), across @ np.ones(nx * m)),
@@ -462,6 +469,16 @@ class ContactEquations:
     @cached_property
     def _unlimited(self) -> Array:
         return np.zeros(self._flow.divergence[0].shape[1])
+
+
+def _per(sizes: Array, matrix: Any) -> Any:
+    """Return the matrix with its rows divided by sizes."""
+    return sparse.diags(1.0 / sizes) @ matrix
+
+
+def _distances(widths: Array) -> Array:
+    """Return the distances of neighboring centers of cells, twice those to the walls at the ends."""
+    return np.concatenate([widths[:1], 0.5 * (widths[1:] + widths[:-1]), widths[-1:]])
 
 
 def _scaled(matrix: Any, columns: Array) -> Any:

@@ -18,7 +18,7 @@ from scipy.sparse import linalg
 
 from ...core.errors import ConvergenceError
 from ...core.model import Array
-from .contact_grid import UpwindScheme
+from .contact_grid import Deflection, UpwindScheme
 from .film_equations import ContactEquations, Derivatives, TimeDerivative
 
 MAX_STEPS = 30
@@ -74,7 +74,7 @@ class NewtonKrylov:
         self._few = FEW * equations.grid.shape[0]
         self._grids: tuple[HalvedGrid, ...] = ()
         self._cycle: Cycle | None = None
-        if place is not None:
+        if place is not None and not equations.is_dense:
             self._cycle = self._renewed(linearized(equations, place))
 
     @property
@@ -151,11 +151,14 @@ class NewtonKrylov:
         wet = linear.place.wet
         if linear.place.closure.approach == 0.0 and not np.any(wet):
             raise ConvergenceError("some cell must hold film for a load to rest on, got none")
+        right = np.append(residual, miss)
+        if self.equations.is_dense:
+            answer = linear.solved(right)
+            return np.where(wet, answer[:-1], 0.0), float(answer[-1]), 1
         known = self._cycle
         limit = STALE * min(COARSEST, self.equations.grid.shape[0])
         fresh = known is None or int(np.sum(known.linear.place.wet != wet)) > limit
         self._cycle = used = self._renewed(linear) if fresh or known is None else known
-        right = np.append(residual, miss)
         answer, count = self._krylov(linear, used, right, forcing)
         if count >= KRYLOV and not fresh:
             self._cycle = used = self._renewed(linear)
@@ -377,6 +380,20 @@ class LinearContact(NamedTuple):
         load = closure.approach * x[-1] + closure.load * self.equations.load(pressure)
         return np.append(np.where(wet, film, x[:-1]), load)
 
+    def solved(self, right: Array) -> Array:
+        """Return the answer to a right side by a dense matrix, for graded cells."""
+        wet, closure = np.flatnonzero(self.place.wet), self.place.closure
+        by_pressure, by_film = self.derivatives
+        bent: Any = self.equations.sampling.deflection
+        matrix = np.zeros((len(wet) + 1, len(wet) + 1))
+        matrix[:-1, :-1] = by_pressure[wet][:, wet].toarray() + by_film[wet] @ bent.matrix[:, wet]
+        matrix[:-1, -1], matrix[-1, -1] = self.by_delta[wet], closure.approach
+        matrix[-1, :-1] = closure.load * self.equations.area[wet]
+        found = np.linalg.solve(matrix, np.append(right[wet], right[-1]))
+        answer = right.copy()
+        answer[wet], answer[-1] = found[:-1], found[-1]
+        return answer
+
 
 def linearized(equations: ContactEquations, place: Place) -> LinearContact:
     """Return the equations linearized at a place."""
@@ -508,6 +525,7 @@ class Factors(NamedTuple):
 def distribution(equations: ContactEquations) -> Distribution:
     """Return the change of variables for a grid."""
     bend = equations.sampling.deflection
+    assert isinstance(bend, Deflection)  # graded cells are solved directly
     five = np.zeros((3, 3))
     five[1, :] = five[:, 1] = -1.0
     five[1, 1] = 4.0

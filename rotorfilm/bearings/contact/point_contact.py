@@ -32,7 +32,7 @@ from ...core.model import Array
 from ...core.readable import Readable
 from ...core.signals import Signal
 from ..formulas import Ellipse, HamrockDowson, require_ellipticity
-from .contact_grid import ContactGrid, ContactScheme, UpwindScheme
+from .contact_grid import ContactGrid, ContactScheme, StaggeredScheme, UpwindScheme
 from .contact_law import SLOW
 from .contact_run import load_run, run_contact, save_run
 from .contact_steps import (
@@ -116,6 +116,8 @@ class PointContact:
         for name, kind in kinds.items():
             if not isinstance(getattr(self, name), kind):
                 raise InputError(f"{name} must be a {kind.__name__}, got {getattr(self, name)!r}")
+        if self.grid.focus is not None and not isinstance(self.scheme, StaggeredScheme):
+            raise InputError(f"scheme must be StaggeredScheme() on graded cells, got {self.scheme!r}")
         require_kind(
             "density", self.density, DowsonHigginsonDensity | None, "a DowsonHigginsonDensity or None"
         )

@@ -198,7 +198,8 @@ class SmallMotion:
 
     def stiffness(self, s: complex) -> complex:
         """Return Z(s) = -d(integral of p)/d(delta) for motions as exp(s t)."""
-        return self._equations.area * complex(self._pressures(s).sum())
+        pressures, area = self._pressures(s), self._equations.area
+        return complex(area[self._wet] @ pressures if self._equations.is_dense else area * pressures.sum())
 
     def film(self, s: complex) -> tuple[complex, np.ndarray]:
         """Return d(film thickness)/d(delta) for motions as exp(s t), at the center and at the samples."""

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.errors import InputError, require_inside, warn_user
+from ...core.errors import ConvergenceError, InputError, require_inside, warn_user
 from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, ResponseKernel
-from .law import FilmOptions, endless_search, vanishing_source, wall_contact
+from .law import FilmOptions, vanishing_source, wall_contact
 
 
 class KernelFilm(FilmOptions):
@@ -175,3 +175,11 @@ def continued(kernel: FilmKernel) -> str:
         return "extrapolated there, with an error that is not known"
     where = " where no opening is near" if kernel.openings else ""
     return f"continued as that of a film at the wall, within {kernel.error:g} %{where}"
+
+
+def endless_search(eccentricity: Array, source: Array) -> ConvergenceError:
+    """Return the error of a film whose edge is not found, at one state (2,)."""
+    return ConvergenceError(
+        "the search for the ruptured zone must end, and did not at "
+        f"eccentricity {eccentricity.tolist()}, source {source.tolist()} 1/s"
+    )

@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
-from ...core.errors import ConvergenceError, FilmContactError, UndefinedDerivativeError, require_inside
+from ...core.errors import FilmContactError, UndefinedDerivativeError, require_inside
 from ...core.model import Array
 from ...native.loss_kernels import LossKernel
 from ..reaction import broadcast_state
@@ -37,7 +37,7 @@ CHUNK = 2048
 
 @runtime_checkable
 class FilmLaw(Protocol):
-    """A dimensionless, isotropic film force with exact derivatives."""
+    """A dimensionless film force with exact derivatives, isotropic unless the bearing holds the film."""
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal [viscosity length radius^3 / clearance^2 / s].
@@ -115,6 +115,10 @@ class FilmOptions:
         """Return this law with the table that it would make on first use; None if it makes none."""
         return None
 
+    def mirrored(self) -> FilmLaw | None:
+        """Return this law in a bearing seen in a mirror, y to -y; None if it is its own image."""
+        return None
+
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses | None:
         """Return shear and flow at eccentricities e and sources w (2, ...); None if the law does not know.
 
@@ -166,11 +170,12 @@ class PolarFrame(NamedTuple):
 
 
 class PolarResponse(NamedTuple):
-    """The matrix A of a polar law and its derivatives, each of shape (B, 2, 2), order (sin, cos)."""
+    """The matrix A (B, 2, 2), order (sin, cos), and its derivatives; that by the attitude is often None."""
 
     A: Array
     A_chi: Array
     A_turn: Array
+    A_attitude: Array | None = None
 
 
 Respond = Callable[[PolarFrame], PolarResponse]
@@ -202,8 +207,9 @@ def cartesian_force(frame: PolarFrame, A: Array) -> Array:
 def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
     """Return d force / d (eccentricity, source), shape (2, 4, B), of a polar law.
 
-    With F = Q f(chi, Q^T w), Q = (e_t, e_r) and J the quarter turn, F_w = Q f_g Q^T and
-    F_e = Q f_chi e_r^T + (J F - F_w J w) e_t^T / chi, where f_g = -A - A_turn g (dt/dg)^T.
+    With F = Q f(chi, phi, Q^T w), Q = (e_t, e_r) and J the quarter turn, F_w = Q f_g Q^T and
+    F_e = Q f_chi e_r^T + (J F - F_w J w + Q f_phi) e_t^T / chi, where f_g = -A - A_turn g (dt/dg)^T and
+    f_phi = -A_attitude g, which only a film has that is held in the bearing.
     """
     g, Q = frame.source, frame.axes
     squared = np.einsum("bi,bi->b", g, g)
@@ -214,6 +220,8 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
     F_chi = -np.einsum("bij,bjk,bk->bi", Q, response.A_chi, g)
     w = np.einsum("bij,bj->bi", Q, g)
     F_angle = _quarter_turn(F) - np.einsum("bij,bj->bi", F_source, _quarter_turn(w))
+    if response.A_attitude is not None:
+        F_angle -= np.einsum("bij,bjk,bk->bi", Q, response.A_attitude, g)
     F_across = F_angle / frame.chi[:, None]
     F_eccentricity = F_chi[:, :, None] * Q[:, None, :, 1] + F_across[:, :, None] * Q[:, None, :, 0]
     return np.moveaxis(np.concatenate([F_eccentricity, F_source], axis=-1), 0, -1)
@@ -273,14 +281,6 @@ def require_direction(frame: PolarFrame) -> None:
     vanishing = ~np.any(frame.source, axis=-1)
     if np.any(vanishing):
         raise vanishing_source(frame.chi[vanishing][0])
-
-
-def endless_search(eccentricity: Array, source: Array) -> ConvergenceError:
-    """Return the error of a film whose edge is not found, at one state (2,)."""
-    return ConvergenceError(
-        "the search for the ruptured zone must end, and did not at "
-        f"eccentricity {eccentricity.tolist()}, source {source.tolist()} 1/s"
-    )
 
 
 def vanishing_source(chi: float) -> UndefinedDerivativeError:
@@ -346,14 +346,14 @@ class BoundLaw:
         """Return the force [N], shape (2, ...)."""
         eccentricity, source = kinematics(position, velocity, speed, self.clearance)
         mirror = self._mirror(speed)
-        film = self.law.force(mirror * eccentricity, mirror * source, self.slenderness)
+        film = self._in_mirror("force", (2,), mirror, eccentricity, source)
         return self.force_per_rate * mirror * film
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
         eccentricity, source = kinematics(self._off_center(position), velocity, speed, self.clearance)
         mirror = self._mirror(speed)
-        film = self.law.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
+        film = self._in_mirror("jacobian", (2, 4), mirror, eccentricity, source)
         film = self.force_per_rate * mirror[:, None] * film * np.tile(mirror, (2, *(1,) * speed.ndim))
         by_eccentricity, by_source = film[:, :2], film[:, 2:]
         # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
@@ -361,6 +361,19 @@ class BoundLaw:
         by_position = (by_eccentricity - 0.5 * speed * turned) / self.clearance
         by_speed = 0.5 * (by_source[:, 0] * eccentricity[1] - by_source[:, 1] * eccentricity[0])
         return np.concatenate([by_position, by_source / self.clearance, by_speed[:, None]], axis=1)
+
+    def _in_mirror(
+        self, what: str, shape: tuple[int, ...], mirror: Array, eccentricity: Array, source: Array
+    ) -> Array:
+        """Return what the law says where nothing is mirrored, and what its image says where something is."""
+        image, turned = options(self.law, FilmOptions).mirrored(), mirror[1] < 0.0
+        e, w = mirror * eccentricity, mirror * source
+        if image is None or not turned.any():
+            return np.asarray(getattr(self.law, what)(e, w, self.slenderness))
+        found = np.empty((*shape, *turned.shape))
+        for law, some in ((self.law, ~turned), (image, turned)):
+            found[..., some] = getattr(law, what)(e[:, some], w[:, some], self.slenderness)
+        return found
 
     def _off_center(self, position: Array) -> Array:
         """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.

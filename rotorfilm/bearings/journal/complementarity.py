@@ -52,7 +52,9 @@ class ComplementarityArc:
             "median / 90 % force error 0.5-4 / 1.4-8 % with n = 4, L/D 0.25 to 1"
         )
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film and their derivatives (implicit function theorem).
 
         Raises

@@ -20,7 +20,7 @@ from .bearing import JournalBearing
 from .grooved_film import GroovedMapFilm
 from .map.map_film import MapFilm
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm, ShortFilm
-from .rupture import Rupture, whitened_functions
+from .rupture import Rupture, attitude_of, whitened_functions
 from .splitting_film import SpectralArcFilm, SplittingFilm
 
 AXIAL_NODES = 21
@@ -288,7 +288,7 @@ def splitting_pressure(
         p / (12 viscosity (R/c)^2).
     """
     frame = polar_frame(eccentricity, source)
-    arc = film.rupture.arc(frame.chi, frame.turn, slenderness, film.basis)
+    arc = film.rupture.arc(frame.chi, frame.turn, slenderness, film.basis, attitude_of(frame))
     here = whitened_functions(frame.chi, arc.start, arc.end, film.basis)
     gamma = here.nodes.gamma
     g = frame.source[:, :1] * np.sin(gamma) + frame.source[:, 1:] * np.cos(gamma)

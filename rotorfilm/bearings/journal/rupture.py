@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipj, ellipkinc
 
-from ...core.errors import ConvergenceError, InputError, require_finite, require_number
-from ...core.inputs import quantities
-from ...core.model import Array
+from ....core.errors import ConvergenceError, InputError, require_finite, require_number
+from ....core.inputs import quantities
+from ....core.model import Array
+from ...films.law import PolarFrame
 
 SHORTEST_ARC = 1e-3
 """Extent [rad] below which arc integrals lose their digits."""
@@ -33,6 +34,9 @@ class FilmArc(NamedTuple):
         Derivatives with respect to the eccentricity ratio at a fixed direction of the source.
     start_turn, end_turn : ndarray [1]
         Derivatives with respect to the direction of the source.
+    start_attitude, end_attitude : ndarray [1] or None
+        Derivatives with respect to the attitude of the journal at a fixed direction of the source; None where
+        the film turns with the journal.
     """
 
     start: Array
@@ -41,6 +45,15 @@ class FilmArc(NamedTuple):
     end_chi: Array
     start_turn: Array
     end_turn: Array
+    start_attitude: Array | None = None
+    end_attitude: Array | None = None
+
+    @property
+    def by_attitude(self) -> FilmArc | None:
+        """The arc with the derivatives by the attitude in place of those by the source; None without."""
+        if self.start_attitude is None or self.end_attitude is None:
+            return None
+        return self._replace(start_turn=self.start_attitude, end_turn=self.end_attitude)
 
 
 class Basis(NamedTuple):
@@ -61,7 +74,9 @@ class Rupture(Protocol):
     def shortcoming(self, basis: Basis) -> str:
         """Return why a splitting film of this basis is not fit for the arc; empty if it is."""
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film.
 
         Parameters
@@ -74,7 +89,14 @@ class Rupture(Protocol):
             Bearing length / diameter.
         basis : Basis
             Coupling functions of the film that asks.
+        attitude : ndarray, shape (B,) [rad]
+            Direction of the journal from the bearing center; a film that turns with it does not ask.
         """
+
+
+def attitude_of(frame: PolarFrame) -> Array:
+    """Return the direction of the journal from the bearing center, from the x axis, shape (B,) [rad]."""
+    return np.arctan2(frame.axes[:, 1, 1], frame.axes[:, 0, 1])
 
 
 def rigid_arc(start: Array, end: Array, rate: float) -> FilmArc:
@@ -126,7 +148,9 @@ class FixedArc:
             f"got {self.extent:.6g}: the splitting series stalls"
         )
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film, which do not move."""
         return rigid_arc(np.full_like(turn, self.start), np.full_like(turn, self.start + self.extent), 0.0)
 
@@ -145,7 +169,9 @@ class RotatingArc:
         """Return an empty string: half a circle suits every basis."""
         return ""
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film, which turn with the source."""
         return rigid_arc(turn + 0.5 * math.pi, turn + 1.5 * math.pi, 1.0)
 
@@ -217,7 +243,9 @@ class ReynoldsArc:
             "(n >= 4 and constant=True: 0.2-8 / 0.4-15 %)"
         )
 
-    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
         """Return the ends of the film and their derivatives (implicit function theorem).
 
         Raises
@@ -226,20 +254,37 @@ class ReynoldsArc:
             If a prescribed start lies where the source draws the film apart and no arc from there satisfies
             the condition.
         """
-        start, start_turn = self._start(turn)
-        edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
-        end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
-        slope = _slope(chi, turn, start, end, slenderness, basis)
-        free = end < start + TURN
-        safe = np.where(free, slope.by_end, 1.0)
-        end_chi = np.where(free, -slope.by_chi / safe, 0.0)
-        end_turn = np.where(free, -(slope.by_turn + slope.by_start * start_turn) / safe, start_turn)
-        return FilmArc(start, end, np.zeros_like(chi), end_chi, start_turn, end_turn)
+        found = ruptured_arc(chi, turn, *self._start(turn), slenderness, basis)
+        return found._replace(start_attitude=None, end_attitude=None)
 
     def _start(self, turn: Array) -> tuple[Array, Array]:
         if self.start is None:
             return turn + 0.5 * math.pi, np.ones_like(turn)
         return np.full_like(turn, self.start), np.zeros_like(turn)
+
+
+def ruptured_arc(
+    chi: Array, turn: Array, start: Array, start_turn: Array, slenderness: float, basis: Basis
+) -> FilmArc:
+    """Return the arc from a start that turns at some rate with the source, and how it turns with its start.
+
+    The latter stands as the derivative by an attitude that turns the start backward.
+
+    Raises
+    ------
+    ConvergenceError
+        As `ReynoldsArc.arc`.
+    """
+    edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
+    end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
+    slope = _slope(chi, turn, start, end, slenderness, basis)
+    free = end < start + TURN
+    safe = np.where(free, slope.by_end, 1.0)
+    end_chi = np.where(free, -slope.by_chi / safe, 0.0)
+    end_turn = np.where(free, -(slope.by_turn + slope.by_start * start_turn) / safe, start_turn)
+    end_start = np.where(free, -slope.by_start / safe, 1.0)
+    still = np.zeros_like(chi)
+    return FilmArc(start, end, still, end_chi, start_turn, end_turn, still - 1.0, -end_start)
 
 
 def _measured(basis: Basis) -> str:

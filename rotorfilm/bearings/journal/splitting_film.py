@@ -12,13 +12,15 @@ scalar function of each eigenvalue (`axial`), also when it runs over all modes.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import InputError, require_kind, warn_user
+from ...core.errors import InputError, ValidityWarning, require_kind, warn_user
 from ...core.inputs import quantities
 from ...core.model import Array
 from ..films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
@@ -31,6 +33,7 @@ from .rupture import (
     FixedArc,
     PairIntegrals,
     Rupture,
+    attitude_of,
     coupling_integrals,
     film_nodes,
     pair_integrals,
@@ -53,8 +56,8 @@ class SplittingFilm:
         film without it is periodic (a full film, no pressure imposed anywhere on the circumference); with
         it the film is cut where the arc starts.
     rupture : Rupture
-        Where the film ends: `FixedArc()` as published, `RotatingArc()` for large motion, or where the
-        pressure says: `ReynoldsArc()` and `ComplementarityArc()`.
+        Where the film ends: `FixedArc()` as published, `RotatingArc()` for large motion, `SlitArc(slit=...)`
+        from a slit in the bearing on, or where the pressure says: `ReynoldsArc()`, `ComplementarityArc()`.
 
     Raises
     ------
@@ -103,12 +106,36 @@ class SplittingFilm:
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
         n, m = self.order
-        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, self.basis)
+        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, self.basis, attitude_of(frame))
         axial = axial_sum(m, slenderness)
-        if n > 2 or self.constant:
-            return galerkin_response(coupling_integrals(frame.chi, arc, self.basis), axial)
-        pair = pair_integrals(frame.chi, arc)
-        return first_order_response(pair, axial) if n == 1 else galerkin_response(whitened(pair), axial)
+
+        def respond(arc: FilmArc) -> PolarResponse:
+            if n > 2 or self.constant:
+                return galerkin_response(coupling_integrals(frame.chi, arc, self.basis), axial)
+            pair = pair_integrals(frame.chi, arc)
+            return first_order_response(pair, axial) if n == 1 else galerkin_response(whitened(pair), axial)
+
+        return response_on(arc, respond)
+
+    def mirrored(self) -> SplittingFilm | None:
+        """Return this film in a mirror, y to -y; None where its arc turns with the journal."""
+        image = mirror_image(self.rupture)
+        if image is None:
+            return None
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+            return replace(self, rupture=image)
+
+
+def response_on(arc: FilmArc, respond: Callable[[FilmArc], PolarResponse]) -> PolarResponse:
+    """Return the response of a film on an arc, by the attitude too where that moves the arc."""
+    found, attitude = respond(arc), arc.by_attitude
+    return found if attitude is None else found._replace(A_attitude=respond(attitude).A_turn)
+
+
+def mirror_image(rupture: Rupture) -> Rupture | None:
+    """Return a rule for the ends of a film in a mirror, y to -y; None where it is its own image."""
+    mirrored: Callable[[], Rupture] | None = getattr(rupture, "mirrored", None)
+    return None if mirrored is None else mirrored()
 
 
 def _require_order(order: object) -> None:
@@ -327,9 +354,17 @@ class SpectralArcFilm:
         )
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
-        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS)
-        nodes = film_nodes(frame.chi, arc.start, arc.end, self.degree + EXTRA_NODES)
-        return spectral_response(nodes, arc, frame.chi[0], self.degree, FullAxialSum(slenderness))
+        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS, attitude_of(frame))
+        nodes, axial = (
+            film_nodes(frame.chi, arc.start, arc.end, self.degree + EXTRA_NODES),
+            FullAxialSum(slenderness),
+        )
+        return response_on(arc, lambda one: spectral_response(nodes, one, frame.chi[0], self.degree, axial))
+
+    def mirrored(self) -> SpectralArcFilm | None:
+        """Return this film in a mirror, y to -y; None where its arc turns with the journal."""
+        image = mirror_image(self.rupture)
+        return None if image is None else replace(self, rupture=image)
 
 
 def spectral_response(

@@ -26,6 +26,7 @@ from ..reaction import (
     Called,
     Complex,
     ReducedCoefficients,
+    StatesStiffness,
     broadcast_state,
     coefficients_of,
     input_vector,
@@ -569,21 +570,29 @@ class PadMatrices(Readable):
         rotor_mass : float [kg]
             That the bearing carries.
         """
+        return StatesStiffness(self.linearization()).exponents(rotor_mass)
+
+    def linearization(self) -> Linearization:
+        """Return the loaded pads as states under a journal: inputs x, y, vx, vy, outputs its force.
+
+        Velocities of what has mass are states; of what has none they follow from its balance.
+        """
         kept = [0, 1, *self._loaded]
         K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))
-        M = M + np.diag([rotor_mass] * 2 + [0.0] * (len(kept) - 2))
-        heavy, light = np.flatnonzero(np.diag(M) > 0.0), np.flatnonzero(np.diag(M) == 0.0)
-        # Velocities of what has mass are states; of what has none they follow from its balance.
-        n, count = len(kept), len(heavy)
-        velocity = np.zeros((n, n + count))
-        velocity[heavy, n:] = np.eye(count)
-        pulled = np.hstack([K[light], C[np.ix_(light, heavy)]])
-        velocity[light] = -np.linalg.solve(C[np.ix_(light, light)], pulled)
-        force = C[heavy] @ velocity
-        force[:, :n] += K[heavy]
-        joined = np.vstack([velocity, -force / np.diag(M)[heavy, None]])
-        found = np.linalg.eigvals(joined).astype(complex)
-        return found[np.argsort(-found.real)]
+        masses, n = np.diag(M), len(kept) - 2
+        heavy = np.flatnonzero(masses > 0.0)
+        light = np.array([k for k in range(2, n + 2) if masses[k] == 0.0], dtype=int)
+        states = n + len(heavy)
+        # Columns: places of the pads, velocities of the heavy ones, place and velocity of the journal.
+        place, velocity = np.zeros((2, n + 2, states + 4))
+        place[:, [states, states + 1, *range(n)]] = np.eye(n + 2)
+        velocity[:2, states + 2 :] = np.eye(2)
+        velocity[heavy, n:states] = np.eye(len(heavy))
+        pull = K[light] @ place + C[light] @ velocity
+        velocity[light] = -np.linalg.solve(C[np.ix_(light, light)], pull)
+        force = -K @ place - C @ velocity
+        rates = np.vstack([velocity[2:], force[heavy] / masses[heavy, None]])
+        return Linearization(rates[:, :states], rates[:, states:], force[:2, :states], force[:2, states:])
 
     @property
     def _loaded(self) -> list[int]:
@@ -616,6 +625,11 @@ class PadsStiffness:
     """
 
     matrices: PadMatrices
+
+    @property
+    def at(self) -> Linearization:
+        """The pads as states; see `StateSpaceStiffness`."""
+        return self.matrices.linearization()
 
     def __call__(self, s: complex) -> tuple[Complex, Complex]:
         """Return K(s) [N/m] and dK/ds [N s/m]."""

@@ -1,5 +1,7 @@
 """Flexible rotors on films that remember: the equations at each exponent, and a rigid journal as a limit."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
@@ -8,21 +10,26 @@ from rotorfilm import (
     ConvergenceError,
     Disk,
     ElasticMaterial,
+    PadMapFilm,
     RigidShaft,
     ShaftElement,
     ShaftRotor,
     Station,
+    TiltingPadBearing,
     Unbalance,
     campbell,
     critical_speeds,
+    even_pivots,
     rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.analysis import frequency_dependent as remembered
+from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
 from rotorfilm.analysis.frequency_dependent import rotor_growing
+from rotorfilm.analysis.speed_events import Critical, Start, value_rate, whirl_of
+from rotorfilm.bearings.pads.pad_build import PadResolution
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RIGID = RigidShaft(
@@ -139,3 +146,71 @@ def test_a_rotor_in_few_shapes_is_the_whole_one(films):
         slope = (equations(rotor, films, 300.0, s + h) - equations(rotor, films, 300.0, s - h)) / (2.0 * h)
         step = np.abs(eigvals(L, slope)).min()  # Newton's, to the exponent of the whole
         assert step < 3.0 * few.error * abs(s)
+
+
+class Turning(NamedTuple):
+    """Bearings whose K and C all change with the speed, as `whirl_of` asks for them."""
+
+    reaction: dict
+
+    @property
+    def turning(self):
+        return self.reaction
+
+
+PADS = {
+    name: TiltingPadBearing(
+        radius=0.05,
+        length=0.05,
+        viscosity=0.02,
+        pivots=even_pivots(4, between_pads=True),
+        extent=np.radians(80.0),
+        preload=0.3,
+        pad_clearance=1e-4,
+        film=PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24))),
+    )
+    for name in ("left", "right")
+}
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
+def test_a_critical_speed_on_pads_has_their_stiffness_at_the_exponent():
+    rotor, films = shaft(2), Turning(PADS)
+    first = critical_speeds(rotor, PADS, [140.0, 155.0])[0]
+    start = Start(first.speed * 1.01, 1j * first.speed, np.ones(len(rotor.structure.weight), dtype=complex))
+    whirl, _ = whirl_of(Critical(), rotor, films, start)
+    assert whirl.at.speed == pytest.approx(first.speed, rel=1e-8)
+    assert imbalance(pad_equations(rotor, whirl.at, whirl.value), whirl.right) < 1e-9
+    near = [rotor_modes(rotor, PADS, first.speed * share, 400.0).eigenvalues for share in (0.999, 1.001)]
+    low, high = (values[np.argmin(np.abs(values - whirl.value))] for values in near)
+    rate = value_rate(rotor.structure, whirl, films)
+    assert rate == pytest.approx((high - low) / (0.002 * first.speed), rel=0.01)
+
+
+def pad_equations(rotor, at, s):
+    m = rotor.structure
+    L = s**2 * m.mass + s * (m.damping + at.speed * m.gyroscopic) + m.stiffness + at.speed * m.circulation
+    for k, name in enumerate(m.stations):
+        rows = m.journals[2 * k : 2 * k + 2]
+        K = PADS[name].at_rest().matrices(at.coefficients[name].position, at.speed).dynamic_stiffness(s)[0]
+        L = L + rows.T @ K @ rows
+    return L
+
+
+def test_python_control_has_the_films_at_all_frequencies_up_to_the_speed(films):
+    rotor, speed = shaft(2), 350.0
+    system = rotor_system(rotor, rotor_equilibrium(rotor, films, speed))
+    poles, modes = system.poles(), rotor_modes(rotor, films, speed, 1500.0).eigenvalues
+    slow = modes[(np.abs(modes) < speed) & (modes.imag > -modes.real)]
+    assert np.sum(poles.real > 0.0) == 2
+    assert len(slow) >= 2
+    for s in slow:
+        assert np.abs(poles - s).min() < 2e-3 * abs(s)
+    frequency = 160.0
+    push = rotor.structure.journals[:1].T
+    wanted = np.linalg.solve(equations(rotor, films, speed, 1j * frequency), push)
+    column = system.input_labels.index("left_force_x")
+    row = system.output_labels.index("left_x")
+    assert system(1j * frequency)[row, column] == pytest.approx(
+        (rotor.structure.journals[0] @ wanted).item(), rel=2e-3
+    )

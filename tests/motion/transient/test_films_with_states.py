@@ -37,6 +37,7 @@ from rotorfilm import (
     TurningBalls,
     Unbalance,
     base_response,
+    base_system,
     closed_loop,
     coefficients,
     equilibrium,
@@ -48,6 +49,7 @@ from rotorfilm import (
     mount,
     periodic_orbit,
     rotor_equilibrium,
+    rotor_system,
     rotor_threshold,
     simulate,
     transmissibility,
@@ -294,6 +296,28 @@ def test_the_ground_is_felt_at_its_own_frequency(kind, shape):
         assert response.frdata[places, :, k] == pytest.approx(
             wanted, rel=1e-6, abs=1e-9 * np.abs(wanted).max()
         )
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FILMS if kind not in NO_REST])
+@pytest.mark.parametrize("shape", ["Jeffcott", "flexible"])
+def test_python_control_has_the_state_space(kind, shape):
+    """Also where a bearing has K(s), and not K and C of one frequency; a film keeps its temperature."""
+    rotor, films, mounted, x = resting(kind, shape)
+    A, _, C, _ = mounted.linearization(0.0, x, ())
+    kept = len(rotor.states) if kind.startswith("warm") else len(A)
+    A, C = A[:kept, :kept], C[:, :kept]
+    at = rotor_equilibrium(rotor, films, SPEED)
+    system = base_system(rotor, at)
+    assert np.sort_complex(rotor_system(rotor, at).poles()) == pytest.approx(
+        np.sort_complex(np.linalg.eigvals(A)), rel=1e-6
+    )
+    pushed = np.zeros((kept, 2))
+    pushed[len(rotor.states) // 2 : len(rotor.states)] = -translations(rotor)
+    seen = {signal.name: row for signal, row in zip(mounted.outputs, C, strict=True)}
+    wanted = [seen[n] if n in seen else -seen[n.replace("housing_", "")] for n in system.output_labels]
+    for frequency in (0.0, 90.0, 1500.0):
+        response = np.array(wanted) @ np.linalg.solve(1j * frequency * np.eye(kept) - A, pushed)
+        assert system(1j * frequency) == pytest.approx(response, rel=1e-6, abs=1e-9 * np.abs(response).max())
 
 
 @cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"))

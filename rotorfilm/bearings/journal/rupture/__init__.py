@@ -1,0 +1,1 @@
+"""Where the film of a splitting law begins and ends."""
