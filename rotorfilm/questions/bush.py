@@ -302,6 +302,7 @@ FAMILY = Family(
         "critical_speed": bush_ladder,
         "wear": wear_ladder,
     },
+    answer=lambda scene, _: scene.melting(),
 )
 
 

@@ -38,6 +38,7 @@ from ..scenes.contact_motions import (
 )
 from ..scenes.contact_table import ContactTable
 from ..scenes.families import Family
+from ..scenes.solve_contact import answer_contact
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -270,7 +271,7 @@ FAMILY = Family(
     ladders={
         **dict.fromkeys(QUANTITIES, contact_ladder),
     },
-    command="rotorfilm contact",
+    answer=answer_contact,
 )
 
 

@@ -76,6 +76,7 @@ from ..scenes.damper_table import DamperTable
 from ..scenes.excitation_table import BladeLossTable, RunUpTable
 from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
+from ..scenes.solve_damper import answer_damper
 from .coupling import coupling_ladder
 from .journal_orbits import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 
@@ -572,7 +573,7 @@ FAMILY = Family(
         "cosimulation_error": coupling_ladder,
     },
     models=damper_fmus,
-    command="rotorfilm damper-run",
+    answer=answer_damper,
 )
 
 

@@ -46,7 +46,7 @@ from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import oil_remarks
 from ..scenes.families import Family
 from ..scenes.shaft_table import ShaftTable
-from ..scenes.solve_shaft import shaft_remarks
+from ..scenes.solve_shaft import shaft_remarks, solve_rotor
 from .journal_orbits import ORBIT_UNITS as ORBITS
 from .journal_whirl import moving_heat
 from .shaft_films import (
@@ -340,5 +340,5 @@ FAMILY = Family(
         **dict.fromkeys(ORBITS, shaft_orbit_ladder),
         PEAK: shaft_peak_ladder,
     },
-    command="rotorfilm rotor",
+    answer=solve_rotor,
 )

@@ -1,0 +1,224 @@
+"""A commented scene of each machine element: keys, units, meanings and defaults are those of its table."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from ..core.readable import explained
+from .families import FAMILIES, family_of
+from .reading import (
+    Beside,
+    Count,
+    Quantity,
+    Reader,
+    Table,
+    TableList,
+    TableType,
+    Variant,
+    choose,
+    flag,
+    keyed,
+    text,
+    twice_of,
+)
+from .schema import SCHEMA, OperationTable, RigidRotorTable
+
+WIDTH = 110
+"""Longest line of a scene, where a value leaves room for its comment."""
+
+Values = Mapping[str, Any]
+
+FILM: Values = {"diameter": "100 mm", "length": "50 mm", "viscosity": "20 mPa s"}
+WEIGHT: Mapping[str, Values] = {"operation": {"speed": "3000 rpm"}, "rigid_rotor": {"mass": "200 kg"}}
+
+STEEL = {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"}
+ENDS = {"left": 0, "right": 4}
+BEARING = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
+
+ELEMENTS: dict[str, Mapping[str, Values]] = {
+    "journal": {"journal": {**FILM, "clearance": "80 um"}, **WEIGHT},
+    "lobed_journal": {
+        "lobed_journal": {**FILM, "preset": "elliptical", "assembled_clearance": "70 um", "preload": 0.5},
+        **WEIGHT,
+    },
+    "pressure_dam": {
+        "pressure_dam": {
+            **FILM, "pad_clearance": "80 um", "depth": "140 um", "end": "145 deg", "share": 0.75
+        },
+        **WEIGHT,
+    },
+    "tilting_pad": {
+        "tilting_pad": {
+            **FILM, "assembled_clearance": "70 um", "preload": 0.3, "pad_count": 5,
+            "loading": "between_pads", "extent": "60 deg",
+        },
+        **WEIGHT,
+    },
+    "ball_bearing": {
+        "ball_bearing": {
+            "balls": 16, "ball_diameter": "7.938 mm", "pitch_diameter": "46.5 mm", "contact_angle": "15 deg",
+            "ball_material": "silicon_nitride", "arrangement": "back_to_back", "distance": "20 mm",
+            "preload": "150 N",
+        },
+        "operation": {"speed": "18000 rpm", "load": "200 N"},
+    },
+    "damper": {
+        "damper": {
+            "diameter": "100 mm", "length": "25 mm", "clearance": "0.1 mm", "viscosity": "10 mPa s",
+            "stiffness": "2e6 N/m",
+        },
+        "operation": {"speed": "6000 rpm"},
+        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
+    },
+    "contact": {
+        "contact": {
+            "diameter": "20 mm", "modulus": "206 GPa", "poisson_ratio": 0.3, "viscosity": "8 mPa s",
+            "pressure_coefficient": "5 1/GPa", "speed": "0.9 m/s", "load": "10 N", "mass": "33 g",
+            "cells": 24,
+        },
+    },
+    "bush": {
+        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
+        "operation": {"speed": "9 rad/s", "load": "3750 N"},
+    },
+    "shaft": {
+        "shaft": {
+            "material": STEEL,
+            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
+            "bearings": [{"name": name, "node": node, "journal": BEARING} for name, node in ENDS.items()],
+            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
+            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
+            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
+            "highest_frequency": "100 Hz",
+        },
+    },
+}  # fmt: skip
+"""By machine element the tables of a scene that has an answer."""
+
+
+def new_scene(name: str) -> str:
+    """Return the text of a commented scene of a machine element.
+
+    Parameters
+    ----------
+    name : str
+        Of the table of a bearing or a rotor: a key of `ELEMENTS`.
+
+    Raises
+    ------
+    SceneError
+        If there is no such element.
+    """
+    tables = choose("NAME", name, ELEMENTS)
+    shared: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
+    title = name.replace("_", " ")
+    parts = [f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n']
+    for key, values in tables.items():
+        table = family_of(key).table if key in FAMILIES else shared[key]
+        parts.append("\n".join(table_lines(key, table, values)) + "\n")
+    asked = [one for one in family_of(name).ladders if one != "cosimulation_error"]
+    parts.append(
+        "\n".join(
+            [
+                "# [question]  # asks for one quantity, by the cheapest model that is good enough",
+                *_wrapped(f"quantity: {', '.join(asked)}"),
+                f'# quantity = "{asked[0]}"',
+                '# tolerance = "1 %"  # largest relative error\n',
+            ]
+        )
+    )
+    return "\n".join(parts)
+
+
+def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
+    """Yield the lines of a table: the keys that have values, then all others as comments."""
+    said = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
+    yield from _wrapped(said)
+    yield f"[{name}]"
+    readers = keyed(table).readers
+    defaults = {field.name: field for field in dataclasses.fields(table)}
+    for key, value in values.items():
+        field = key if key in readers else next(one for one, read in readers.items() if twice_of(read) == key)
+        yield from _line(f"{key} = {toml(value)}", comment(table, field, twice=field != key))
+    for field, reader in readers.items():
+        if field in values or twice_of(reader) in values or isinstance(reader, Beside):
+            continue
+        yield from _line(f"# {field} = {_placeholder(reader, defaults[field])}", comment(table, field))
+
+
+def comment(table: type, field: str, *, twice: bool = False) -> str:
+    """Return the unit and the meaning of a key, and what may stand in it."""
+    said, reader = explained(table, field), keyed(table).readers[field]
+    meaning = " ".join(said.meaning.split()).replace("`", "")
+    parts = [f"twice the {field}" if twice else "", meaning.rstrip("."), _inside(reader)]
+    unit = f"[{said.unit}] " if said.unit and said.unit != "1" else ""
+    return f"{unit}{'; '.join(part for part in parts if part)}".strip()
+
+
+def _inside(reader: Reader) -> str:
+    """Return the keys, or the names, that a value may have."""
+    if isinstance(reader, Table | TableList):
+        each = "keys" if isinstance(reader, Table) else "keys of each"
+        return f"{each}: {', '.join(_keys(reader.table))}"
+    if isinstance(reader, Variant):
+        return f"{reader.tag}: {', '.join(reader.variants)}"
+    names = getattr(reader, "variants", None) or _names(reader)
+    return f"one of {', '.join(names)}" if names else ""
+
+
+def _names(reader: Reader) -> Mapping[str, Any]:
+    """Return the names that a reader says it takes."""
+    shapes = getattr(reader, "takes", ())
+    return next((one for one in shapes if isinstance(one, Mapping)), {})
+
+
+def _keys(table: TableType[Any]) -> Iterator[str]:
+    for name, reader in keyed(table).readers.items():
+        unit = reader.unit if isinstance(reader, Quantity) and reader.unit != "1" else ""
+        yield f"{name} [{unit}]" if unit else name
+
+
+def _placeholder(reader: Reader, field: dataclasses.Field[Any]) -> str:
+    """Return the default of a key as TOML, or dots for what has none that a file may state."""
+    default = field.default
+    if isinstance(reader, Quantity):
+        known = isinstance(default, float) and math.isfinite(default)
+        number = f"{default:.6g}" if known else "..."
+        return f'"{number} {reader.unit}"' if reader.unit != "1" else number
+    written: tuple[Callable[..., Any] | type, ...] = (text, flag)
+    plain = isinstance(reader, Count) or reader in written
+    return toml(default) if plain and isinstance(default, int | str) else "..."
+
+
+def _line(entry: str, said: str) -> Iterator[str]:
+    """Yield a line with its comment, above it where there is no room behind."""
+    behind = f"{entry}  # {said}"
+    if not said:
+        yield entry
+    elif len(behind) <= WIDTH and "\n" not in entry:
+        yield behind
+    else:
+        yield from _wrapped(said)
+        yield entry
+
+
+def _wrapped(said: str) -> list[str]:
+    return textwrap.wrap(said, WIDTH, initial_indent="# ", subsequent_indent="#   ", break_on_hyphens=False)
+
+
+def toml(value: Any, *, inline: bool = False) -> str:
+    """Return a value as TOML, a list of tables with a line for each of them."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {toml(one, inline=True)}' for key, one in value.items())} }}"
+    if isinstance(value, list) and not inline and value and isinstance(value[0], Mapping):
+        return "[\n" + "".join(f"    {toml(one)},\n" for one in value) + "]"
+    return f"[{', '.join(map(toml, value))}]" if isinstance(value, list) else repr(value)
