@@ -35,7 +35,7 @@ RPM = 30.0 / math.pi
 """Turns per minute in one rad/s."""
 
 
-class Motion(NamedTuple):
+class FollowedMotion(NamedTuple):
     """What a run says.
 
     Attributes
@@ -88,7 +88,7 @@ def run(
     return Said(found.data, partial(console.print_rows, loaded.title, rows), found.failure)
 
 
-def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> Motion:
+def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
     """Return the motion of what moves in a scene."""
     from ..scenes.excitation_table import kind_of
     from ..scenes.rotor_runs import run_rotor
@@ -109,7 +109,7 @@ def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> Motion:
     return damper_motion(run_damper(scene)) if on_damper else rotor_motion(run_rotor(scene, report))
 
 
-def contact_motion(found: ContactResponse) -> Motion:
+def contact_motion(found: ContactResponse) -> FollowedMotion:
     """Return what the motion of a rolling ball says."""
     from ..core.results import Trajectory
 
@@ -117,10 +117,10 @@ def contact_motion(found: ContactResponse) -> Motion:
     signals = {name: getattr(found, name) for name in names if getattr(found, name) is not None}
     run = Trajectory(time=found.time, signals=signals, work=found.work)
     failure = None if found.complete else "interrupted; what is shown ends there"
-    return Motion(found, found.to_rows(), {"time": found.time, **signals}, run.plot, failure)
+    return FollowedMotion(found, found.to_rows(), {"time": found.time, **signals}, run.plot, failure)
 
 
-def damper_motion(run: DamperRun) -> Motion:
+def damper_motion(run: DamperRun) -> FollowedMotion:
     """Return what a run on a damper says."""
     from ..charts import plot_damper_run
 
@@ -149,10 +149,10 @@ def damper_motion(run: DamperRun) -> Motion:
         *_ending(run.contact_time, run.trajectory),
     ]
     draw = partial(plot_damper_run, time, eps, run.force)
-    return Motion(data, rows, _signals(run.trajectory), draw, failure)
+    return FollowedMotion(data, rows, _signals(run.trajectory), draw, failure)
 
 
-def rotor_motion(run: RotorRun) -> Motion:
+def rotor_motion(run: RotorRun) -> FollowedMotion:
     """Return what a run of a rotor on its films says."""
     failure = None
     if run.contact_time is not None:
@@ -186,7 +186,7 @@ def rotor_motion(run: RotorRun) -> Motion:
         ),
         *_ending(run.contact_time, run.trajectory),
     ]
-    return Motion(data, rows, _signals(run.trajectory), run.trajectory.plot, failure)
+    return FollowedMotion(data, rows, _signals(run.trajectory), run.trajectory.plot, failure)
 
 
 def _signals(run: Trajectory) -> dict[str, Any]:

@@ -94,8 +94,8 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
     Raises
     ------
     InputError
-        If the scene has no damper or no rotor, or what only a question takes: a supply without a film law,
-        or an offset.
+        If the scene has no damper or no rotor, a supply without a film law, which questions and runs take,
+        or an offset, which runs take.
     """
     if scene.damper is None or scene.rigid_rotor is None:
         raise InputError("damper and rigid_rotor are required for orbits on a damper, got a scene without")
@@ -103,7 +103,8 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
         raise InputError("damper.film must be given beside supply, or a [question] asked, got no film")
     if any(scene.damper.offset):
         raise InputError(
-            f"damper.offset must be 0 unless a [question] is asked, got {scene.damper.offset!r} m"
+            f"damper.offset must be 0 for orbits about the center, as only runs take one, got "
+            f"{scene.damper.offset!r} m"
         )
     excitation, rotor = scene.excitation, scene.rigid_rotor
     added = excitation.unbalance if isinstance(excitation, UnbalanceTable) else 0.0

@@ -66,7 +66,7 @@ def test_a_damper_answers_with_its_orbits(run, tmp_path):
     assert "jumps" in run("solve", path)[1]
     for change, message in (
         ("rigid_rotor.unbalance=0", "unbalances must be positive"),
-        ('damper.offset=["10 um", 0]', "damper.offset must be 0 unless a [question] is asked"),
+        ('damper.offset=["10 um", 0]', "damper.offset must be 0 for orbits about the center"),
         (
             "damper.supply={ supply_pressure = 1e5, end_groove = true }",
             "damper.film must be given beside supply",
