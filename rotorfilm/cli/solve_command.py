@@ -58,7 +58,9 @@ def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Said
     with inside(path):
         answer = scene.ask()
     if out is not None:
-        console.write_json(out / "answer.json", answer)
+        from .answer_printing import write_answer
+
+        write_answer(answer, out)
     show = partial(print_question, scene.title, answer, explain=explain)
     return Said(answer, show, None if answer.met else answer.message)
 

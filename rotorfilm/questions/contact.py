@@ -272,6 +272,19 @@ FAMILY = Family(
         **dict.fromkeys(QUANTITIES, contact_ladder),
     },
     answer=answer_contact,
+    example={
+        "contact": {
+            "diameter": "20 mm",
+            "modulus": "206 GPa",
+            "poisson_ratio": 0.3,
+            "viscosity": "8 mPa s",
+            "pressure_coefficient": "5 1/GPa",
+            "speed": "0.9 m/s",
+            "load": "10 N",
+            "mass": "33 g",
+            "cells": 24,
+        },
+    },
 )
 
 

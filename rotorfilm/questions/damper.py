@@ -574,6 +574,17 @@ FAMILY = Family(
     },
     models=damper_fmus,
     answer=answer_damper,
+    example={
+        "damper": {
+            "diameter": "100 mm",
+            "length": "25 mm",
+            "clearance": "0.1 mm",
+            "viscosity": "10 mPa s",
+            "stiffness": "2e6 N/m",
+        },
+        "operation": {"speed": "6000 rpm"},
+        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
+    },
 )
 
 

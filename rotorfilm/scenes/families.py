@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -68,12 +68,15 @@ class Family:
     answer : callable or None
         Takes a scene without a question and a Report of its progress, and returns what the scene answers;
         None where that is what any bearing with a film answers.
+    example : mapping of str to mapping
+        Tables of a scene that has an answer, with values as a file has them, for `rotorfilm new`.
     """
 
     table: type
     ladders: Mapping[str, Callable[[Any, str], Ladder]]
     models: Callable[[Any], SceneModels] | None = None
     answer: Callable[[Any, Report], Any] | None = None
+    example: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 def family_of(name: str) -> Family:

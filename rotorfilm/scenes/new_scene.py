@@ -33,73 +33,6 @@ WIDTH = 110
 
 Values = Mapping[str, Any]
 
-FILM: Values = {"diameter": "100 mm", "length": "50 mm", "viscosity": "20 mPa s"}
-WEIGHT: Mapping[str, Values] = {"operation": {"speed": "3000 rpm"}, "rigid_rotor": {"mass": "200 kg"}}
-
-STEEL = {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"}
-ENDS = {"left": 0, "right": 4}
-BEARING = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
-
-ELEMENTS: dict[str, Mapping[str, Values]] = {
-    "journal": {"journal": {**FILM, "clearance": "80 um"}, **WEIGHT},
-    "lobed_journal": {
-        "lobed_journal": {**FILM, "preset": "elliptical", "assembled_clearance": "70 um", "preload": 0.5},
-        **WEIGHT,
-    },
-    "pressure_dam": {
-        "pressure_dam": {
-            **FILM, "pad_clearance": "80 um", "depth": "140 um", "end": "145 deg", "share": 0.75
-        },
-        **WEIGHT,
-    },
-    "tilting_pad": {
-        "tilting_pad": {
-            **FILM, "assembled_clearance": "70 um", "preload": 0.3, "pad_count": 5,
-            "loading": "between_pads", "extent": "60 deg",
-        },
-        **WEIGHT,
-    },
-    "ball_bearing": {
-        "ball_bearing": {
-            "balls": 16, "ball_diameter": "7.938 mm", "pitch_diameter": "46.5 mm", "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride", "arrangement": "back_to_back", "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-    "damper": {
-        "damper": {
-            "diameter": "100 mm", "length": "25 mm", "clearance": "0.1 mm", "viscosity": "10 mPa s",
-            "stiffness": "2e6 N/m",
-        },
-        "operation": {"speed": "6000 rpm"},
-        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
-    },
-    "contact": {
-        "contact": {
-            "diameter": "20 mm", "modulus": "206 GPa", "poisson_ratio": 0.3, "viscosity": "8 mPa s",
-            "pressure_coefficient": "5 1/GPa", "speed": "0.9 m/s", "load": "10 N", "mass": "33 g",
-            "cells": 24,
-        },
-    },
-    "bush": {
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
-    "shaft": {
-        "shaft": {
-            "material": STEEL,
-            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
-            "bearings": [{"name": name, "node": node, "journal": BEARING} for name, node in ENDS.items()],
-            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
-            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
-            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
-            "highest_frequency": "100 Hz",
-        },
-    },
-}  # fmt: skip
-"""By machine element the tables of a scene that has an answer."""
-
 
 def new_scene(name: str) -> str:
     """Return the text of a commented scene of a machine element.
@@ -107,21 +40,22 @@ def new_scene(name: str) -> str:
     Parameters
     ----------
     name : str
-        Of the table of a bearing or a rotor: a key of `ELEMENTS`.
+        Of the table of a bearing or a rotor.
 
     Raises
     ------
     SceneError
         If there is no such element.
     """
-    tables = choose("NAME", name, ELEMENTS)
+    _ = choose("NAME", name, FAMILIES)
+    family = family_of(name)
     shared: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
     title = name.replace("_", " ")
     parts = [f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n']
-    for key, values in tables.items():
-        table = family_of(key).table if key in FAMILIES else shared[key]
+    for key, values in family.example.items():
+        table = shared.get(key) or family.table
         parts.append("\n".join(table_lines(key, table, values)) + "\n")
-    asked = [one for one in family_of(name).ladders if one != "cosimulation_error"]
+    asked = [one for one in family.ladders if one != "cosimulation_error"]
     parts.append(
         "\n".join(
             [

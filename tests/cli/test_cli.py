@@ -45,6 +45,9 @@ def scene(tmp_path):
     return path
 
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
 def changed(**values):
     """Return the options that set keys of tables, with underscores for their first dots."""
     return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
@@ -77,6 +80,15 @@ def test_the_schema_of_scenes(run, tmp_path):
     path = tmp_path / "scene.schema.json"
     assert run("schema", "--out", path)[0] == 0
     assert path.read_text(encoding="utf-8") == out
+
+
+@pytest.mark.parametrize("name", ["short", "question"])
+def test_solve_writes_its_answer(run, tmp_path, name):
+    code, out, _ = run("solve", EXAMPLES / f"{name}.toml", "--json", "--out", tmp_path / "out")
+    assert code == 0
+    written = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
+    assert written.keys() == json.loads(out).keys()
+    assert written.get("model") == json.loads(out)["model"]
 
 
 def test_solve_says_what_the_film_leaves_out(run, scene):
