@@ -51,7 +51,10 @@ def new_scene(name: str) -> str:
     family = family_of(name)
     shared: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
     title = name.replace("_", " ")
-    parts = [f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n']
+    parts = [
+        "# Keys behind a # may be left out. Their defaults stand there, or dots where there is none.",
+        f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n',
+    ]
     for key, values in family.example.items():
         table = shared.get(key) or family.table
         parts.append("\n".join(table_lines(key, table, values)) + "\n")
@@ -72,7 +75,7 @@ def new_scene(name: str) -> str:
 def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
     """Yield the lines of a table: the keys that have values, then all others as comments."""
     said = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
-    yield from _wrapped(said)
+    yield from _wrapped(said[:1].upper() + said[1:])
     yield f"[{name}]"
     readers = keyed(table).readers
     defaults = {field.name: field for field in dataclasses.fields(table)}
