@@ -20,7 +20,7 @@ PATHS = {
     "rotorfilm --version": (["-m", "rotorfilm", "--version"], 1.2),
     "rotorfilm --help": (["-m", "rotorfilm", "--help"], 2.0),
     "one force of a map film": (["-c", FORCE], 1.75),
-    "rotorfilm solve": (["-m", "rotorfilm", "solve", str(SCENE)], 6.0),
+    "rotorfilm solve": (["-m", "rotorfilm", "solve", str(SCENE)], 3.0),
 }
 ROUNDS = 7
 
