@@ -7,19 +7,20 @@ import resource
 import statistics
 import subprocess
 import sys
+from pathlib import Path
 
 FORCE = """
 from rotorfilm import JournalBearing
 bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 bearing.force([3e-5, 0.0], [0.0, 0.0], 100.0)
 """
-BEARING = "--radius 50mm --length 30mm --clearance 0.1mm --viscosity 0.1 --load 300N --speed 100"
+SCENE = Path(__file__).parents[1] / "examples" / "friswell.toml"
 PATHS = {
     "import numpy": (["-c", "import numpy"], 1.0),
     "rotorfilm --version": (["-m", "rotorfilm", "--version"], 1.2),
     "rotorfilm --help": (["-m", "rotorfilm", "--help"], 2.0),
     "one force of a map film": (["-c", FORCE], 1.75),
-    "rotorfilm coefficients": (["-m", "rotorfilm", "coefficients", *BEARING.split()], 3.0),
+    "rotorfilm solve": (["-m", "rotorfilm", "solve", str(SCENE)], 3.0),
 }
 ROUNDS = 7
 

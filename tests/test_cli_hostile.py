@@ -8,13 +8,13 @@ from rotorfilm.bearings.contact import film_newton as contact_preconditioner
 from rotorfilm.core.errors import InputError
 from rotorfilm.core.limits import SCENE_BYTES
 from rotorfilm.scenes import Scene
+from rotorfilm.scenes.new_scene import new_scene
+from rotorfilm.scenes.scene import varied
 from rotorfilm.sweeps import point as axes
 
-SHORT = Path(__file__).parents[1] / "examples" / "short.toml"
+EXAMPLES = Path(__file__).parents[1] / "examples"
+SHORT, BALL = EXAMPLES / "short.toml", EXAMPLES / "ball_step.toml"
 TITLE = 'title = "{}"\n'
-BEARING = {"radius": "0.05", "length": "0.03", "clearance": "1e-4", "viscosity": "0.1", "load": "525"}
-JOURNAL = [*(part for name, value in BEARING.items() for part in (f"--{name}", value)), "--speed", "100"]
-CONTACT = ["contact", "--v", ".1", "--q0", "5", "--w", "1"]
 VARY = "journal.clearance = 90 um : 100 um : "
 
 
@@ -73,31 +73,33 @@ def test_what_a_user_typed_is_shown_as_it_is(run, tmp_path):
         (["sweep", SHORT, "--vary", VARY + "\N{SUPERSCRIPT TWO}", "--out", "x.nc"], "count from 2"),
         (["sweep", SHORT, "--vary", VARY + "2", "--out", "x.nc", "--workers", "9999"], "workers must be at"),
         (["sweep", SHORT, "--vary", "journal.clearance = inf", "--out", "x.nc"], "quantity must be finite"),
-        (["coefficients", *JOURNAL[:-1], "1e300"], "--speed: quantity must be 0 or of a size"),
-        (["coefficients", *JOURNAL, "--film", "reynolds", "--cells", "1000000,1000000"], "--cells"),
-        (["coefficients", *JOURNAL, "--film", "splitting", "--order", "1000000,2"], "--order"),
-        (["coefficients", *JOURNAL, "--groove", "nan,1"], "--groove: quantity must be finite"),
-        (["groove-map", "--slenderness", ".5", "--groove", "0,0", "--nodes", "99999,12,999999"], "--nodes"),
         (
-            ["contact", "--v", "0.1", "--q0", "5", "--cells", "100000"],
-            "--cells must be a whole number from 1",
+            ["solve", SHORT, "--set", "operation.speed=1e300"],
+            "operation.speed: quantity must be 0 or of a size",
         ),
         (
-            ["contact", "--v", "0.1", "--q0", "5", "--order", "100000"],
-            "--order must be a whole number from 1",
+            ["solve", SHORT, "--set", 'journal.film={ name = "reynolds", cells = [1000000, 1000000] }'],
+            "cells",
         ),
+        (["solve", SHORT, "--set", 'journal.film={ name = "splitting", order = [1000000, 2] }'], "order"),
         (
-            ["contact", *["--v", ".1", "--q0", "5", "--w", "1", "--step", ".1", "--duration", "1e29"]],
-            "transit time must be at most",
+            ["solve", SHORT, "--set", "journal.grooves=[{ center = nan, width = 1 }]"],
+            "quantity must be finite",
         ),
+        (["solve", SHORT, "--set", "title=" + "[" * 5000], "title must be a string of at most"),
+        (["solve", SHORT, "--set", "operation.speed=" + "9" * 5000], "operation.speed: quantity must"),
+        (["solve", BALL, "--set", "contact.cells=100000"], "contact.cells must be a whole number from 1"),
+        (["solve", BALL, "--set", "contact.order=100000"], "contact.order must be a whole number from 1"),
+        (["run", BALL, "--set", "operation={ speed = 0, duration = 1e29 }"], "transit time must be at most"),
         (
-            ["contact", *["--v", ".1", "--q0", "5", "--w", "1", "--sine", ".1", "--frequency", "1e29"]],
+            ["run", BALL, "--set", 'excitation={ kind = "sine", load = 4, frequency = 1e29 }'],
             "transit time must be at",
         ),
-        (["contact", "--v", "1e300", "--q0", "5"], "--v: quantity must be 0 or of a size"),
-        (["bush", "--load", "nan"], "--load: quantity must be finite"),
-        (["bush", "--load", "3750", "--set", "f1=nan"], "f1: quantity must be finite"),
-        (["cosim", SHORT.with_name("friswell.toml"), "--revolutions", "1e300"], "at most 10000000 steps"),
+        (["solve", EXAMPLES / "bush.toml", "--set", "bush.melting_point=nan"], "quantity must be finite"),
+        (
+            ["cosim", EXAMPLES / "friswell.toml", "--set", "cosimulation.revolutions=1e300"],
+            "quantity must be 0 or of a size",
+        ),
         (["chart", "journal", "--states", "1000000000"], "--states"),
     ],
     ids=lambda value: value if isinstance(value, str) else value[0],
@@ -119,14 +121,17 @@ def test_lack_of_memory_is_said(run, monkeypatch):
     assert (code, err) == (1, "error: not enough memory: 8 TiB\n")
 
 
-def test_a_contact_with_singular_equations_is_said(run, monkeypatch):
+def test_a_contact_with_singular_equations_is_said(run, tmp_path, monkeypatch):
     def refuse(*_, **__):
         raise RuntimeError("Factor is exactly singular")
 
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr(contact_preconditioner.linalg, "splu", refuse)
-    code, _, err = run(*CONTACT, "--cells", "24")
+    path = tmp_path / "ball.toml"
+    path.write_text(new_scene("contact"), encoding="utf-8")
+    code, _, err = run("solve", path)
     assert code == 1
-    assert "equations of a contact must be regular, got singular ones with V = 0.1" in err
+    assert "equations of a contact must be regular, got singular ones with V = " in err
 
 
 def test_a_sweep_has_a_largest_number_of_points():
@@ -137,4 +142,4 @@ def test_a_sweep_has_a_largest_number_of_points():
 
 def test_an_entry_of_a_list_has_one_name():
     with pytest.raises(ValueError, match="must lead through tables"):
-        axes.varied({"disks": [{"width": 1.0}]}, {"disks.00.width": 2.0})
+        varied({"disks": [{"width": 1.0}]}, {"disks.00.width": 2.0})

@@ -19,7 +19,6 @@ SEVERAL_UNITS = {
         "first",
         "force",
         "frequency",
-        "maximum_pressure",
         "minimum_film",
         "pressure",
         "start",

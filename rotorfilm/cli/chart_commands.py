@@ -15,7 +15,7 @@ from ..core.limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..core.progress import Report, part_of
 from ..core.results import write_csv
 from . import printing as console
-from .command import Argument, Option, Said
+from .command import Argument, Option, Said, Settings, load_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -184,14 +184,14 @@ def contact_limits(report: Report, out: Folder = OUT) -> Said:
 def scene(
     file: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a question.")],
     report: Report,
+    changes: Settings = None,
     out: Folder = OUT,
 ) -> Said:
     """Estimated error against cost of all models that could answer a scene, and the one that does."""
     from ..charts import RungPoint, plot_scene_ladder
     from ..questions.walk import whole_ladder
-    from ..scenes import Scene
 
-    loaded = Scene.load(file)
+    loaded = load_scene(file, changes)
     report(0.1, "every model of the ladder")
     result = whole_ladder(loaded)
     points = [

@@ -12,6 +12,7 @@ import inspect
 import math
 import os
 import sys
+import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from enum import Enum
@@ -19,9 +20,13 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
-from typing import Annotated, Any, NamedTuple, NoReturn, get_args
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, NoReturn, get_args
 
+from ..core.errors import InputError, brief
 from . import printing as console
+
+if TYPE_CHECKING:
+    from ..scenes import Scene
 
 BAD_INPUT = 2
 FAILED = 1
@@ -111,14 +116,48 @@ class Group(NamedTuple):
 
 
 SceneFile = Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
+Settings = Annotated[
+    list[str] | None,
+    Option(
+        "--set",
+        help="Value of a key in place of the file's, as in TOML or with a unit. Once for each key.",
+        metavar="KEY=VALUE",
+    ),
+]
 SignalFile = Annotated[Path | None, Option(help="CSV file for the signals.", metavar="FILE.csv")]
+
+
+def load_scene(path: Path, settings: Sequence[str] | None) -> Scene:
+    """Return the scene of a file with the values of `--set` in place of its own."""
+    from ..scenes import Scene
+
+    return Scene.load(path, read_settings(settings))
+
+
+def read_settings(settings: Sequence[str] | None) -> dict[str, Any]:
+    """Return keys and values of texts as "journal.clearance=80 um"; raise InputError where one is none."""
+    pairs = [text.partition("=") for text in settings or ()]
+    for text, (key, equals, value) in zip(settings or (), pairs, strict=True):
+        if not (equals and key.strip() and value.strip()):
+            raise InputError(f'--set must be "KEY=VALUE", got {brief(text)}')
+    keys = [key.strip() for key, _, _ in pairs]
+    if twice := next((key for key in keys if keys.count(key) > 1), None):
+        raise InputError(f"--set must be given once for each key, got {brief(twice)} twice")
+    return {key: _toml_value(value.strip()) for key, (_, _, value) in zip(keys, pairs, strict=True)}
+
+
+def _toml_value(text: str) -> Any:
+    """Return a value of TOML, or the text itself where it is none, as a quantity without quotes."""
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return read["value"] if len(read) == 1 else text
 
 
 @contextmanager
 def inside(scene: Path) -> Iterator[None]:
     """Let an InputError about a scene begin with the name of its file."""
-    from ..core.errors import InputError
-
     try:
         yield
     except InputError as error:
@@ -225,40 +264,19 @@ def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
         parser.add_argument(flag, dest=parameter.name, action="store_true", help=notes[0])
         return []
     shown = default.value if isinstance(default, Enum) else default
-    doubled = parameter.name == "radius"
-    holder = parser.add_mutually_exclusive_group(required=required) if doubled else parser
     notes += ["[required]"] if required else [f"[default: {shown}]".replace("%", "%%")] * (shown is not None)
     choices = " | ".join(each.value for each in kind) if issubclass(kind, Enum) else None
-    if doubled:
-        holder.add_argument(
-            "--diameter",
-            dest="radius",
-            type=_half,
-            help="Twice the radius.",
-            metavar='"100 mm"',
-        )
-    holder.add_argument(
+    parser.add_argument(
         flag,
         dest=parameter.name,
         type=lambda text: _read(kind, meant, text),
         action="append" if many else "store",
         default=default,
-        required=required and not doubled,
+        required=required,
         help=" ".join(notes),
         metavar=(meant.metavar or choices or kind.__name__.upper()).replace("%", "%%"),
     )
-    return [flag, "--diameter"] if doubled else [flag]
-
-
-def _half(diameter: str) -> str:
-    """Return the radius [m] of a diameter as a text; raise ArgumentTypeError if it is none."""
-    from ..core.errors import InputError
-    from ..core.units import parse_quantity
-
-    try:
-        return repr(0.5 * parse_quantity(diameter, "m"))
-    except InputError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
+    return [flag]
 
 
 def _kind_of(annotation: Any) -> tuple[type[Any], bool]:
@@ -282,7 +300,7 @@ def _read(kind: type[Any], option: Option, text: str) -> Any:
 
 
 def _joined(words: Iterable[str], taking: set[str]) -> Iterator[str]:
-    """Yield words with each value behind its option, as `--load=-5 N`: a value may begin with a dash."""
+    """Yield words with each value behind its option, as `--mass=-5 kg`: a value may begin with a dash."""
     rest = iter(words)
     for word in rest:
         value = next(rest, None) if word in taking else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,7 +10,17 @@ from typing import TYPE_CHECKING, Annotated
 from ..core.progress import Report
 from ..core.results import write_csv
 from . import printing as console
-from .command import Argument, Option, Said, SignalFile, inside, make_room, written_rows
+from .command import (
+    Argument,
+    Option,
+    Said,
+    Settings,
+    SignalFile,
+    inside,
+    load_scene,
+    make_room,
+    written_rows,
+)
 
 if TYPE_CHECKING:
     from ..scenes.cosimulate_scene import CosimAnswer
@@ -20,6 +29,7 @@ if TYPE_CHECKING:
 def cosim(
     scene: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
     report: Report,
+    changes: Settings = None,
     scheme: Annotated[
         str,
         Option(
@@ -27,34 +37,19 @@ def cosim(
             metavar="NAME",
         ),
     ] = "auto",
-    macro_angle: Annotated[
-        str | None, Option(help="Rotation between exchanges; else the scene's.", metavar='"5 deg"')
-    ] = None,
-    revolutions: Annotated[
-        float | None, Option(help="Length in turns of the shaft; else the scene's.", min=0.0)
-    ] = None,
     tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
     out: SignalFile = None,
 ) -> Said:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
     report(0.0, "packages")
     from ..core.errors import PartialResultError
-    from ..scenes import Scene
     from ..scenes.cosimulate_scene import run_scene, scheme_named
-    from ..scenes.reading import Quantity
 
-    loaded = Scene.load(scene)
-    table = loaded.cosimulation
-    if macro_angle is not None:
-        table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
-    if revolutions is not None:
-        table = replace(table, revolutions=revolutions)
+    loaded = load_scene(scene, changes)
     make_room(out)
     try:
         with inside(scene):
-            answer, signals = run_scene(
-                replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
-            )
+            answer, signals = run_scene(loaded, scheme_named(scheme, tolerance), report)
     except PartialResultError as error:
         if out is not None and error.partial is not None:
             kept = error.partial.trajectory

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 from ..core.progress import Report
 from ..core.units import CELSIUS
 from . import printing as console
+from .answer_printing import print_answer
 from .command import Option, Said
-from .solve_command import print_answer
 
 if TYPE_CHECKING:
     from ..scenes.demo import DemoResult

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from ..core.progress import Report
 from . import printing as console
-from .command import Argument, Option, Said, SceneFile, inside
+from .command import Argument, Option, Said, SceneFile, Settings, inside, load_scene
 
 FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
@@ -38,6 +38,7 @@ class Platforms(StrEnum):
 def build(
     scene: SceneFile,
     report: Report,
+    changes: Settings = None,
     out: Annotated[Path, Option(help="Folder for the FMUs; made if absent.")] = Path("."),
     fmi: Annotated[FmiVersion, Option(help="FMI version.")] = FmiVersion.TWO,
     backend: Annotated[
@@ -52,12 +53,11 @@ def build(
 
     So is a rotor on a damper whose oil has mass.
     """
-    from ..scenes import Scene
     from ..scenes.export_scene import export_scene, export_scene_system
     from ..scenes.rotor_runs import export_system
     from ..scenes.solve_damper import export_damped_rotor
 
-    loaded = Scene.load(scene)
+    loaded = load_scene(scene, changes)
     with inside(scene):
         whole = loaded.shaft is not None and not loaded.has_film
         if loaded.has_film and loaded.damper is None:

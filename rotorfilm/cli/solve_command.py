@@ -1,129 +1,99 @@
-"""The command `rotorfilm solve`, and how the answer of a journal bearing is printed."""
+"""The commands `rotorfilm solve`, `schema` and `new`: a scene answered, described, and begun."""
 
 from __future__ import annotations
 
 import json
-import math
-from dataclasses import replace
+import tomllib
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..core.errors import InputError
 from ..core.progress import Report
 from . import printing as console
-from .command import Option, Said, SceneFile, inside
+from .command import Argument, Option, Said, SceneFile, Settings, inside, load_scene
 
 if TYPE_CHECKING:
     from ..scenes import Scene
-    from ..scenes.bush_table import BushAnswer
-    from ..scenes.solve_journal import Answer
 
 
 def solve(
     scene: SceneFile,
     report: Report,
+    changes: Settings = None,
     explain: Annotated[
         bool, Option("--explain", help="Show the whole ladder behind the answer to a question.")
     ] = False,
+    out: Annotated[
+        Path | None, Option(help="Folder for the answer (JSON), its pictures (PNG) and tables (CSV).")
+    ] = None,
 ) -> Said:
-    """Answer a scene: its question, or else equilibrium, stiffness, damping and whirl threshold.
+    """Answer a scene: its question, or else what its bearing or rotor does.
+
+    Without a question a bearing with a film answers with equilibrium, stiffness, damping and whirl
+    threshold; a shaft with modes, critical speeds, threshold, unbalance response and, where it is a
+    compressor, stability by API 617; a damper with the orbits of its rotor; a contact with its film; a bush
+    with its critical speeds.
 
     Exits with 1 where no rung meets the tolerance of the question, or nothing is there to answer it; with 2
     for bad input.
     """
-    from ..scenes import Scene
-
-    loaded = Scene.load(scene)
+    loaded = load_scene(scene, changes)
     if loaded.question is not None:
-        return _question(scene, loaded, explain)
+        return _question(scene, loaded, explain, out)
     if explain:
         raise InputError(f"--explain needs a scene with a [question], got {str(scene)!r}, which has none")
-    if loaded.bush is not None and not loaded.has_film:
-        with inside(scene):
-            melting = loaded.melting()
-        return Said(melting, partial(print_bush, melting))
     with inside(scene):
-        loaded.film_table.make_map(report)
-        answer = loaded.describe()
-    return Said(answer, partial(print_answer, loaded.title, answer))
+        answer = loaded.solve(report)
+    from .answer_printing import plain_answer, print_answer, write_answer
+
+    if out is not None:
+        write_answer(answer, out)
+    return Said(plain_answer(answer), partial(print_answer, loaded.title, answer))
+
+
+def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Said:
+    from .question_printing import print_question
+
+    with inside(path):
+        answer = scene.ask()
+    if out is not None:
+        from .answer_printing import write_answer
+
+        write_answer(answer, out)
+    show = partial(print_question, scene.title, answer, explain=explain)
+    return Said(answer, show, None if answer.met else answer.message)
 
 
 def schema(
     out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.json")] = None,
 ) -> Said:
     """Print the JSON Schema of scene files, by which editors complete and check them."""
-    from ..core.files import write_whole
     from ..scenes.scene import json_schema
 
     text = json_schema()
-    if out is None:
-        return Said(json.loads(text), partial(print, text, end=""))
-    written = str(write_whole(out, text.encode()))
-    return Said({"schema": written}, partial(console.print_rows, "", [("schema", written)]))
+    return _printed("schema", text, json.loads(text), out)
 
 
-def _question(path: Path, scene: Scene, explain: bool) -> Said:
-    from .question_printing import print_question
-
-    with inside(path):
-        answer = scene.ask()
-    show = partial(print_question, scene.title, answer, explain=explain)
-    return Said(answer, show, None if answer.met else answer.message)
-
-
-def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
-    """Return the rows of what the physics of a film leaves out."""
-    return [("left out", remark) for remark in remarks]
-
-
-def print_answer(title: str, answer: Answer) -> None:
-    """Print equilibrium, coefficients and whirl threshold."""
-    console.print_rows(title, answer.to_rows())
-
-
-# The command `rotorfilm bush`: contact and critical speeds of a polymer bush that melts.
-
-
-def bush(
-    load: Annotated[str, Option(help="Radial load.", metavar='"3750 N"')],
-    speed: Annotated[str | None, Option(help="Angular speed to evaluate.", metavar='"9 rad/s"')] = None,
-    settlement: Annotated[str, Option(help="Up to which the liner may wear.")] = "0 mm",
-    change: Annotated[
-        list[str] | None, Option("--set", help="Other value than the example's.", metavar="NAME=VALUE")
-    ] = None,
-    published: Annotated[bool, Option("--published", help="Shaft heat by the published formula.")] = False,
-    whole_shaft: Annotated[bool, Option("--global", help="Balance heat over the whole shaft.")] = False,
+def new(
+    name: Annotated[str, Argument(metavar="NAME", help="Table of a bearing or a rotor, as tilting_pad.")],
+    out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.toml")] = None,
 ) -> Said:
-    """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
-    from ..bearings.bush import ApproximateShaft, GlobalBalance
-    from ..scenes.bush_table import bush_from_settings, solve_bush
-    from ..scenes.reading import Quantity
+    """Print a commented scene of a machine element that `rotorfilm solve` answers as it stands.
 
-    pairs = [text.partition("=")[::2] for text in change or ()]
-    model = bush_from_settings({name.strip(): value.strip() for name, value in pairs})
-    model = replace(model, shaft_heat=ApproximateShaft()) if published else model
-    model = replace(model, balance=GlobalBalance()) if whole_shaft else model
-    rate = None if speed is None else Quantity("rad/s")("--speed", speed)
-    worn = Quantity("m")("--settlement", settlement)
-    answer = solve_bush(model, Quantity("N")("--load", load), rate, worn)
-    return Said(answer, partial(print_bush, answer))
+    NAME is journal, lobed_journal, pressure_dam, tilting_pad, ball_bearing, damper, contact, bush or shaft.
+    """
+    from ..scenes.new_scene import new_scene
+
+    text = new_scene(name)
+    return _printed("scene", text, tomllib.loads(text), out)
 
 
-def print_bush(answer: BushAnswer) -> None:
-    """Print contact and critical speeds of a melting bush."""
-    at = answer.contact
-    onset = console.speed_text(answer.onset_speed)
-    rows = [
-        ("load", f"{at.load:.6g} N"),
-        ("contact half angle", f"{at.contact_angle:.6g} rad = {math.degrees(at.contact_angle):.4g} deg"),
-        ("settlement", f"{at.settlement * 1e6:.6g} um"),
-        ("pressure", f"mean {at.mean_pressure * 1e-6:.5g} MPa, largest {at.maximum_pressure * 1e-6:.5g} MPa"),
-        ("heat", f"shaft {at.shaft_flux:.6g} W/m2, liner {at.liner_flux:.6g} W/m2"),
-        ("critical speed", console.speed_text(at.critical_speed)),
-        ("", f"{onset} once worn to a settlement of {answer.settlement * 1e6:g} um"),
-    ]
-    operation = [(name.replace("_", " "), f"{value:.6g}") for name, value in answer.operation.items()]
-    console.print_rows("melting bush", rows)
-    if operation:
-        console.print_rows("at the speed given, unworn (SI)", operation)
+def _printed(kind: str, text: str, data: Any, out: Path | None) -> Said:
+    """Return what a command says that prints a text, or writes it into a file."""
+    from ..core.files import write_whole
+
+    if out is None:
+        return Said(data, partial(print, text, end=""))
+    written = str(write_whole(out, text.encode()))
+    return Said({kind: written}, partial(console.print_rows, "", [(kind, written)]))

@@ -12,7 +12,7 @@ from ..core.limits import SWEEP_POINTS
 from ..core.progress import Report
 from ..core.units import whole_number
 from . import printing as console
-from .command import Option, Said, SceneFile
+from .command import Option, Said, SceneFile, Settings, read_settings
 
 
 def sweep(
@@ -26,6 +26,7 @@ def sweep(
         ),
     ],
     out: Annotated[Path, Option(help="NetCDF file; run again, it goes on where it was interrupted.")],
+    changes: Settings = None,
     workers: Annotated[int | None, Option(help="Processes; by default one for each core.")] = None,
     dask: Annotated[str | None, Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
 ) -> Said:
@@ -37,7 +38,9 @@ def sweep(
         if key in parameters:
             raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
         parameters[key] = values
-    dataset = run(scene, parameters, path=out, workers=workers, dask=dask, report=report)
+    dataset = run(
+        scene, parameters, path=out, changes=read_settings(changes), workers=workers, dask=dask, report=report
+    )
     failed = int((dataset["failure"] != "").sum())
     remarks = int((dataset["remarks"] != "").sum())
     answer = {

@@ -302,6 +302,11 @@ FAMILY = Family(
         "critical_speed": bush_ladder,
         "wear": wear_ladder,
     },
+    answer=lambda scene, _: scene.melting(),
+    example={
+        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
+        "operation": {"speed": "9 rad/s", "load": "3750 N"},
+    },
 )
 
 

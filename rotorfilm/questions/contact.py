@@ -38,6 +38,7 @@ from ..scenes.contact_motions import (
 )
 from ..scenes.contact_table import ContactTable
 from ..scenes.families import Family
+from ..scenes.solve_contact import answer_contact
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -270,7 +271,20 @@ FAMILY = Family(
     ladders={
         **dict.fromkeys(QUANTITIES, contact_ladder),
     },
-    command="rotorfilm contact",
+    answer=answer_contact,
+    example={
+        "contact": {
+            "diameter": "20 mm",
+            "modulus": "206 GPa",
+            "poisson_ratio": 0.3,
+            "viscosity": "8 mPa s",
+            "pressure_coefficient": "5 1/GPa",
+            "speed": "0.9 m/s",
+            "load": "10 N",
+            "mass": "33 g",
+            "cells": 24,
+        },
+    },
 )
 
 

@@ -76,6 +76,7 @@ from ..scenes.damper_table import DamperTable
 from ..scenes.excitation_table import BladeLossTable, RunUpTable
 from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
+from ..scenes.solve_damper import answer_damper
 from .coupling import coupling_ladder
 from .journal_orbits import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 
@@ -572,7 +573,18 @@ FAMILY = Family(
         "cosimulation_error": coupling_ladder,
     },
     models=damper_fmus,
-    command="rotorfilm damper-run",
+    answer=answer_damper,
+    example={
+        "damper": {
+            "diameter": "100 mm",
+            "length": "25 mm",
+            "clearance": "0.1 mm",
+            "viscosity": "10 mPa s",
+            "stiffness": "2e6 N/m",
+        },
+        "operation": {"speed": "6000 rpm"},
+        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
+    },
 )
 
 

@@ -206,4 +206,14 @@ FAMILY = Family(
         "cosimulation_error": coupling_ladder,
     },
     models=film_models,
+    example={
+        "journal": {
+            "diameter": "100 mm",
+            "length": "50 mm",
+            "viscosity": "20 mPa s",
+            "clearance": "80 um",
+        },
+        "operation": {"speed": "3000 rpm"},
+        "rigid_rotor": {"mass": "200 kg"},
+    },
 )

@@ -146,6 +146,18 @@ LOBED = Family(
         lambda scene: many_forces(_all(scene), fixed=scene.film_is_given),
     ),
     models=film_models,
+    example={
+        "lobed_journal": {
+            "diameter": "100 mm",
+            "length": "50 mm",
+            "viscosity": "20 mPa s",
+            "preset": "elliptical",
+            "assembled_clearance": "70 um",
+            "preload": 0.5,
+        },
+        "operation": {"speed": "3000 rpm"},
+        "rigid_rotor": {"mass": "200 kg"},
+    },
 )
 
 
@@ -157,7 +169,22 @@ def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]
 
 
 PRESSURE_DAM = Family(
-    table=DamTable, ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)), models=film_models
+    table=DamTable,
+    ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)),
+    models=film_models,
+    example={
+        "pressure_dam": {
+            "diameter": "100 mm",
+            "length": "50 mm",
+            "viscosity": "20 mPa s",
+            "pad_clearance": "80 um",
+            "depth": "140 um",
+            "end": "145 deg",
+            "share": 0.75,
+        },
+        "operation": {"speed": "3000 rpm"},
+        "rigid_rotor": {"mass": "200 kg"},
+    },
 )
 
 
@@ -438,6 +465,20 @@ TILTING = Family(
         "whirl_threshold": tilting_whirl_ladder,
     },
     models=tilting_models,
+    example={
+        "tilting_pad": {
+            "diameter": "100 mm",
+            "length": "50 mm",
+            "viscosity": "20 mPa s",
+            "assembled_clearance": "70 um",
+            "preload": 0.3,
+            "pad_count": 5,
+            "loading": "between_pads",
+            "extent": "60 deg",
+        },
+        "operation": {"speed": "3000 rpm"},
+        "rigid_rotor": {"mass": "200 kg"},
+    },
 )
 
 

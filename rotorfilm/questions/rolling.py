@@ -355,4 +355,21 @@ def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceC
 # What ball bearings by their dimensions bring to scenes and questions.
 
 
-FAMILY = Family(table=BallTable, ladders=dict.fromkeys(UNITS, ball_ladder), models=film_models)
+FAMILY = Family(
+    table=BallTable,
+    ladders=dict.fromkeys(UNITS, ball_ladder),
+    models=film_models,
+    example={
+        "ball_bearing": {
+            "balls": 16,
+            "ball_diameter": "7.938 mm",
+            "pitch_diameter": "46.5 mm",
+            "contact_angle": "15 deg",
+            "ball_material": "silicon_nitride",
+            "arrangement": "back_to_back",
+            "distance": "20 mm",
+            "preload": "150 N",
+        },
+        "operation": {"speed": "18000 rpm", "load": "200 N"},
+    },
+)

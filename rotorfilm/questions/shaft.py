@@ -46,7 +46,7 @@ from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import oil_remarks
 from ..scenes.families import Family
 from ..scenes.shaft_table import ShaftTable
-from ..scenes.solve_shaft import shaft_remarks
+from ..scenes.solve_shaft import shaft_remarks, solve_rotor
 from .journal_orbits import ORBIT_UNITS as ORBITS
 from .journal_whirl import moving_heat
 from .shaft_films import (
@@ -334,6 +334,9 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
 # What flexible rotors in their bearings bring to scenes and questions.
 
 
+JOURNAL = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
+"""The bearings of the example."""
+
 FAMILY = Family(
     table=ShaftTable,
     ladders={
@@ -341,5 +344,19 @@ FAMILY = Family(
         **dict.fromkeys(ORBITS, shaft_orbit_ladder),
         PEAK: shaft_peak_ladder,
     },
-    command="rotorfilm rotor",
+    answer=solve_rotor,
+    example={
+        "shaft": {
+            "material": {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"},
+            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
+            "bearings": [
+                {"name": "left", "node": 0, "journal": JOURNAL},
+                {"name": "right", "node": 4, "journal": JOURNAL},
+            ],
+            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
+            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
+            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
+            "highest_frequency": "100 Hz",
+        },
+    },
 )

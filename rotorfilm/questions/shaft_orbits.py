@@ -22,14 +22,13 @@ from ..core.results import Coefficients, Trajectory
 from ..rotors import BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, ShakenBaseRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import (
-    BladeLossTable,
     GroundTable,
     RunUpTable,
     UnbalanceTable,
     oil_remarks,
     require_kind,
 )
-from ..scenes.rotor_runs import largest_distance, run_span, run_times
+from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
 from .journal_orbits import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
 from .shaft_films import (
@@ -460,7 +459,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
-    given, scene = scene.shaft, _with_loss(scene)
+    given, scene = scene.shaft, after_loss(scene)
     rotor, levels = _rotor(scene), tuple(map(_massless, film_levels(given)))
     if levels[0].on_oil:
         raise InputError(
@@ -488,26 +487,6 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         ),
         within=shaft_physics(bearings),
     )
-
-
-def _with_loss(scene: Scene) -> Scene:
-    """Return a scene that loses a blade as one whose rotor rests, and has its unbalance from then on."""
-    lost = scene.excitation
-    if not isinstance(lost, BladeLossTable):
-        return scene
-    if scene.speed == 0.0:
-        raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    assert scene.shaft is not None
-    assert scene.operation is not None
-    if any(one.unbalance > 0.0 for one in scene.shaft.unbalances):
-        raise InputError("shaft.unbalances must be none where a blade is lost at rest, got some")
-    sudden = UnbalanceTable(
-        unbalance=lost.unbalance,
-        unbalance_angle=lost.unbalance_angle + scene.speed * lost.start,
-        node=lost.node,
-    )
-    duration = 2.0 * math.pi * lost.revolutions / abs(scene.speed)
-    return replace(scene, excitation=sudden, operation=replace(scene.operation, duration=duration))
 
 
 def _rotor(scene: Scene) -> ShaftRotor:

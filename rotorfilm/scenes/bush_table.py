@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Annotated, Any
 
@@ -21,11 +20,10 @@ from ..bearings.bush import (
     SharedMelting,
     f4k20_bush,
 )
-from ..core.errors import InputError, SceneError, brief
+from ..core.errors import SceneError, brief
 from ..core.limits import WORN_NODES
 from ..core.readable import Readable
 from ..core.signals import units
-from ..core.units import parse_quantity
 from .reading import Count, Named, Quantity, choose, made_from, takes
 
 MATERIALS = {"f4k20": f4k20_bush}
@@ -152,33 +150,12 @@ class BushTable:
         return made_from(BushReaction, self, bush=self.build())
 
 
-# A melting bush from settings in text, and what the command line says about it.
-
-
-SETTINGS: dict[str, tuple[str, str]] = {
-    "radius": ("geometry", "m"),
-    "outer_radius": ("geometry", "m"),
-    "shaft_radius": ("geometry", "m"),
-    "length": ("geometry", "m"),
-    "shear_modulus": ("liner", "Pa"),
-    "poisson_ratio": ("liner", "1"),
-    "expansion": ("liner", ""),
-    "liner_conductivity": ("liner", ""),
-    "melting_point": ("liner", "K"),
-    "shaft_conductivity": ("shaft", ""),
-    "air_transfer": ("shaft", ""),
-    "f0": ("friction", "1"),
-    "f1": ("friction", ""),
-    "f2": ("friction", ""),
-    "outer_mean": ("", "K"),
-    "outer_swing": ("", "K"),
-}
-"""Part of the bush and unit of each setting; an empty unit stands for a plain SI number."""
+# Contact and critical speeds of the unworn bush.
 
 
 @dataclass(frozen=True, kw_only=True)
 class BushAnswer(Readable):
-    """What `rotorfilm bush` prints.
+    """What a scene with a bush answers.
 
     Attributes
     ----------
@@ -206,33 +183,6 @@ class BushAnswer(Readable):
         return units(BushWear(bush=self.bush, melting_heat=1.0).outputs)
 
 
-def bush_from_settings(settings: Mapping[str, str]) -> MeltingBush:
-    """Return the bush of `f4k20_bush` with some values changed.
-
-    Parameters
-    ----------
-    settings : mapping of str to str
-        Values by name, a key of `SETTINGS`, as `{"shaft_radius": "12.4 mm", "f0": "0.12"}`.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or a value is no quantity in its unit or out of range.
-    """
-    parts: dict[str, dict[str, Any]] = {}
-    for name, text in settings.items():
-        if name not in SETTINGS:
-            raise InputError(f"setting must be one of {', '.join(SETTINGS)}, got {name!r}")
-        part, unit = SETTINGS[name]
-        field = "conductivity" if name.endswith("conductivity") else name
-        parts.setdefault(part, {})[field] = _number(name, text, unit)
-    bush = f4k20_bush()
-    own = parts.pop("", {})
-    return replace(
-        bush, **own, **{part: replace(getattr(bush, part), **values) for part, values in parts.items()}
-    )
-
-
 def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: float) -> BushAnswer:
     """Return contact and critical speeds, and where a speed [rad/s] is given the operation there, unworn."""
     operation: dict[str, float] = {}
@@ -251,12 +201,3 @@ def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: 
         onset_speed=bush.onset_speed(load, settlement),
         operation=operation,
     )
-
-
-def _number(name: str, text: str, unit: str) -> float:
-    try:
-        return parse_quantity(text, unit) if unit else parse_quantity(float(text), "1")
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from None
-    except ValueError:
-        raise InputError(f"{name} must be a plain SI number, got {brief(text)}") from None

@@ -695,10 +695,6 @@ def _which(found: tuple[CircularOrbit, ...]) -> tuple[str, ...]:
 # Rotor and damper of a scene, as they are run.
 
 
-OTHER_RUNS = dict.fromkeys(("motor", "ground"), "rotorfilm rotor-run")
-"""Command for an excitation that is not of these models."""
-
-
 class DamperScene(NamedTuple):
     """The models of a scene with a damper.
 
@@ -737,7 +733,7 @@ def damper_models(scene: Scene) -> DamperScene:
         raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
     rotor, start, duration = scene.rigid_rotor.build(scene.speed, scene.damper.load), 0.0, 0.0
     rotor = replace(rotor, position=scene.damper.offset)
-    require_kind(excitation, ("unbalance", "blade_loss", "run_up"), OTHER_RUNS)
+    require_kind(excitation, ("unbalance", "blade_loss", "run_up"))
     if isinstance(excitation, UnbalanceTable):
         if rotor.unbalance:
             raise InputError(

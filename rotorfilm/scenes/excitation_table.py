@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Annotated, Any, Protocol, Self, runtime_checkable
 
 from ..core.errors import InputError, require_count, require_non_negative, require_number, require_positive
@@ -15,7 +14,6 @@ from ..core.readable import Readable
 from ..rotors.base_excitation import BaseMotion
 from ..rotors.motor import LinearMotor
 from ..rotors.profile import SpeedProfile
-from .families import family_of
 from .lubricant_table import Lubricant, LubricantTable
 from .reading import Count, Quantity, Record, flag, made_from, read_load, record_of
 
@@ -240,24 +238,19 @@ def kind_of(excitation: object) -> str:
     return next((name for name, table in EXCITATIONS.items() if type(excitation) is table), "")
 
 
-def require_kind(
-    excitation: object, kinds: Sequence[str], elsewhere: Mapping[str, str] = MappingProxyType({})
-) -> None:
+def require_kind(excitation: object, kinds: Sequence[str]) -> None:
     """Raise InputError unless a scene is shaken by one of some kinds, or by nothing.
 
     Parameters
     ----------
     excitation : ExcitationTable or None
     kinds : sequence of str
-    elsewhere : mapping of str to str
-        Commands that take other kinds.
     """
     found = kind_of(excitation)
     if not found or found in kinds:
         return
     wanted = " or ".join([", ".join(kinds[:-1]), kinds[-1]] if len(kinds) > 1 else kinds)
-    hint = f"; `{elsewhere[found]}` takes it" if found in elsewhere else ""
-    raise InputError(f"excitation.kind must be {wanted} here, got {found}{hint}")
+    raise InputError(f"excitation.kind must be {wanted} here, got {found}")
 
 
 # The table of one bearing with a film, of whatever family, on which the rotor of a scene rests.
@@ -314,20 +307,12 @@ def film_tables(tables: Mapping[str, Any]) -> dict[str, FilmTable]:
     return found
 
 
-def film_table(tables: Mapping[str, Any], excitation: object = None) -> FilmTable:
-    """Return the table of the bearing with a film among those of a scene; raise InputError without one.
-
-    The message has the commands for what there is, and for what shakes it.
-    """
+def film_table(tables: Mapping[str, Any]) -> FilmTable:
+    """Return the table of the bearing with a film among those of a scene; raise InputError without one."""
     found = next(iter(film_tables(tables).values()), None)
     if found is None:
-        given = {f"[{name}]": family_of(name).command for name, table in tables.items() if table is not None}
-        if getattr(tables.get("shaft"), "compressor", None) is not None:
-            given["[shaft.compressor]"] = "rotorfilm stability-level-one"
-        if (kind := kind_of(excitation)) in ("motor", "ground"):
-            given[f"excitation.kind {kind}"] = "rotorfilm rotor-run"
-        hints = "".join(f"; `{command}` is for {what}" for what, command in given.items() if command)
-        raise InputError(f"journal is required for a film, got no such table{hints}")
+        given = ", ".join(f"[{name}]" for name, table in tables.items() if table is not None)
+        raise InputError(f"journal or another bearing with a film is required, got {given}")
     return found
 
 

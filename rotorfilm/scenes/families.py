@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple
 
 from ..core.answers import Ladder, LeftOutRemark
 from ..core.errors import InputError
 from ..core.model import Model, Stepped
+from ..core.progress import Report
 
 FAMILIES = {
     "journal": "questions.journal.FAMILY",
@@ -64,14 +65,18 @@ class Family:
         By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs.
     models : callable or None
         Takes a scene and returns what of it becomes FMUs; None if that is not one bearing under one rotor.
-    command : str
-        What the command line offers for a scene that asks nothing.
+    answer : callable or None
+        Takes a scene without a question and a Report of its progress, and returns what the scene answers;
+        None where that is what any bearing with a film answers.
+    example : mapping of str to mapping
+        Tables of a scene that has an answer, with values as a file has them, for `rotorfilm new`.
     """
 
     table: type
     ladders: Mapping[str, Callable[[Any, str], Ladder]]
     models: Callable[[Any], SceneModels] | None = None
-    command: str = ""
+    answer: Callable[[Any, Report], Any] | None = None
+    example: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 def family_of(name: str) -> Family:

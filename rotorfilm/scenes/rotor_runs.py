@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,7 +32,14 @@ from ..rotors import (
     reduce_rotor,
 )
 from ..rotors.structure import station_names
-from .excitation_table import GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
+from .excitation_table import (
+    BladeLossTable,
+    GroundTable,
+    MotorTable,
+    RunUpTable,
+    UnbalanceTable,
+    require_kind,
+)
 from .solve_shaft import added_unbalance
 
 if TYPE_CHECKING:
@@ -47,9 +55,6 @@ FEWEST, MOST = 1001, 200_001
 
 BETWEEN = 8
 """Places between two samples at which the spline through them is looked at."""
-
-OTHER_RUNS = {"blade_loss": "rotorfilm damper-run"}
-"""Command for an excitation that is none of these runs."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +107,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     ----------
     scene : Scene
         With a `[shaft]`, or with a `[rigid_rotor]` on a film that carries it. Its excitation is an unbalance,
-        a `run_up`, a `motor` or `ground`.
+        a `blade_loss`, whose run begins where the blade is lost, a `run_up`, a `motor` or `ground`.
     report : callable
         Is told the progress.
 
@@ -125,6 +130,9 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     A shaft on a motor is integrated by scipy, all else in C.
     """
     report(0.0, "equilibrium")
+    require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
+    start = scene.excitation.start if isinstance(scene.excitation, BladeLossTable) else 0.0
+    scene = after_loss(scene)
     parts = _parts(scene)
     report(0.05, "motion")
     times = run_times(parts.duration, parts.fastest)
@@ -135,12 +143,12 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
         trajectory = error.partial
         if trajectory is None:
             raise
-        contact = float(trajectory.time[-1])
+        contact = start + float(trajectory.time[-1])
     report(1.0, "done")
     places = _places(trajectory)
     moved = {name: np.hypot(*(place - place[:, :1])) for name, place in places.items()}
     return RotorRun(
-        trajectory=trajectory,
+        trajectory=replace(trajectory, time=start + trajectory.time),
         peaks={name: float(np.hypot(*place).max()) for name, place in places.items()},
         at_rest={name: float(np.hypot(*place[:, 0])) for name, place in places.items()},
         vibrations={name: float(far.max()) for name, far in moved.items()},
@@ -169,6 +177,25 @@ def largest_distance(time: Array, x: Array, y: Array) -> float:
     return float(np.hypot(CubicSpline(time, x)(fine), CubicSpline(time, y)(fine)).max())
 
 
+def after_loss(scene: Scene) -> Scene:
+    """Return a scene that loses a blade as one whose rotor rests, and has its unbalance from then on."""
+    lost = scene.excitation
+    if not isinstance(lost, BladeLossTable):
+        return scene
+    if scene.speed == 0.0:
+        raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
+    if scene.shaft is not None and any(one.unbalance > 0.0 for one in scene.shaft.unbalances):
+        raise InputError("shaft.unbalances must be none where a blade is lost at rest, got some")
+    assert scene.operation is not None  # or there is no speed
+    sudden = UnbalanceTable(
+        unbalance=lost.unbalance,
+        unbalance_angle=lost.unbalance_angle + scene.speed * lost.start,
+        node=lost.node,
+    )
+    duration = 2.0 * math.pi * lost.revolutions / abs(scene.speed)
+    return replace(scene, excitation=sudden, operation=replace(scene.operation, duration=duration))
+
+
 def run_span(scene: Scene) -> tuple[float, float]:
     """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
     excitation, speed, duration = scene.excitation, scene.speed, None
@@ -187,7 +214,6 @@ def run_span(scene: Scene) -> tuple[float, float]:
 def _parts(scene: Scene) -> _Parts:
     """Return the rotor of a scene at rest in its bearings."""
     excitation = scene.excitation
-    require_kind(excitation, ("unbalance", "run_up", "motor", "ground"), OTHER_RUNS)
     duration, fastest = run_span(scene)
     rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
     if isinstance(excitation, RunUpTable):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 import tomllib
 from collections.abc import Mapping
@@ -9,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from importlib import import_module, resources
 from os import PathLike
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
@@ -16,7 +18,8 @@ from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
 from ..core.limits import LINE_DOTS, SCENE_BYTES
 from ..core.model import Reaction
-from ..core.units import STANDARD_GRAVITY
+from ..core.progress import Report, silent
+from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
 from .bush_table import BushAnswer, BushTable, solve_bush
 from .contact_table import ContactTable
@@ -30,7 +33,7 @@ from .excitation_table import (
     film_tables,
     oil_remarks,
 )
-from .families import FAMILIES, table_of
+from .families import FAMILIES, family_of, table_of
 from .lubricant_table import LubricantTable
 from .reading import Beside, Quantity, Table, Variant, one_of, read_table, require_no_near_miss, takes, text
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
@@ -204,13 +207,15 @@ class Scene:
             object.__setattr__(self, "shaft", self.shaft.on(self.lubricant))
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Scene:
+    def load(cls, path: str | PathLike[str], changes: Mapping[str, Any] = MappingProxyType({})) -> Scene:
         """Read a scene file.
 
         Parameters
         ----------
         path : str or path-like
             A TOML file of schema 1.
+        changes : mapping of str to object
+            Values in place of those of the file, by dotted key: `{"journal.clearance": "80 um"}`.
 
         Raises
         ------
@@ -218,13 +223,31 @@ class Scene:
             If the file cannot be read, is no TOML, or breaks the schema; the message names the file, the
             dotted key, the rule and the value.
         """
-        return read_scene(read_tables(path), str(path))
+        return read_scene(varied(read_tables(path), changes), str(path))
 
-    def solve(self) -> Answer | BushAnswer | QuestionAnswer:
-        """Return the answer to the question; where none is asked `describe()`, of a bush `melting()`."""
+    def solve(self, report: Report = silent) -> Any:
+        """Return the answer to the question, or where none is asked what the bearing of the scene answers.
+
+        Parameters
+        ----------
+        report : callable
+            Is told the progress.
+
+        Returns
+        -------
+        Readable
+            A `QuestionAnswer`; without a question the `Answer` of a bearing with a film, of a `[shaft]` a
+            `RotorAnswer`, of a `[damper]` a `DamperAnswer`, of a `[contact]` a `ContactAnswer`, of a
+            `[bush]` a `BushAnswer`.
+        """
         if self.question is not None:
             return self.ask()
-        return self.melting() if self.bush is not None and not self.has_film else self.describe()
+        if self.has_film:
+            self.film_table.make_map(report)
+            return self.describe()
+        given = [family_of(name) for name, table in self.tables.items() if table is not None]
+        answer = next((one.answer for one in given if one.answer is not None), None)
+        return self.describe() if answer is None else answer(self, report)
 
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the first rung that meets its tolerance.
@@ -300,7 +323,7 @@ class Scene:
     @property
     def film_table(self) -> FilmTable:
         """The table of the bearing with a film; raises InputError if the scene has none."""
-        return film_table(self.tables, self.excitation)
+        return film_table(self.tables)
 
     @property
     def speed(self) -> float:
@@ -412,6 +435,49 @@ def parsed(document: str, source: str) -> dict[str, Any]:
         raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
     except ValueError:  # Python reads no integer of more than 4300 digits
         raise SceneError(f"{source}: integers must not have thousands of digits") from None
+
+
+def varied(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a scene file with other values at some keys.
+
+    Raises
+    ------
+    SceneError
+        If a key leads through something that is no table or list.
+    """
+    data = copy.deepcopy(dict(scene))
+    for key, value in values.items():
+        if key.count(".") > LINE_DOTS:
+            raise SceneError(f"keys must not have more than {LINE_DOTS} dots, got {brief(key)}")
+        *path, last = key.split(".")
+        place: Any = data
+        for part in path:
+            place = _inside(key, place, part)
+        _set(key, place, last, value)
+    return data
+
+
+def _inside(key: str, place: Any, part: str) -> Any:
+    if isinstance(place, dict):
+        return place.setdefault(part, {})
+    if isinstance(place, list) and (number := _entry(place, part)) is not None:
+        return place[number]
+    raise SceneError(f"{key} must lead through tables of the scene, got no {part!r}")
+
+
+def _entry(place: list[Any], part: str) -> int | None:
+    """Return the entry of a list that a part of a key names; it has one name only."""
+    number = whole_number(part)
+    return number if number is not None and number < len(place) and str(number) == part else None
+
+
+def _set(key: str, place: Any, last: str, value: Any) -> None:
+    if isinstance(place, dict):
+        place[last] = value
+    elif isinstance(place, list) and (number := _entry(place, last)) is not None:
+        place[number] = value
+    else:
+        raise SceneError(f"{key} must lead through tables of the scene, got no {last!r}")
 
 
 def json_schema() -> str:

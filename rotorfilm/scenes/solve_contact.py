@@ -6,8 +6,7 @@ import contextlib
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,17 +17,19 @@ from ..bearings.contact import (
     ContactState,
     PointContact,
     RollingBall,
-    SineLoad,
-    StepLoad,
     moes_parameters,
     reduce_contact,
     ride,
 )
-from ..core.errors import ConvergenceError, require_positive
+from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, breakpoints
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
+from .contact_motions import contact_motion, require_followable
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 
 class ContactCase(NamedTuple):
@@ -53,25 +54,26 @@ class ContactCase(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactAnswer(Readable):
-    """A stationary contact; in SI for a ball, else in units of the Hertzian contact.
+    """A stationary contact; one without a ball is in the units of its Hertzian contact, not in SI.
 
     Attributes
     ----------
     V, Q0, W : float [1]
     moes : dict of str to float
         M and L.
-    approach : float [m or 1]
+    approach : float [m]
         Of the ball's center beyond first touch, negative in contact.
-    central_film, minimum_film : float [m or 1]
+    central_film, minimum_film : float [m]
         Film thickness at the center, and the smallest.
-    maximum_pressure : float [Pa or 1]
+    maximum_pressure : float [Pa]
     checkerboard : float [1]
-    stiffness, damping : float [N/m or 1], [N s/m or 1]
+        Share of the pressure that alternates from cell to cell.
+    stiffness, damping : float [N/m], [N s/m]
         -dF/dz at rest and in slow motion.
     static_error, damping_error : float [1]
         Of the reduced law.
-    published : dict of str to float
-        Film thicknesses by published formulas, in the same unit.
+    published : dict of str to float [m]
+        Film thicknesses by published formulas.
     """
 
     V: float
@@ -101,9 +103,9 @@ class ContactResponse(Readable):
         one: then `ContactAnswer` describes another law.
     complete : bool
         Whether it reached its end.
-    time, approach, force : ndarray, shape (n,) [s or 1], [m or 1], [N or 1]
+    time, approach, force : ndarray, shape (n,) [s], [m], [N]
         Motion of the ball and force of the film on it.
-    central_film : ndarray, shape (n,), or None [m or 1]
+    central_film : ndarray, shape (n,), or None [m]
         The reduced law has none.
     work : dict of str to int
     """
@@ -196,31 +198,50 @@ def _ridden(
     return ride(law, mass=case.W / HERTZ_LOAD, load=load, start=start, duration=duration, samples=1001)
 
 
-def run_full(
-    case: ContactCase,
-    load: Callable[[float], float],
-    *,
-    duration: float,
-    start: ContactState | ContactRun | None = None,
-    keep: Path | None = None,
-    report: Report = silent,
-) -> ContactRun:
-    """Return the response by the full film, dimensionless; an interruption returns what there is.
+def answer_contact(scene: Scene, report: Report = silent) -> ContactAnswer:
+    """Return the stationary contact of a scene."""
+    assert scene.contact is not None  # or it is not asked
+    case = case_of(scene.contact.build(), scene.contact.contact())
+    return solve_contact(case, scene.contact.order, report)[0]
 
-    A run as start is gone on with; `keep` is as in `PointContact.simulate`.
+
+def run_contact(scene: Scene, *, full: bool = False, report: Report = silent) -> ContactResponse:
+    """Return the motion of the ball of a scene under its step or its sine; see `contact_motion`.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a contact; `operation.duration` is how long it is followed, if it is given.
+    full : bool
+        Whether by the full film, in place of its reduced law. An interruption returns what there is.
+    report : callable
+        Is told the progress.
 
     Raises
     ------
+    InputError
+        If the scene has no contact, no step or sine, or a ball without mass on a reduced law.
     ConvergenceError
         If a step fails; its `partial` is the run up to there.
     """
-    begin = case.contact.stationary() if start is None else start
-    at = float(begin.time[0]) if isinstance(begin, ContactRun) else begin.t
-    told = _Told(load, at, duration, report)
-    return case.contact.simulate(begin, duration=duration, W=case.W, load=told, keep=keep)
+    motion, table = contact_motion(scene), scene.contact
+    assert table is not None  # or there is no motion
+    case, duration = case_of(table.build(), table.contact()), motion.duration
+    if scene.operation is not None and scene.operation.duration is not None:
+        duration = scene.operation.duration / case.time_scale
+        require_followable(duration, 0.0)
+    if full:
+        told = _Told(motion.load, 0.0, duration, report)
+        start = case.contact.stationary()
+        return _response_of(case, case.contact.simulate(start, duration=duration, W=case.W, load=told))
+    if not case.W > 0.0:
+        raise InputError("contact.mass must be positive for a motion on the reduced law, got 0.0 kg")
+    report(0.3, "reduced law")
+    law = reduce_contact(case.contact, table.order)
+    return respond(case, law, motion.load, duration=duration)
 
 
-def response_of(case: ContactCase, run: ContactRun) -> ContactResponse:
+def _response_of(case: ContactCase, run: ContactRun) -> ContactResponse:
     """Return a run of the full film in the units of the case."""
     return ContactResponse(
         model="full film",
@@ -231,14 +252,6 @@ def response_of(case: ContactCase, run: ContactRun) -> ContactResponse:
         central_film=run.central_film * case.film_scale,
         work=run.work,
     )
-
-
-def load_over_time(step: float | None, sine: float | None, frequency: float) -> StepLoad | SineLoad:
-    """Return f(t) of a jump at t = 0 or of a swing, by their amplitudes relative to the static load."""
-    if sine is not None:
-        require_positive("frequency", frequency)
-        return SineLoad(amplitude=sine, frequency=frequency)
-    return StepLoad(amplitude=0.0 if step is None else step)
 
 
 class _Told:

@@ -21,11 +21,13 @@ from ..bearings.assemblies import Sprung
 from ..bearings.damper import DamperGroups, JFODamper, MapSqueeze, PorousDamper, damper_groups
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Reaction, largest_eccentricity_ratio
+from ..core.progress import Report, silent
 from ..core.readable import Drawable, Readable
 from ..core.results import CircularOrbit, Trajectory
 from ..cosim import CoSimulation, cosimulate
 from ..rotors import RigidRotor, mount
 from .damper_films import DamperScene, damper_fmus, damper_models
+from .excitation_table import UnbalanceTable
 from .export_scene import write_models
 
 if TYPE_CHECKING:
@@ -48,6 +50,8 @@ class DamperAnswer(Readable):
         Of film and springs on a circular orbit of a hundredth of the clearance.
     response : SynchronousOrbits
         Orbits over unbalances up to twice the rotor's.
+    unbalance_scale : float [kg m]
+        Mass times clearance.
     """
 
     groups: DamperGroups
@@ -56,6 +60,7 @@ class DamperAnswer(Readable):
     contact_unbalance: float | None
     small_motion: OrbitCoefficients
     response: SynchronousOrbits
+    unbalance_scale: float
 
 
 def solve_damper(
@@ -79,6 +84,36 @@ def solve_damper(
         contact_unbalance=response.contact_unbalance,
         small_motion=orbit_coefficients(support, 0.01, speed),
         response=response,
+        unbalance_scale=mass * damper.clearance,
+    )
+
+
+def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
+    """Return the orbits of the rotor of a scene on its damper, at the speed of its operation.
+
+    Raises
+    ------
+    InputError
+        If the scene has no damper or no rotor, a supply without a film law, which questions and runs take,
+        or an offset, which runs take.
+    """
+    if scene.damper is None or scene.rigid_rotor is None:
+        raise InputError("damper and rigid_rotor are required for orbits on a damper, got a scene without")
+    if scene.damper.supply is not None and scene.damper.film is None:
+        raise InputError("damper.film must be given beside supply, or a [question] asked, got no film")
+    if any(scene.damper.offset):
+        raise InputError(
+            f"damper.offset must be 0 for orbits about the center, as only runs take one, got "
+            f"{scene.damper.offset!r} m"
+        )
+    excitation, rotor = scene.excitation, scene.rigid_rotor
+    added = excitation.unbalance if isinstance(excitation, UnbalanceTable) else 0.0
+    return solve_damper(
+        scene.damper.build(),
+        mass=rotor.mass,
+        speed=scene.speed,
+        unbalance=rotor.unbalance or added,
+        stiffness=scene.damper.stiffness,
     )
 
 

@@ -71,7 +71,10 @@ class RotorAnswer(Drawable):
     response : control.FrequencyResponseData or None
         The same with phases.
     remarks : tuple of str
-        What the physics of shaft and films leaves out and should not, at the last speed.
+        What the physics of shaft and films leaves out and should not, at the last speed, and at that of the
+        compressor.
+    level_one : StabilityLevelOne or None
+        Stability by API 617 of a shaft with a `[shaft.compressor]`.
     """
 
     title: str
@@ -85,6 +88,7 @@ class RotorAnswer(Drawable):
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
     remarks: tuple[str, ...] = ()
+    level_one: StabilityLevelOne | None = None
 
     def _own_units(self) -> dict[str, str]:
         return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
@@ -123,6 +127,14 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     report(0.85, "unbalance response")
     turned = resonant_speeds(speeds, critical)
     response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
+    found, remarks = None, level_one_remarks(scene) if scene.shaft.compressor is not None else ()
+    if scene.shaft.compressor is not None:
+        report(0.95, "stability by API 617")
+        found = solve_level_one(scene)
+    own = (
+        *oil_remarks(scene.tables, scene.lubricant),
+        *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+    )
     report(1.0, "done")
     return RotorAnswer(
         title=scene.title,
@@ -135,10 +147,8 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         campbell=chart,
         amplitudes={} if response is None else _amplitudes(response),
         response=response,
-        remarks=(
-            *oil_remarks(scene.tables, scene.lubricant),
-            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
-        ),
+        remarks=(*own, *(line for line in remarks if line not in own)),
+        level_one=found,
     )
 
 

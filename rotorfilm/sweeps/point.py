@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import copy
 import math
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from ..core.answers import QuestionAnswer
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning
+from ..core.errors import InputError, RotorfilmError, ValidityWarning
 from ..core.limits import SWEEP_POINTS, require_at_most
-from ..core.units import UNITS, whole_number
+from ..core.units import UNITS
 from ..scenes.bush_table import BushAnswer
 from ..scenes.reading import Quantity, quantity_of
-from ..scenes.scene import Scene, read_scene
+from ..scenes.scene import Scene, read_scene, varied
 from ..scenes.solve_journal import Answer
 
 Row = dict[str, Any]
@@ -72,13 +71,21 @@ def solve_point(scene: Mapping[str, Any], values: Mapping[str, Any], source: str
         warnings.simplefilter("always")
         told: set[str] = set()
         try:
-            answer = read_scene(varied(scene, values), source).solve()
+            asked = read_scene(varied(scene, values), source)
+            _require_kept(asked)
+            answer = asked.solve()
             row = _kept(answer)
             told = {f"left out: {remark}" for remark in getattr(answer, "remarks", ())}
         except RotorfilmError as error:
             row = {"failure": f"{type(error).__name__}: {error}"}
     told |= {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
     return {**row, "remarks": "; ".join(sorted(told))}
+
+
+def _require_kept(scene: Scene) -> None:
+    """Raise InputError for a scene that asks nothing and of whose answer a sweep keeps no numbers."""
+    if scene.question is None and scene.bush is None and not scene.has_film:
+        raise InputError("a sweep must have a [question], or a bearing with a film or a bush, got neither")
 
 
 def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:
@@ -190,47 +197,6 @@ def points(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
     for place in product(*(range(length) for length in lengths.values())):
         index = dict(zip(lengths, place, strict=True))
         yield {axis.key: axis.values[index[axis.dimension]] for axis in axes}
-
-
-def varied(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the tables of a scene file with other values at some keys.
-
-    Raises
-    ------
-    SceneError
-        If a key leads through something that is no table or list.
-    """
-    data = copy.deepcopy(dict(scene))
-    for key, value in values.items():
-        *path, last = key.split(".")
-        place: Any = data
-        for part in path:
-            place = _inside(key, place, part)
-        _set(key, place, last, value)
-    return data
-
-
-def _inside(key: str, place: Any, part: str) -> Any:
-    if isinstance(place, dict):
-        return place.setdefault(part, {})
-    if isinstance(place, list) and (number := _entry(place, part)) is not None:
-        return place[number]
-    raise SceneError(f"parameters[{key!r}] must lead through tables of the scene, got no {part!r}")
-
-
-def _entry(place: list[Any], part: str) -> int | None:
-    """Return the entry of a list that a part of a key names; it has one name only."""
-    number = whole_number(part)
-    return number if number is not None and number < len(place) and str(number) == part else None
-
-
-def _set(key: str, place: Any, last: str, value: Any) -> None:
-    if isinstance(place, dict):
-        place[last] = value
-    elif isinstance(place, list) and (number := _entry(place, last)) is not None:
-        place[number] = value
-    else:
-        raise SceneError(f"parameters[{key!r}] must lead through tables of the scene, got no {last!r}")
 
 
 def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> None:

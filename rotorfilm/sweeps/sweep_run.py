@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
+from types import MappingProxyType
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from ..core.files import failures_named, read_sealed, sealed_line, unsealed_line
 from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.progress import Report, silent
-from ..scenes.scene import read_tables
+from ..scenes.scene import read_tables, varied
 from .point import POINT_UNITS, Axis, Row, Values, check, points, read_axes, sizes, solve_point
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ def sweep(
     parameters: Mapping[str, Values],
     *,
     path: str | os.PathLike[str] | None = None,
+    changes: Mapping[str, Any] = MappingProxyType({}),
     workers: int | None = None,
     dask: str | None = None,
     report: Report = silent,
@@ -52,6 +54,8 @@ def sweep(
     path : path, optional
         NetCDF file to write. While the sweep runs its rows are kept beside it; the same sweep, started again
         after an interruption, goes on from there.
+    changes : mapping of str to object, optional
+        Values of further keys at all points, in place of those of the scene.
     workers : int, optional
         Processes of this machine; by default as many as it has cores. 1: this process.
     dask : str, optional
@@ -81,6 +85,7 @@ def sweep(
     """
     _require_xarray()
     tables, source = _tables(scene)
+    tables = varied(tables, changes)
     axes = read_axes(parameters)
     target = None if path is None else _file(path)
     if workers is not None:

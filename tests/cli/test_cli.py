@@ -3,7 +3,6 @@
 import json
 import math
 import os
-import shlex
 import subprocess
 import sys
 from functools import partial
@@ -21,7 +20,7 @@ from rotorfilm import studies as ladders
 from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
-from rotorfilm.scenes.journal_tables import FILMS, RUPTURES
+from rotorfilm.scenes import Scene
 from rotorfilm.studies.limits_atlas import PANELS
 
 SCENE = """
@@ -37,22 +36,6 @@ load = "525 N"
 [rigid_rotor]
 mass = "53.535 kg"
 """
-GEOMETRY = {
-    "--radius": "50 mm",
-    "--length": "30 mm",
-    "--clearance": "0.1 mm",
-    "--viscosity": "0.1 Pa s",
-    "--load": "525 N",
-    "--speed": "1500 rpm",
-}
-
-
-SHORT = ("--film", "short")
-
-
-def coefficients(**changes):
-    options = GEOMETRY | {f"--{name}": value for name, value in changes.items()}
-    return ["coefficients", *(word for pair in options.items() for word in pair)]
 
 
 @pytest.fixture
@@ -62,41 +45,30 @@ def scene(tmp_path):
     return path
 
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def changed(**values):
+    """Return the options that set keys of tables, with underscores for their first dots."""
+    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
+SHORT = changed(journal__film='{ name = "short" }')
+
+
 @pytest.mark.literature
-def test_coefficients_are_those_of_the_book(run):
+def test_coefficients_are_those_of_the_book(run, scene):
     # Friswell et al. (2010), example 5.9.6
-    code, out, err = run(*coefficients(), *SHORT, "--json")
+    code, out, err = run("solve", scene, *SHORT, "--json")
     assert (code, err) == (0, "")
     stiffness = json.loads(out)["coefficients"]["stiffness"]
     assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
 
 
-DAMPER = """damper --radius 50mm --length 25mm --clearance 0.1mm --viscosity 4e-4 --mass 10kg
-    --speed "400 rad/s" --stiffness 2.56e5 --unbalance "400 g mm" """
-CONTACT = """contact --radius 50mm --mass 4kg --modulus 206GPa --poisson-ratio 0.3 --cells 16
-    --viscosity 8e-3 --pressure-coefficient 5e-9 --speed 0.9 --load 50"""
-
-
-@pytest.mark.parametrize("command", [coefficients(), shlex.split(DAMPER), shlex.split(CONTACT)])
-def test_a_diameter_is_twice_a_radius(run, command):
-    where = command.index("--radius")
-    doubled = [*command[:where], "--diameter", "100 mm", *command[where + 2 :]]
-    code, out, _ = run(*doubled, "--json")
-    assert (code, out) == (0, run(*command, "--json")[1])
-    assert "not allowed with argument" in run(*command, "--diameter", "100 mm")[2]
-    assert "argument --diameter: quantity must be measured in m" in run(*doubled, "--diameter", "3 kg")[2]
-
-
-def test_one_of_radius_and_diameter_is_required(run):
-    code, _, err = run("coefficients", *coefficients()[3:])
+def test_kilograms_are_told_their_weight(run, scene):
+    code, _, err = run("solve", scene, "--set", "operation.load=53.535 kg")
     assert code == 2
-    assert "one of the arguments --diameter --radius is required" in err
-
-
-def test_kilograms_are_told_their_weight(run):
-    code, _, err = run(*coefficients(load="53.535 kg"))
-    assert code == 2
-    assert "error: --load: quantity must be measured in N" in err
+    assert f"error: {scene}: operation.load: quantity must be measured in N" in err
     assert "9.80665 m/s2 times it, 524.999 N" in err
 
 
@@ -110,48 +82,64 @@ def test_the_schema_of_scenes(run, tmp_path):
     assert path.read_text(encoding="utf-8") == out
 
 
-def test_coefficients_say_what_the_film_leaves_out(run):
-    (remark,) = json.loads(run(*coefficients(), "--json")[1])["remarks"]
+@pytest.mark.parametrize("name", ["short", "question"])
+def test_solve_writes_its_answer(run, tmp_path, name):
+    code, out, _ = run("solve", EXAMPLES / f"{name}.toml", "--json", "--out", tmp_path / "out")
+    assert code == 0
+    written = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
+    assert written.keys() == json.loads(out).keys()
+    assert written.get("model") == json.loads(out)["model"]
+
+
+def test_solve_says_what_the_film_leaves_out(run, scene):
+    (remark,) = json.loads(run("solve", scene, "--json")[1])["remarks"]
     assert remark.startswith("heat: the oil warms by about 48 K")
-    assert "left out" in run(*coefficients())[1]
+    assert "left out" in run("solve", scene)[1]
 
 
-def test_coefficients_of_an_oil_are_those_of_its_scene(run, tmp_path):
-    plain = coefficients()
-    at = plain.index("--viscosity")
-    bare = plain[:at] + plain[at + 2 :]
-    oil = ("--oil", "ISO VG 100", "--supply-temperature", "37.1 degC")
-    path = tmp_path / "warm.toml"
-    lubricant = '[lubricant]\ngrade = "ISO VG 100"\nsupply_temperature = "37.1 degC"\n'
-    own = 'viscosity = "0.1 Pa s"\n'
-    assert own in SCENE
-    path.write_text(SCENE.replace(own, "") + lubricant, encoding="utf-8")
-    told, solved = (json.loads(run(*words, "--json")[1]) for words in ((*bare, *oil), ("solve", path)))
-    for part in ("equilibrium", "coefficients", "losses", "remarks"):
-        assert told[part] == solved[part]
-    assert told["equilibrium"]["temperature"] > 320.0
-    for words, said in (
-        (bare, "--viscosity or --oil must be given, got neither"),
-        ((*plain, *oil), "--viscosity or --oil must be given, got both"),
-        ((*bare, *oil[:2]), "--oil and --supply-temperature must be given together"),
-        ((*bare, "--oil", "SAE 30", *oil[2:]), "--oil must be an ISO viscosity grade"),
-    ):
-        code, _, err = run(*words)
-        assert code == 2
-        assert said in err
+def test_values_of_keys_are_those_of_a_file_that_has_them(run, scene, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text(
+        SCENE.replace('"0.1 mm"', '"90 um"')
+        .replace('"1500 rpm"', "200.0")
+        .replace("[operation]", 'film = { name = "short" }\n[operation]'),
+        encoding="utf-8",
+    )
+    words = changed(journal__clearance="90 um", operation__speed="200.0", journal__film='{ name = "short" }')
+    told, written = (json.loads(run("solve", *words, "--json")[1]) for words in ((scene, *words), (other,)))
+    assert told == written
+    assert Scene.load(scene, {"journal.clearance": "90 um"}).journal.clearance == pytest.approx(9e-5)
 
 
-def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
-    solved = json.loads(run("solve", scene, "--json")[1])
-    direct = json.loads(run(*coefficients(), "--json")[1])
-    for matrix in ("stiffness", "damping"):
-        np.testing.assert_allclose(solved["coefficients"][matrix], direct["coefficients"][matrix], rtol=1e-12)
-    assert solved["whirl_threshold"]["speed"] > 0.0
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("journal.clearence=80 um", "journal.clearence is no known key"),
+        ("journal.clearence=80 um", "did you mean 'clearance'?"),
+        ("jurnal.clearance=80 um", "jurnal is no known key"),
+        ("journal.clearance", '--set must be "KEY=VALUE"'),
+        ("journal.clearance.more=1", "journal.clearance.more must lead through tables of the scene"),
+        ("journal.clearance=80 kg", "quantity must be measured in m"),
+        ("journal.clearance=[1", "got '[1'"),
+        ("journal.clearance=1\nx = 2", "journal.clearance: unit must be one of"),
+        ("journal" + ".a" * 300 + "=1", "keys must not have more than 200 dots"),
+    ],
+)
+@pytest.mark.parametrize("command", ["solve", "run", "cosim", "fmu build", "chart scene"])
+def test_every_command_of_scenes_names_a_wrong_value_of_a_key(run, scene, command, setting, message):
+    code, out, err = run(*command.split(), scene, "--set", setting)
+    assert (code, out) == (2, "")
+    assert message in err
+
+
+def test_a_key_is_set_once(run, scene):
+    code, _, err = run("solve", scene, *2 * ["--set", "title=x"])
+    assert code == 2
+    assert "once for each key, got 'title' twice" in err
 
 
 def test_solve_prints_what_people_read(run, scene):
-    scene.write_text(SCENE.replace("[operation]", 'film = { name = "short" }\n[operation]'), encoding="utf-8")
-    code, out, _ = run("solve", scene)
+    code, out, _ = run("solve", scene, *SHORT)
     assert code == 0
     assert "0.266298" in out  # eccentricity ratio
     assert "70.62 deg" in out
@@ -165,114 +153,42 @@ def test_print_outs_repeat_the_bearing(run, scene):
     sizes = [shown[name].strip() for name in ("radius", "clearance", "slenderness")]
     assert sizes == ["50 mm", "100 um", "0.3"]
     assert "MapFilm()" in out
-    told = [json.loads(run(*arguments, "--json")[1]) for arguments in (("solve", scene), coefficients())]
-    assert told[0]["bearing"] == told[1]["bearing"]
-    assert told[0]["bearing"]["slenderness"] == pytest.approx(0.3)
-    assert told[0]["model"] == told[1]["model"] == "MapFilm()"
+    told = json.loads(run("solve", scene, "--json")[1])
+    assert told["bearing"]["slenderness"] == pytest.approx(0.3)
+    assert told["model"] == "MapFilm()"
 
 
-def test_splitting_film_takes_its_options(run):
-    options = ("--film", "splitting", "--order", "2,inf", "--rupture", "rotating", "--json")
-    code, out, _ = run(*coefficients(), *options)
-    assert code == 0
-    assert json.loads(out)["model"].startswith("SplittingFilm(order=(2, None)")
-    assert "RotatingArc()" in json.loads(out)["model"]
-
-
-def test_reynolds_film_takes_its_cells(run):
-    code, out, _ = run(*coefficients(), "--film", "reynolds", "--cells", "48,4", "--json")
-    coarse, mapped = json.loads(out), json.loads(run(*coefficients(), "--json")[1])
-    assert code == 0
-    assert coarse["model"].startswith("ReynoldsFilm(cells=(48, 4), cavitation=Complementarity()")
-    assert mapped["model"] == "MapFilm()"
-    np.testing.assert_allclose(
-        coarse["equilibrium"]["position"], mapped["equilibrium"]["position"], atol=0.01 * 1e-4
+def test_load_vector_turns_the_answer(run, scene):
+    down, aside = (
+        json.loads(run("solve", scene, *words, "--json")[1])["equilibrium"]
+        for words in ((), changed(operation__load='["525 N", "0 N"]'))
     )
-
-
-def test_complementary_arc_takes_the_constant_function(run):
-    options = (
-        "--film",
-        "splitting",
-        "--order",
-        "4,8",
-        "--constant",
-        "--rupture",
-        "complementarity",
-        "--json",
-    )
-    code, out, err = run(*coefficients(), *options)
-    assert (code, err) == (0, "")
-    at = json.loads(out)["equilibrium"]
-    mapped = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
-    np.testing.assert_allclose(at["position"], mapped["position"], atol=2e-3 * 1e-4)
-
-
-def test_help_names_every_film_and_rupture(run):
-    words = run("coefficients", "--help")[1].replace(",", " ").replace(".", " ").split()
-    assert {*FILMS, *RUPTURES} <= set(words)
-
-
-def test_load_vector_turns_the_answer(run):
-    down = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
-    aside = json.loads(run(*coefficients(load="525 N,0 N"), "--json")[1])["equilibrium"]
     assert aside["position"][0] == pytest.approx(-down["position"][1], rel=1e-9)
     assert aside["position"][1] == pytest.approx(down["position"][0], rel=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code", "message"),
+    ("changes", "code", "message"),
     [
-        (
-            coefficients(clearance="-0.1 mm"),
-            2,
-            "error: --clearance must be finite and positive, got -0.0001",
-        ),
-        (coefficients(clearance="nan"), 2, "error: --clearance: quantity must be finite, got 'nan'"),
-        (
-            coefficients(load="0 N"),
-            2,
-            "error: --load must not be zero, got '0 N': an unloaded journal has no",
-        ),
-        (coefficients(load="0,0"), 2, "error: load must not be zero, got [0, 0]: an unloaded journal has no"),
-        (coefficients(radius="50 parsec"), 2, "got 'parsec' in '50 parsec'"),
-        (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
-        ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
-        ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
-        (
-            [*coefficients(), "--order", "2,1"],
-            2,
-            "error: --order must not be given with --film map, got [2, 1]",
-        ),
-        (
-            [*coefficients(), *SHORT, "--cells", "96,8"],
-            2,
-            "error: --cells must not be given with --film short",
-        ),
-        (
-            [*coefficients(), "--film", "reynolds", "--cells", "96"],
-            2,
-            "error: --cells must be [around, along]",
-        ),
-        ([*coefficients(), "--film", "shirt"], 2, "got 'shirt'; did you mean 'short'?"),
-        (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
-        (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
-        (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
+        ({"journal__clearance": "-0.1 mm"}, 2, "journal.clearance must be finite and positive, got -0.0001"),
+        ({"journal__clearance": '"nan"'}, 2, "journal.clearance: quantity must be finite, got 'nan'"),
+        ({"journal__film": '{ name = "shirt" }'}, 2, "got 'shirt'; did you mean 'short'?"),
+        ({"operation__load": "1e20 N"}, 1, "error: load must be within the film's capacity"),
+        ({"operation__speed": "0 rpm"}, 1, "error: speed must make the film carry load"),
     ],
 )
-def test_mistake_gives_one_line_and_its_exit_code(run, arguments, code, message):
-    actual, out, err = run(*arguments)
-    assert actual == code
-    assert out == ""
+def test_mistake_gives_one_line_and_its_exit_code(run, scene, changes, code, message):
+    actual, out, err = run("solve", scene, *changed(**changes))
+    assert (actual, out) == (code, "")
     assert message in err
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize("arguments", [["coefficients"], ["solve"], ["frobnicate"]])
+@pytest.mark.parametrize("arguments", [["run"], ["solve"], ["frobnicate"], ["solve", "absent.toml"]])
 def test_wrong_usage_exits_with_2(run, arguments):
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
-    assert "usage" in err
+    assert "usage" in err or "absent.toml: scene file cannot be read" in err
 
 
 def test_unknown_key_in_a_scene_is_named(run, scene):
@@ -287,11 +203,11 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
     "command",
     [
         "solve",
-        "coefficients",
+        "run",
+        "new",
         "fmu build",
         "fmu check",
         "fmu info",
-        "groove-map",
         "demo",
         "chart damper",
         "chart journal",
@@ -322,7 +238,7 @@ def test_installed_command_answers_without_heavy_imports(tmp_path):
         [str(script), "--help"], capture_output=True, text=True, check=False, cwd=tmp_path, env=os.environ
     )
     assert done.returncode == 0
-    assert "coefficients" in done.stdout
+    assert "solve" in done.stdout
     check = (
         "import sys, rotorfilm.cli; print([m for m in ('control', 'matplotlib', 'fmpy') if m in sys.modules])"
     )
@@ -410,16 +326,6 @@ def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")
     assert done.stderr.count("\n") == 1
     json.loads(done.stdout)
-
-
-def test_map_film_from_the_command_line(run):
-    geometry = ("--radius", "50 mm", "--length", "30 mm", "--clearance", "0.1 mm", "--viscosity", "0.1 Pa s")
-    code, out, err = run(
-        "coefficients", *geometry, "--load", "525 N", "--speed", "1500 rpm", "--film", "map", "--json"
-    )
-    assert (code, err) == (0, "")
-    # Between the short film, .2663, and a longer film that carries more.
-    assert 0.2 < json.loads(out)["equilibrium"]["eccentricity_ratio"] < 0.35
 
 
 FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]
@@ -512,18 +418,6 @@ def test_chart_of_a_bearing_beyond_the_ladder_is_refused(run, tmp_path):
     assert "slenderness (L/D) must be from 0.1 to 4.0, got 9.0" in err
 
 
-def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
-    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
-    grooves = ("--groove", "90 deg, 20 deg", "--groove", "270 deg, 20 deg")
-    coarse = ("--cells", "32,4", "--nodes", "6,12,12", "--out", tmp_path / "map.bin")
-    code, out, _ = run("groove-map", "--slenderness", "0.5", *grooves, *coarse, "--json")
-    assert code == 0
-    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.97)
-    (kept,) = (tmp_path / "cache").iterdir()
-    # In the cache the same bytes lie under a seal.
-    assert kept.read_bytes().startswith((tmp_path / "map.bin").read_bytes())
-
-
 COARSE_SCENE = SCENE.replace(
     "[operation]",
     """film = { name = "grooved_map", cells = [32, 4], nodes = [6, 12, 12], largest_eccentricity_ratio = 0.9 }
@@ -532,68 +426,19 @@ grooves = [{ center = "90 deg", width = "20 deg" }]
 )
 
 
-def test_groove_map_of_a_scene_is_that_which_the_scene_takes(run, scene, tmp_path, monkeypatch):
+def test_solve_makes_the_map_once_and_shows_how_far_it_is(run, scene, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     scene.write_text(COARSE_SCENE, encoding="utf-8")
-    code, out, err = run("groove-map", scene, "--json")
+    code, first, err = run("solve", scene, "--json")
     assert code == 0
     assert "map of the grooved bearing" in err
-    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.9)
     (kept,) = (tmp_path / "cache").iterdir()
     code, out, err = run("solve", scene, "--json")
-    assert (code, err) == (0, "")
+    assert (code, out, err) == (0, first, "")
     assert json.loads(out)["model"].startswith("GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12)")
     assert json.loads(out)["bearing"]["grooves"][0]["center"] == pytest.approx(math.pi / 2.0)
     assert "Groove(center: 90 deg, width: 20 deg)" in run("solve", scene)[1]
     assert list((tmp_path / "cache").iterdir()) == [kept]
-    code, out, err = run("groove-map", scene, "--cells", "32,4")
-    assert (code, out) == (2, "")
-    assert "--cells must not be given with a scene, got '32,4'" in err
-
-
-def test_solve_shows_how_far_the_map_is(run, scene, tmp_path, monkeypatch):
-    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
-    scene.write_text(COARSE_SCENE, encoding="utf-8")
-    code, out, err = run("solve", scene, "--json")
-    assert code == 0
-    assert "map of the grooved bearing" in err
-    json.loads(out)
-
-
-def test_coefficients_take_grooves(run):
-    cells = ("--film", "reynolds", "--cells", "48,4", "--json")
-    grooves = ("--groove", "0 deg, 20 deg", "--groove", "180 deg, 70 deg")
-    _, plain, _ = run(*coefficients(), *cells)
-    code, grooved, _ = run(*coefficients(), *cells, *grooves)
-    assert code == 0
-    ratios = [json.loads(out)["equilibrium"]["eccentricity_ratio"] for out in (plain, grooved)]
-    assert ratios[1] > ratios[0] + 0.01
-    code, out, err = run(*coefficients(), *SHORT, *grooves)
-    assert (code, out) == (2, "")
-    assert "which ShortFilm cannot" in err
-
-
-def test_groove_map_without_a_bearing_is_refused(run):
-    code, _, err = run("groove-map", "--slenderness", "0.5")
-    assert code == 2
-    assert "groove-map must have SCENE.toml, or --slenderness and --groove" in err
-
-
-@pytest.mark.parametrize(
-    ("option", "message"),
-    [
-        (("--groove", "90 deg"), "--groove must be a center and a width"),
-        (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
-        (
-            ("--groove", "0, 0.1", "--nodes", "6,x,12"),
-            "--nodes[1] must be a whole number from 1 to 1048576, got 'x'",
-        ),
-    ],
-)
-def test_impossible_groove_map_is_refused(run, option, message):
-    code, out, err = run("groove-map", "--slenderness", "0.5", *option)
-    assert (code, out) == (2, "")
-    assert message in err
 
 
 def test_an_error_is_said_in_json_too_where_that_is_asked_for(run, tmp_path):

@@ -27,7 +27,15 @@ def run(*arguments):
 
 def test_a_scene_is_coupled_by_the_scheme_asked_for(capsys, tmp_path):
     out = tmp_path / "signals.csv"
-    arguments = ["--scheme", "si-exp3", "--macro-angle", "5 deg", "--revolutions", "1", "--json"]
+    arguments = [
+        "--scheme",
+        "si-exp3",
+        "--set",
+        "cosimulation.macro_angle=5 deg",
+        "--set",
+        "cosimulation.revolutions=1",
+        "--json",
+    ]
     assert run("cosim", SCENE, *arguments, "--out", str(out)) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["scheme"] == "SI-exp3"
@@ -38,7 +46,12 @@ def test_a_scene_is_coupled_by_the_scheme_asked_for(capsys, tmp_path):
 
 
 def test_auto_says_why(capsys):
-    assert run("cosim", SCENE, "--macro-angle", "5 deg", "--revolutions", "0.5") == 0
+    assert (
+        run(
+            "cosim", SCENE, "--set", "cosimulation.macro_angle=5 deg", "--set", "cosimulation.revolutions=0.5"
+        )
+        == 0
+    )
     text = capsys.readouterr().out
     assert "unstable: at t = 0 s the coupling grows by a factor of" in text
     assert "the cheapest that will do" in text
@@ -47,7 +60,14 @@ def test_auto_says_why(capsys):
 
 def test_a_coupling_past_its_limit_is_a_failure_and_keeps_what_it_had(capsys, tmp_path):
     out = tmp_path / "signals.csv"
-    arguments = ["--scheme", "gauss-seidel-0", "--macro-angle", "3.5 deg", "--revolutions", "1"]
+    arguments = [
+        "--scheme",
+        "gauss-seidel-0",
+        "--set",
+        "cosimulation.macro_angle=3.5 deg",
+        "--set",
+        "cosimulation.revolutions=1",
+    ]
     assert run("cosim", SCENE, *arguments, "--out", str(out)) == 1
     assert "macro_step must be below the stability limit" in capsys.readouterr().err
     assert len(out.read_text().splitlines()) > 10

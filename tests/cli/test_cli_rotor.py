@@ -1,4 +1,4 @@
-"""The command `rotor`: its numbers, files, JSON, and one line for each mistake."""
+"""`rotorfilm solve` of a shaft: its numbers, files, JSON, and one line for each mistake."""
 
 import csv
 import json
@@ -22,7 +22,7 @@ def short(tmp_path_factory):
 
 
 def test_numbers_are_those_of_the_library_and_files_come_along(run, short, tmp_path):
-    code, out, _ = run("rotor", short, "--json", "--out", tmp_path / "out")
+    code, out, _ = run("solve", short, "--json", "--out", tmp_path / "out")
     assert code == 0
     found, answer = json.loads(out), solve_rotor(Scene.load(short))
     assert found["threshold"]["speed"] == pytest.approx(answer.threshold.speed, rel=1e-9)
@@ -32,12 +32,20 @@ def test_numbers_are_those_of_the_library_and_files_come_along(run, short, tmp_p
     assert [one["speed"] for one in found["critical_speeds"]] == pytest.approx(
         [one.speed for one in answer.critical_speeds]
     )
-    assert json.loads((tmp_path / "out" / "rotor.json").read_text()) == found
-    names = {"campbell.png", "log_decrement.png", "unbalance_response.png", "rotor.json"}
+    assert json.loads((tmp_path / "out" / "answer.json").read_text()) == found
+    names = {"campbell.png", "log_decrement.png", "unbalance_response.png", "answer.json"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == names | {
         "campbell.csv",
         "unbalance_response.csv",
     }
+    scene = Scene.load(short)
+    fastest = scene.shaft.speeds.build()[-1]
+    parts = scene.shaft.build(), scene.shaft.build_bearings()
+    remarks = shaft_remarks(*parts, scene.lubricant.properties, fastest)
+    assert found["remarks"] == list(remarks)
+    assert [line.split(": ")[:2] for line in remarks] == [
+        [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
+    ]
     with (tmp_path / "out" / "unbalance_response.csv").open() as file:
         heading, *rows = list(csv.reader(file))
     assert heading[0] == "speed [rad/s]"
@@ -47,45 +55,21 @@ def test_numbers_are_those_of_the_library_and_files_come_along(run, short, tmp_p
 
 
 def test_people_read_rpm(run, short):
-    code, out, _ = run("rotor", short)
+    code, out, _ = run("solve", short)
     assert code == 0
     assert "107.117 kg, 104 states" in out
     assert "2084.8" in out
     assert "forward" in out
     assert "largest small_x" in out
-
-
-def test_help_has_an_example(run):
-    code, out, _ = run("rotor", "--help")
-    assert code == 0
-    assert "rotorfilm rotor examples/flexible_rotor.toml" in " ".join(out.split())
-
-
-def test_a_scene_without_a_shaft_is_bad_input(run):
-    code, _, err = run("rotor", SCENE.with_name("friswell.toml"))
-    assert code == 2
-    assert "shaft is required" in " ".join(err.split())
-    assert run("rotor", "missing.toml")[0] == 2
+    assert out.count("left out") == 2
 
 
 def test_a_rotor_that_no_film_carries_is_a_failed_computation(run, short, tmp_path):
     path = tmp_path / "heavy.toml"
     path.write_text(short.read_text().replace("0.1 Pa s", "1e-9 Pa s"))
-    code, _, err = run("rotor", path)
+    code, _, err = run("solve", path)
     assert code == 1
     assert len(err.strip().splitlines()) >= 1
-
-
-def test_what_shaft_and_films_leave_out_is_said(run, short):
-    remarks = json.loads(run("rotor", short, "--json")[1])["remarks"]
-    scene = Scene.load(short)
-    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
-    fastest = scene.shaft.speeds.build()[-1]
-    assert remarks == list(shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest))
-    assert [line.split(": ")[:2] for line in remarks] == [
-        [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
-    ]
-    assert run("rotor", short)[1].count("left out") == 2
 
 
 COMPRESSOR = SCENE.with_name("compressor.toml")
@@ -103,10 +87,14 @@ density = 1e3
 """
 
 
+FEW = ["--set", "shaft.speeds.count=5"]
+
+
 def test_stability_of_a_compressor(run, tmp_path):
-    code, out, _ = run("stability-level-one", COMPRESSOR, "--json", "--out", tmp_path / "out")
+    code, out, _ = run("solve", COMPRESSOR, *FEW, "--json", "--out", tmp_path / "out")
     assert code == 0
-    found, widths = json.loads(out), (15.0, 14.0, 13.0, 12.0, 11.0)
+    whole, widths = json.loads(out), (15.0, 14.0, 13.0, 12.0, 11.0)
+    found = whole["level_one"]
     gases = zip((5.0, 6.0, 7.2, 8.6, 10.3), (6.0, 7.2, 8.6, 10.3, 12.4), strict=True)
     wanted = [
         3.0 * 60e3 * 9.5493 / (400.0 * width * 4000.0) * after / before * 1e6
@@ -117,9 +105,9 @@ def test_stability_of_a_compressor(run, tmp_path):
     assert found["critical_speed_ratio"] < 1.0
     assert found["verdict"] == "acceptable: no analysis of level II is required"
     assert [curve["name"] for curve in found["curves"]] == ["smallest clearance", "largest clearance"]
-    files = {f"stability_level_one.{ending}" for ending in ("png", "csv", "json")}
-    assert {path.name for path in (tmp_path / "out").iterdir()} == files
-    assert json.loads((tmp_path / "out" / "stability_level_one.json").read_text()) == found
+    files = {f"stability_level_one.{ending}" for ending in ("png", "csv")} | {"answer.json", "campbell.png"}
+    assert files < {path.name for path in (tmp_path / "out").iterdir()}
+    assert json.loads((tmp_path / "out" / "answer.json").read_text()) == whole
     with (tmp_path / "out" / "stability_level_one.csv").open() as file:
         heading, *rows = list(csv.reader(file))
     assert heading[1] == "smallest clearance log decrement [1]"
@@ -135,10 +123,11 @@ def sealed(tmp_path_factory):
 
 
 def test_stability_of_a_compressor_is_read_by_people(run, sealed, tmp_path):
-    code, out, _ = run("stability-level-one", sealed, "--out", tmp_path / "out")
+    code, out, _ = run("solve", sealed, *FEW, "--out", tmp_path / "out")
     assert code == 0
     text = " ".join(out.split())
-    found = json.loads((tmp_path / "out" / "stability_level_one.json").read_text())
+    whole = json.loads((tmp_path / "out" / "answer.json").read_text())
+    found = whole["level_one"]
     loose = found["curves"][1]
     assert f"margin Q0/QA {found['margin']:.4g}" in text
     assert f"least log decrement with QA {loose['anticipated_decrement']:.4g} (largest clearance)" in text
@@ -147,7 +136,7 @@ def test_stability_of_a_compressor_is_read_by_people(run, sealed, tmp_path):
     course = f"from {first:.4g} without to {last:.4g} at {loose['cross_coupling'][-1]:.4g} N/m (falling)"
     assert f"log decrement, largest clearance {course}" in text
     remarks = list(level_one_remarks(Scene.load(sealed)))
-    assert found["remarks"] == remarks
+    assert set(remarks) <= set(whole["remarks"])
     assert all(f"left out {line}" in text for line in remarks)
 
 
@@ -166,22 +155,10 @@ def test_what_is_left_out_of_a_compressor_is_said(sealed):
     assert any(line.startswith("smallest clearance: left, at ") and "heat: " in line for line in remarks)
 
 
-def test_help_of_the_stability_has_an_example(run):
-    code, out, _ = run("stability-level-one", "--help")
-    assert code == 0
-    assert "examples/compressor.toml" in out
-
-
-def test_a_rotor_without_a_compressor_has_no_such_stability(run):
-    code, _, err = run("stability-level-one", SCENE)
-    assert code == 2
-    assert "shaft.compressor is required" in err
-
-
 def test_a_bad_compressor_names_its_key(run, tmp_path):
     path = tmp_path / "bad.toml"
     path.write_text(COMPRESSOR.read_text().replace('width = "13 mm"', 'width = "-13 mm"'))
-    code, _, err = run("stability-level-one", path)
+    code, _, err = run("solve", path)
     assert code == 2
     assert "shaft.compressor.impellers[2].width must be finite and positive" in err
 
@@ -191,7 +168,7 @@ def test_a_run_over_time_is_followed_and_written(run, tmp_path):
     scene = tmp_path / "quake.toml"
     rows = "[[0.0, 0.0], [0.02, 3.0], [0.04, 0.0]]"
     scene.write_text(quake.replace('"earthquake.csv"', rows), encoding="utf-8")
-    code, out, _ = run("rotor-run", scene, "--json", "--out", tmp_path / "motion.csv")
+    code, out, _ = run("run", scene, "--json", "--out", tmp_path / "motion.csv")
     assert code == 0
     found = json.loads(out)
     assert found["end"] == pytest.approx(0.04)
@@ -203,33 +180,7 @@ def test_a_run_over_time_is_followed_and_written(run, tmp_path):
 EXAMPLES = SCENE.parent
 
 
-@pytest.mark.parametrize(
-    ("name", "hints"),
-    [
-        (
-            "compressor.toml",
-            ["`rotorfilm rotor` is for [shaft]", "`rotorfilm stability-level-one` is for [shaft.comp"],
-        ),
-        (
-            "earthquake.toml",
-            ["`rotorfilm rotor` is for [shaft]", "`rotorfilm rotor-run` is for excitation.kind ground"],
-        ),
-        (
-            "weak_motor.toml",
-            ["`rotorfilm damper-run` is for [damper]", "`rotorfilm rotor-run` is for excitation.kind mo"],
-        ),
-    ],
-)
-def test_solve_names_the_commands_for_what_it_does_not_take(run, name, hints):
-    code, out, err = run("solve", EXAMPLES / name)
-    assert (code, out) == (2, "")
-    assert f"{name}: journal is required for a film" in err
-    assert all(hint in err for hint in hints)
-
-
-@pytest.mark.parametrize(
-    "command", ["rotor-run", "damper-run", "rotor", "stability-level-one", "fmu build", "cosim"]
-)
+@pytest.mark.parametrize("command", ["run", "fmu build", "cosim"])
 def test_messages_from_inside_begin_with_the_file(run, command):
     path = EXAMPLES / "spindle_bearing.toml"
     code, out, err = run(*command.split(), path)
@@ -241,7 +192,7 @@ def test_folders_of_signals_are_made_and_said(run, tmp_path):
     text = (EXAMPLES / "weak_motor.toml").read_text().replace('"0.3 s"', '"0.001 s"')
     scene, out = tmp_path / "short.toml", tmp_path / "no" / "such" / "x.csv"
     scene.write_text(text)
-    code, shown, _ = run("rotor-run", scene, "--out", out)
+    code, shown, _ = run("run", scene, "--out", out)
     assert code == 0
     assert "x.csv" in "".join(shown.split())
     assert "at rest 0 um" in shown
@@ -249,6 +200,6 @@ def test_folders_of_signals_are_made_and_said(run, tmp_path):
 
 
 def test_a_folder_is_no_file_of_signals(run, tmp_path):
-    code, out, err = run("rotor-run", EXAMPLES / "weak_motor.toml", "--out", tmp_path)
+    code, out, err = run("run", EXAMPLES / "weak_motor.toml", "--out", tmp_path)
     assert (code != 0, out) == (True, "")
     assert str(tmp_path) in err

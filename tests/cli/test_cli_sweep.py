@@ -7,6 +7,7 @@ import pytest
 
 from rotorfilm.cli.sweep_command import read_variation
 from rotorfilm.core.errors import InputError
+from rotorfilm.scenes import Scene
 
 xarray = pytest.importorskip("xarray")
 pytest.importorskip("h5netcdf")
@@ -22,12 +23,15 @@ def test_a_sweep_becomes_netcdf(run, tmp_path):
         "operation.speed = 1000 rpm : 2000 rpm : 3",
     ]
     arguments = ["sweep", str(SHORT), *vary, "--out", str(out), "--workers", "1", "--json"]
-    code, out_text, _ = run(*arguments)
+    code, out_text, _ = run(*arguments, "--set", "operation.load=400 N")
     assert code == 0
     assert json.loads(out_text)["points"] == 6
     assert json.loads(out_text)["remarks"] == 6  # all of them hot
     with xarray.open_dataset(out, engine="h5netcdf") as found:
         assert found["eccentricity_ratio"].shape == (2, 3)
+        changes = {"journal.clearance": "90 um", "operation.speed": "2000 rpm", "operation.load": "400 N"}
+        alone = Scene.load(SHORT, changes).solve()
+        assert float(found["eccentricity_ratio"][0, 2]) == alone.equilibrium.eccentricity_ratio
 
 
 def test_help_has_an_example(run):

@@ -1,88 +1,68 @@
-"""A bush at the command line: the example, changed values, JSON, and refused input."""
+"""A bush without a question: the published example, its balances, its operation, and refused input."""
 
 import json
 import math
-import re
 
 import pytest
 
-from rotorfilm.bearings.bush import f4k20_bush
-from rotorfilm.cli import main as cli
-from rotorfilm.core.errors import InputError
-from rotorfilm.scenes.bush_table import SETTINGS, bush_from_settings, solve_bush
+from rotorfilm.scenes.new_scene import new_scene
+from rotorfilm.scenes.scene import parse_scene
 
 
-def test_without_settings_it_is_the_example():
-    assert bush_from_settings({}) == f4k20_bush()
+@pytest.fixture
+def solved(run, tmp_path):
+    """Return a function that solves the scene of a bush with other values."""
+    path = tmp_path / "bush.toml"
+    path.write_text(new_scene("bush"), encoding="utf-8")
 
+    def solve(*changes):
+        code, out, err = run("solve", path, "--json", *(word for one in changes for word in ("--set", one)))
+        return code, json.loads(out), err
 
-def test_every_setting_reaches_its_field():
-    for number, name in enumerate(SETTINGS):
-        value = {"radius": "13.1 mm", "f1": "1e-6", "f2": "1e-9", "poisson_ratio": "0.3"}.get(name)
-        base = f4k20_bush()
-        part, _ = SETTINGS[name]
-        field = "conductivity" if name.endswith("conductivity") else name
-        old = getattr(getattr(base, part) if part else base, field)
-        new = bush_from_settings({name: value or repr(1.001 * old)})
-        changed = getattr(getattr(new, part) if part else new, field)
-        assert changed != old, (number, name)
+    return solve
 
 
 @pytest.mark.literature
-def test_published_example_in_json(run):
-    code, out, _ = run("bush", "--load", "3750 N", "--published", "--json")
-    answer = json.loads(out)
+def test_published_example(solved):
+    code, answer, _ = solved('bush.shaft_heat="approximate"')
     assert code == 0
     # The source prints .201 and .521 rad, and 3.55 and 8.99 1/s where its formulas give these.
     assert answer["contact"]["contact_angle"] == pytest.approx(0.201, abs=5e-4)
     assert answer["contact_angle"] == pytest.approx(0.521, abs=5e-4)
     assert answer["contact"]["critical_speed"] == pytest.approx(4.068, abs=5e-4)
     assert answer["onset_speed"] == pytest.approx(10.324, abs=5e-4)
-    assert answer["operation"] == {}
 
 
-def test_global_balance_is_an_option(run):
-    here, there = (
-        json.loads(run("bush", "--load", "3750", "--json", *more)[1]) for more in ((), ("--global",))
-    )
+def test_global_balance_is_a_key(solved):
+    here, there = (solved(*more)[1] for more in ((), ("bush.balance=global",)))
     ratio = there["contact"]["critical_speed"] / here["contact"]["critical_speed"]
     angle, shaft = here["contact"]["contact_angle"], here["contact"]["shaft_flux"]
     liner = here["contact"]["liner_flux"]
     assert ratio == pytest.approx((shaft * math.pi / angle + liner) / (shaft + liner), rel=1e-9)
 
 
-def test_a_speed_adds_the_operation(run):
-    code, out, _ = run(
-        "bush", "--load", "3750 N", "--speed", "30 rpm", "--set", "f0=0.12", "--settlement", "-0.01 mm"
-    )
-    assert code == 0
-    assert "speed ratio" in out
-    assert "to a settlement of -10 um" in " ".join(out.split())
-    answer = solve_bush(bush_from_settings({"f0": "0.12"}), 3750.0, math.pi, 0.0)
-    assert answer.operation["speed_ratio"] == pytest.approx(math.pi / answer.contact.critical_speed, rel=0.02)
-    assert answer.operation["temperature"] < 250.0
+def test_the_operation_is_at_the_speed_of_the_scene(solved):
+    _, answer, _ = solved("operation.speed=30 rpm", "bush.friction=0.12")
+    expected = math.pi / answer["contact"]["critical_speed"]
+    assert answer["operation"]["speed_ratio"] == pytest.approx(expected, rel=0.02)
+    assert answer["operation"]["temperature"] < 250.0
+    bush = parse_scene(
+        new_scene("bush").replace("\nmaterial", "\nfriction = 0.12\nmaterial"), "x"
+    ).bush.build()
+    assert answer["onset_speed"] == pytest.approx(bush.onset_speed(3750.0, 0.0))
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("change", "message"),
     [
-        (("--load", "-1 N"), "load must not be negative, got -1.0"),
-        (("--load", "1 N", "--set", "viscosity=1"), "setting must be one of radius, .*got 'viscosity'"),
-        (("--load", "1 N", "--set", "f1=a"), "f1 must be a plain SI number, got 'a'"),
-        (
-            ("--load", "1 N", "--set", "radius=1 kg"),
-            "quantity must be measured in m or a multiple of it, got '1 kg'",
-        ),
-        (("--load", "1 m"), "quantity must be measured in N"),
+        ("operation.load=-1 N", "load must be a positive magnitude"),
+        ("bush.viscosity=1", "bush.viscosity is no known key"),
+        ("bush.radius=1 kg", "quantity must be measured in m or a multiple of it, got '1 kg'"),
+        ("bush.shaft_radius=14 mm", "shaft_radius must be below the radius"),
     ],
 )
-def test_bad_input_is_one_line(run, arguments, message):
-    code, out, err = run("bush", *arguments)
-    assert (code, out) == (cli.BAD_INPUT, "")
-    assert re.search(message, err)
+def test_bad_input_is_one_line(solved, change, message):
+    code, _, err = solved(change)
+    assert code == 2
+    assert message in err
     assert err.count("\n") == 1
-
-
-def test_settings_say_what_they_want():
-    with pytest.raises(InputError, match="shaft_radius must be below the radius"):
-        bush_from_settings({"shaft_radius": "14 mm"})

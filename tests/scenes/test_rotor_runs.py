@@ -174,26 +174,23 @@ def test_right_headings_and_none_are_taken(tmp_path, heading):
 
 
 @pytest.mark.parametrize(
-    ("excitation", "hint"),
-    [
-        ({"kind": "step", "load": "1 N"}, ""),
-        ({"kind": "sine", "load": "1 N", "frequency": "3 Hz"}, ""),
-        ({"kind": "blade_loss", "unbalance": "1 g mm"}, "; `rotorfilm damper-run` takes it"),
-    ],
+    "excitation",
+    [{"kind": "step", "load": "1 N"}, {"kind": "sine", "load": "1 N", "frequency": "3 Hz"}],
 )
-def test_other_excitations_are_refused(excitation, hint):
-    said = f"excitation.kind must be unbalance, run_up, motor or ground here, got {excitation['kind']}{hint}"
+def test_other_excitations_are_refused(excitation):
+    kinds = "unbalance, blade_loss, run_up, motor or ground"
+    said = f"excitation.kind must be {kinds} here, got {excitation['kind']}"
     with pytest.raises(InputError) as error:
         run_rotor(read(shaken() | {"excitation": excitation}))
     assert str(error.value) == said
 
 
 @pytest.mark.parametrize("kind", ["motor", "ground"])
-def test_runs_on_a_damper_name_the_command_for_what_they_do_not_take(kind):
+def test_runs_on_a_damper_name_what_they_do_not_take(kind):
     scene = Scene.load(EXAMPLES / "weak_motor.toml")
     if kind == "ground":
         scene = replace(scene, excitation=GroundTable(acceleration=((0.0, 1.0), (0.0, 1.0))))
-    said = f"excitation.kind must be unbalance, blade_loss or run_up here, got {kind}; `rotorfilm rotor-run`"
+    said = f"excitation.kind must be unbalance, blade_loss or run_up here, got {kind}"
     with pytest.raises(InputError, match=said):
         run_damper(scene)
 

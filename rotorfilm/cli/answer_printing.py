@@ -1,0 +1,232 @@
+"""How the answer of a scene without a question is printed, and written with its pictures and tables."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.readable import Readable
+from ..core.results import CircularOrbit, to_plain, write_csv
+from . import printing as console
+
+if TYPE_CHECKING:
+    from ..analysis import StabilityCurve, StabilityLevelOne
+    from ..scenes.solve_damper import DamperAnswer
+    from ..scenes.solve_shaft import RotorAnswer
+
+RPM = 30.0 / math.pi
+"""Turns per minute in one rad/s."""
+
+
+def print_answer(title: str, answer: Any) -> None:
+    """Print what a scene answers."""
+    console.print_rows(title, answer_rows(answer))
+
+
+def answer_rows(answer: Readable) -> list[tuple[str, str]]:
+    """Return the rows that describe an answer."""
+    match type(answer).__name__:
+        case "RotorAnswer":
+            return rotor_rows(answer)  # type: ignore[arg-type]
+        case "DamperAnswer":
+            return damper_rows(answer)  # type: ignore[arg-type]
+    return answer.to_rows()
+
+
+def plain_answer(answer: Any) -> Any:
+    """Return an answer as JSON has it."""
+    return plain_rotor(answer) if type(answer).__name__ == "RotorAnswer" else to_plain(answer)
+
+
+def write_answer(answer: Any, folder: Path) -> None:
+    """Write an answer as JSON, its pictures and its tables into a folder, which is made if need be."""
+    from ..core.files import written_together
+
+    with written_together(folder) as part:
+        console.write_json(part / "answer.json", plain_answer(answer))
+        match type(answer).__name__:
+            case "RotorAnswer":
+                write_rotor(answer, part)
+            case "DamperAnswer":
+                write_damper(answer, part)
+
+
+# A flexible rotor in its bearings.
+
+
+def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe a rotor: with level I of API 617 where it is a compressor."""
+    found = answer.threshold
+    rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
+    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
+    rows += [
+        (
+            "critical speed",
+            f"{one.speed * RPM:.6g} rpm, {_sense(one.direction)}, log decrement {one.log_decrement:.4g}",
+        )
+        for one in answer.critical_speeds
+    ]
+    if found.speed is None:
+        rows.append(("threshold of stability", found.reason))
+    else:
+        ratio = found.whirl_ratio
+        how = f"whirl at {ratio:.4g} of the speed" if ratio else "divergence, without whirl"
+        rows.append(("threshold of stability", f"{found.speed * RPM:.6g} rpm, {how}"))
+    for name, amplitude in answer.amplitudes.items():
+        assert answer.response is not None  # or there are no amplitudes
+        k = int(np.argmax(amplitude))
+        size = f"{amplitude[k]:.4g} N" if "_force_" in name else f"{amplitude[k] * 1e6:.4g} um"
+        turned = float(np.asarray(answer.response.frequency)[k])
+        beyond = found.speed is not None and turned > found.speed
+        remark = ", beyond the threshold" if beyond else ""
+        rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
+    rows += [] if answer.level_one is None else level_one_rows(answer.level_one)
+    return rows + [("left out", remark) for remark in answer.remarks]
+
+
+def level_one_rows(found: StabilityLevelOne) -> list[tuple[str, str]]:
+    """Return the rows that describe an analysis of level I of API 617."""
+    each, density = found.stage_cross_coupling, found.average_density
+    least = min(found.curves, key=lambda curve: curve.anticipated_decrement)
+    zero = min(found.curves, key=lambda curve: curve.zero_cross_coupling)
+    rows = [
+        ("API 617, level I", found.verdict),
+        ("speed", f"{found.speed * RPM:.6g} rpm"),
+        (
+            "anticipated QA",
+            f"{found.anticipated_cross_coupling:.4g} N/m of {len(each)} stage{'s' * (len(each) > 1)}",
+        ),
+        ("acts at", ", ".join(f"node {node} ({100.0 * part:.3g} %)" for node, part in found.nodes.items())),
+        ("decrement of zero at Q0", _neutral(zero)),
+        ("margin Q0/QA", f"{found.margin:.4g}"),
+        ("least log decrement with QA", f"{found.anticipated_decrement:.4g} ({least.name})"),
+        ("critical speed ratio", f"{found.critical_speed_ratio:.4g}"),
+    ]
+    if density is not None:
+        rows.append(("average density", f"{density:.4g} kg/m3"))
+    return rows + [(f"log decrement, {curve.name}", _course(curve)) for curve in found.curves]
+
+
+def _neutral(curve: StabilityCurve) -> str:
+    if math.isinf(curve.zero_cross_coupling):
+        return "none found"
+    return f"{curve.zero_cross_coupling:.4g} N/m ({curve.name})"
+
+
+def _course(curve: StabilityCurve) -> str:
+    """Return how a log decrement goes, from the first to the last cross-coupling."""
+    first, last = curve.log_decrement[0], curve.log_decrement[-1]
+    way = "rising" if last > first else "falling"
+    return f"from {first:.4g} without to {last:.4g} at {curve.cross_coupling[-1]:.4g} N/m ({way})"
+
+
+def _sense(direction: float) -> str:
+    if abs(direction) <= 0.1:
+        return "to and fro"
+    return "forward" if direction > 0.0 else "backward"
+
+
+def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
+    """Return an answer as plain lists and numbers; nothing where a mode is overdamped."""
+    chart = answer.campbell
+    return {
+        "title": answer.title,
+        "mass": answer.mass,
+        "states": answer.states,
+        "loads": to_plain(dict(answer.loads)),
+        "residual": answer.residual,
+        "critical_speeds": to_plain(list(answer.critical_speeds)),
+        "threshold": to_plain(answer.threshold),
+        "campbell": {
+            "speeds": chart.speeds.tolist(),
+            "frequency": _without_nan(chart.frequency),
+            "log_decrement": _without_nan(chart.log_decrement),
+            "direction": _without_nan(chart.direction),
+        },
+        "response_speeds": [] if answer.response is None else np.asarray(answer.response.frequency).tolist(),
+        "amplitudes": to_plain(dict(answer.amplitudes)),
+        "level_one": to_plain(answer.level_one),
+        "remarks": list(answer.remarks),
+    }
+
+
+def _without_nan(table: np.ndarray) -> list[list[float | None]]:
+    return [[None if math.isnan(entry) else entry for entry in row] for row in table.tolist()]
+
+
+def write_rotor(answer: RotorAnswer, folder: Path) -> None:
+    """Write the pictures and tables of a rotor."""
+    from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
+    from ..scenes.solve_shaft import campbell_columns, response_columns
+
+    save(plot_campbell(answer.campbell, critical=answer.critical_speeds), folder / "campbell.png")
+    save(plot_log_decrement(answer.campbell), folder / "log_decrement.png")
+    write_csv(folder / "campbell.csv", campbell_columns(answer))
+    if answer.response is not None:
+        above, _ = plot_unbalance_response(answer.response)
+        save(above, folder / "unbalance_response.png")
+        write_csv(folder / "unbalance_response.csv", response_columns(answer))
+    if answer.level_one is not None:
+        write_level_one(answer.level_one, folder)
+
+
+def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
+    """Write chart and curves of an analysis of level I."""
+    from ..charts import plot_stability_level_one, save
+
+    columns: dict[str, Any] = {}
+    for curve in found.curves:
+        columns[f"{curve.name} cross-coupling [N/m]"] = curve.cross_coupling.tolist()
+        columns[f"{curve.name} log decrement [1]"] = curve.log_decrement.tolist()
+        columns[f"{curve.name} frequency [rad/s]"] = curve.frequency.tolist()
+    save(plot_stability_level_one(found)[0], folder / "stability_level_one.png")
+    write_csv(folder / "stability_level_one.csv", columns)
+
+
+# A rotor on a squeeze-film damper.
+
+
+def damper_rows(answer: DamperAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe a rotor on a damper."""
+    groups, small = answer.groups, answer.small_motion
+    folds = ", ".join(
+        f"{'up' if fold.upward else 'down'} at {_mass(fold.unbalance)}" for fold in answer.folds
+    )
+    contact = "none" if answer.contact_unbalance is None else f"from {_mass(answer.contact_unbalance)} on"
+    return [
+        (
+            "squeeze number Bs, permeability number",
+            f"{groups.squeeze_number:.5g}, {groups.permeability_number:.5g}",
+        ),
+        ("spring ratio, unbalance ratio", f"{groups.spring_ratio:.5g}, {groups.unbalance_ratio:.5g}"),
+        (
+            "K, C of an orbit of clearance/100",
+            f"{small.stiffness:.6g} N/m, {small.damping:.6g} N s/m",
+        ),
+        *[("orbit", _orbit(orbit)) for orbit in answer.orbits],
+        *([] if answer.orbits else [("orbit", "none: the rotor hits the wall")]),
+        ("jumps", folds or "none"),
+        ("contact", contact),
+    ]
+
+
+def _orbit(orbit: CircularOrbit) -> str:
+    return (
+        f"eccentricity ratio {orbit.eccentricity_ratio:.5f}, lag {-math.degrees(orbit.phase):.4g} deg, "
+        f"transmissibility {orbit.transmissibility:.5g}, {'stable' if orbit.stable else 'unstable'}"
+    )
+
+
+def _mass(unbalance: float) -> str:
+    return f"{unbalance * 1e6:.5g} g mm"
+
+
+def write_damper(answer: DamperAnswer, folder: Path) -> None:
+    """Write the picture of transmissibility over unbalance."""
+    from ..charts import plot_transmissibility, save
+
+    axes = plot_transmissibility({"damper": answer.response}, unit=answer.unbalance_scale)
+    save(axes, folder / "transmissibility.png")

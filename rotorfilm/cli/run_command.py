@@ -1,0 +1,199 @@
+"""The command `rotorfilm run`: the rotor or the rolling ball of a scene followed over time."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+from ..core.errors import InputError
+from ..core.progress import Report
+from ..core.results import write_csv
+from . import printing as console
+from .command import (
+    Option,
+    Said,
+    SceneFile,
+    Settings,
+    SignalFile,
+    inside,
+    load_scene,
+    make_room,
+    written_rows,
+)
+
+if TYPE_CHECKING:
+    from ..core.results import Trajectory
+    from ..scenes import Scene
+    from ..scenes.rotor_runs import RotorRun
+    from ..scenes.solve_contact import ContactResponse
+    from ..scenes.solve_damper import DamperRun
+
+RPM = 30.0 / math.pi
+"""Turns per minute in one rad/s."""
+
+
+class FollowedMotion(NamedTuple):
+    """What a run says.
+
+    Attributes
+    ----------
+    data : object
+        As JSON.
+    rows : list of (str, str)
+    signals : mapping of str to sequence
+        Over time.
+    draw : callable
+        Draws the run and returns the axes.
+    failure : str or None
+        Why it ended early.
+    """
+
+    data: Any
+    rows: list[tuple[str, str]]
+    signals: dict[str, Any]
+    draw: Any
+    failure: str | None
+
+
+def run(
+    scene: SceneFile,
+    report: Report,
+    changes: Settings = None,
+    full: Annotated[bool, Option("--full", help="A rolling ball on its full film, not its law.")] = False,
+    fmus: Annotated[bool, Option("--fmus", help="Rotor and damper as two FMUs, not one system.")] = False,
+    out: SignalFile = None,
+    chart: Annotated[Path | None, Option(help="Draw the motion into this PNG.", metavar="FILE.png")] = None,
+) -> Said:
+    """Follow a scene over time: a lost blade, a run-up, a motor in place of its speed, ground that shakes.
+
+    A scene has a [shaft], a [rigid_rotor] on a film or a damper, or a [contact] whose load jumps or swings.
+    Where a rotor reaches the wall, or the end of a film's range, the motion until then is shown and
+    written, and the command exits with 1.
+    """
+    loaded = load_scene(scene, changes)
+    make_room(out)
+    with inside(scene):
+        found = _followed(loaded, full, fmus, report)
+    if out is not None:
+        write_csv(out, found.signals)
+    if chart is not None:
+        from ..charts import save
+
+        axes = found.draw()
+        save(axes[0] if isinstance(axes, tuple) else axes, chart)
+    rows = found.rows + written_rows(out)
+    return Said(found.data, partial(console.print_rows, loaded.title, rows), found.failure)
+
+
+def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
+    """Return the motion of what moves in a scene."""
+    from ..scenes.excitation_table import kind_of
+    from ..scenes.rotor_runs import run_rotor
+    from ..scenes.solve_contact import run_contact
+    from ..scenes.solve_damper import couple_damper, run_damper
+
+    on_contact = scene.contact is not None
+    on_damper = scene.damper is not None and kind_of(scene.excitation) not in ("motor", "ground")
+    if full and not on_contact:
+        raise InputError("--full must be given with a [contact], got a scene without")
+    if fmus and not on_damper:
+        raise InputError("--fmus must be given with a [damper] that is not on a motor or shaken, got another")
+    if on_contact:
+        return contact_motion(run_contact(scene, full=full, report=report))
+    if fmus:
+        with tempfile.TemporaryDirectory() as folder:
+            return damper_motion(couple_damper(scene, Path(folder)))
+    return damper_motion(run_damper(scene)) if on_damper else rotor_motion(run_rotor(scene, report))
+
+
+def contact_motion(found: ContactResponse) -> FollowedMotion:
+    """Return what the motion of a rolling ball says."""
+    from ..core.results import Trajectory
+
+    names = ("approach", "force", "central_film")
+    signals = {name: getattr(found, name) for name in names if getattr(found, name) is not None}
+    run = Trajectory(time=found.time, signals=signals, work=found.work)
+    failure = None if found.complete else "interrupted; what is shown ends there"
+    return FollowedMotion(found, found.to_rows(), {"time": found.time, **signals}, run.plot, failure)
+
+
+def damper_motion(run: DamperRun) -> FollowedMotion:
+    """Return what a run on a damper says."""
+    from ..charts import plot_damper_run
+
+    time, eps = run.trajectory.time, run.eccentricity_ratio
+    failure = None
+    if run.contact_time is not None:
+        failure = (
+            f"the rotor must stay inside the clearance and the film's range, got an eccentricity ratio of "
+            f"{eps[-1]:.4g} at {run.contact_time:.6g} s; what is shown ends there"
+        )
+    data = {
+        "peak_eccentricity_ratio": run.peak_eccentricity_ratio,
+        "peak_force": run.peak_force,
+        "final_eccentricity_ratio": float(eps[-1]),
+        "contact_time": run.contact_time,
+        "start": float(time[0]),
+        "end": float(time[-1]),
+        "work": dict(run.trajectory.work),
+    }
+    rows = [
+        ("from", f"{time[0]:.6g} s"),
+        ("to", f"{time[-1]:.6g} s"),
+        ("largest eccentricity ratio", f"{run.peak_eccentricity_ratio:.5f}"),
+        ("eccentricity ratio at the end", f"{eps[-1]:.5f}"),
+        ("largest force on the housing", f"{run.peak_force:.5g} N"),
+        *_ending(run.contact_time, run.trajectory),
+    ]
+    draw = partial(plot_damper_run, time, eps, run.force)
+    return FollowedMotion(data, rows, _signals(run.trajectory), draw, failure)
+
+
+def rotor_motion(run: RotorRun) -> FollowedMotion:
+    """Return what a run of a rotor on its films says."""
+    failure = None
+    if run.contact_time is not None:
+        failure = f"a journal reached the wall at {run.contact_time:.6g} s; what is shown ends there"
+    data = {
+        "peaks": dict(run.peaks),
+        "at_rest": dict(run.at_rest),
+        "vibrations": dict(run.vibrations),
+        "vibration_speeds": dict(run.vibration_speeds),
+        "end_speed": run.end_speed,
+        "contact_time": run.contact_time,
+        "end": float(run.trajectory.time[-1]),
+        "work": dict(run.trajectory.work),
+    }
+    rows = [
+        ("to", f"{run.trajectory.time[-1]:.6g} s"),
+        ("speed at the end", f"{run.end_speed * RPM:.6g} rpm"),
+        *(
+            (
+                f"largest displacement of {name}",
+                f"{size * 1e6:.4g} um, at rest {run.at_rest[name] * 1e6:.4g} um",
+            )
+            for name, size in run.peaks.items()
+        ),
+        *(
+            (
+                f"largest vibration of {name}",
+                f"{size * 1e6:.4g} um about its rest, at {run.vibration_speeds[name] * RPM:.5g} rpm",
+            )
+            for name, size in run.vibrations.items()
+        ),
+        *_ending(run.contact_time, run.trajectory),
+    ]
+    return FollowedMotion(data, rows, _signals(run.trajectory), run.trajectory.plot, failure)
+
+
+def _signals(run: Trajectory) -> dict[str, Any]:
+    return {"time": run.time, **run.signals}
+
+
+def _ending(contact_time: float | None, run: Trajectory) -> list[tuple[str, str]]:
+    """Return the rows of when a journal touched, and of what the run took."""
+    calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in run.work.items())
+    return [("contact", "none" if contact_time is None else f"at {contact_time:.6g} s"), ("work", calls)]

@@ -1,0 +1,161 @@
+"""A commented scene of each machine element: keys, units, meanings and defaults are those of its table."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from ..core.readable import explained
+from .families import FAMILIES, family_of
+from .reading import (
+    Beside,
+    Count,
+    Quantity,
+    Reader,
+    Table,
+    TableList,
+    TableType,
+    Variant,
+    choose,
+    flag,
+    keyed,
+    text,
+    twice_of,
+)
+from .schema import SCHEMA, OperationTable, RigidRotorTable
+
+WIDTH = 110
+"""Longest line of a scene, where a value leaves room for its comment."""
+
+Values = Mapping[str, Any]
+
+
+def new_scene(name: str) -> str:
+    """Return the text of a commented scene of a machine element.
+
+    Parameters
+    ----------
+    name : str
+        Of the table of a bearing or a rotor.
+
+    Raises
+    ------
+    SceneError
+        If there is no such element.
+    """
+    _ = choose("NAME", name, FAMILIES)
+    family = family_of(name)
+    shared: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
+    title = name.replace("_", " ")
+    parts = [
+        "# Keys behind a # may be left out. Their defaults stand there, or dots where there is none.",
+        f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n',
+    ]
+    for key, values in family.example.items():
+        table = shared.get(key) or family.table
+        parts.append("\n".join(table_lines(key, table, values)) + "\n")
+    asked = [one for one in family.ladders if one != "cosimulation_error"]
+    parts.append(
+        "\n".join(
+            [
+                "# [question]  # asks for one quantity, by the cheapest model that is good enough",
+                *_wrapped(f"quantity: {', '.join(asked)}"),
+                f'# quantity = "{asked[0]}"',
+                '# tolerance = "1 %"  # largest relative error\n',
+            ]
+        )
+    )
+    return "\n".join(parts)
+
+
+def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
+    """Yield the lines of a table: the keys that have values, then all others as comments."""
+    said = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
+    yield from _wrapped(said[:1].upper() + said[1:])
+    yield f"[{name}]"
+    readers = keyed(table).readers
+    defaults = {field.name: field for field in dataclasses.fields(table)}
+    for key, value in values.items():
+        field = key if key in readers else next(one for one, read in readers.items() if twice_of(read) == key)
+        yield from _line(f"{key} = {toml(value)}", comment(table, field, twice=field != key))
+    for field, reader in readers.items():
+        if field in values or twice_of(reader) in values or isinstance(reader, Beside):
+            continue
+        yield from _line(f"# {field} = {_placeholder(reader, defaults[field])}", comment(table, field))
+
+
+def comment(table: type, field: str, *, twice: bool = False) -> str:
+    """Return the unit and the meaning of a key, and what may stand in it."""
+    said, reader = explained(table, field), keyed(table).readers[field]
+    meaning = " ".join(said.meaning.split()).replace("`", "")
+    parts = [f"twice the {field}" if twice else "", meaning.rstrip("."), _inside(reader)]
+    unit = f"[{said.unit}] " if said.unit and said.unit != "1" else ""
+    return f"{unit}{'; '.join(part for part in parts if part)}".strip()
+
+
+def _inside(reader: Reader) -> str:
+    """Return the keys, or the names, that a value may have."""
+    if isinstance(reader, Table | TableList):
+        each = "keys" if isinstance(reader, Table) else "keys of each"
+        return f"{each}: {', '.join(_keys(reader.table))}"
+    if isinstance(reader, Variant):
+        return f"{reader.tag}: {', '.join(reader.variants)}"
+    names = getattr(reader, "variants", None) or _names(reader)
+    return f"one of {', '.join(names)}" if names else ""
+
+
+def _names(reader: Reader) -> Mapping[str, Any]:
+    """Return the names that a reader says it takes."""
+    shapes = getattr(reader, "takes", ())
+    return next((one for one in shapes if isinstance(one, Mapping)), {})
+
+
+def _keys(table: TableType[Any]) -> Iterator[str]:
+    for name, reader in keyed(table).readers.items():
+        unit = reader.unit if isinstance(reader, Quantity) and reader.unit != "1" else ""
+        yield f"{name} [{unit}]" if unit else name
+
+
+def _placeholder(reader: Reader, field: dataclasses.Field[Any]) -> str:
+    """Return the default of a key as TOML, or dots for what has none that a file may state."""
+    default = field.default
+    if isinstance(reader, Quantity):
+        known = isinstance(default, float) and math.isfinite(default)
+        number = f"{default:.6g}" if known else "..."
+        return f'"{number} {reader.unit}"' if reader.unit != "1" else number
+    written: tuple[Callable[..., Any] | type, ...] = (text, flag)
+    plain = isinstance(reader, Count) or reader in written
+    return toml(default) if plain and isinstance(default, int | str) else "..."
+
+
+def _line(entry: str, said: str) -> Iterator[str]:
+    """Yield a line with its comment, above it where there is no room behind."""
+    behind = f"{entry}  # {said}"
+    if not said:
+        yield entry
+    elif len(behind) <= WIDTH and "\n" not in entry:
+        yield behind
+    else:
+        yield from _wrapped(said)
+        yield entry
+
+
+def _wrapped(said: str) -> list[str]:
+    return textwrap.wrap(said, WIDTH, initial_indent="# ", subsequent_indent="#   ", break_on_hyphens=False)
+
+
+def toml(value: Any, *, inline: bool = False) -> str:
+    """Return a value as TOML, a list of tables with a line for each of them."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {toml(one, inline=True)}' for key, one in value.items())} }}"
+    if isinstance(value, list) and not inline and value and isinstance(value[0], Mapping):
+        return "[\n" + "".join(f"    {toml(one)},\n" for one in value) + "]"
+    return f"[{', '.join(map(toml, value))}]" if isinstance(value, list) else repr(value)
