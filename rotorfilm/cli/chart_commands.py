@@ -1,58 +1,144 @@
-"""The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables."""
+"""The commands `rotorfilm chart ...`: a table of studies, each computed, drawn and written as PNG and CSV."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import partial
+from inspect import Parameter, Signature
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from types import ModuleType, SimpleNamespace
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from ..core.errors import visible
 from ..core.limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..core.progress import Report, part_of
 from ..core.results import write_csv
+from ..core.units import CELSIUS, parse_quantity
 from . import printing as console
 from .command import Argument, Option, Said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..studies import BearingThresholds, TypeThresholds
-    from ..studies.journal_accuracy import FilmCost
-
-# What the commands of charts share: files that they write, and how they say it.
-
+    from ..studies import StudyResult
 
 DPI = 110
-
-Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
-Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
 OUT = Path("rotorfilm-charts")
+Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
 
-Rows = Iterable[Sequence[str]]
-Columns = Mapping[str, Iterable[object]]
+RPM = 30.0 / math.pi
+POINTS = 25
+"""Speeds of a curve of ball bearings."""
+
+Rows = list[tuple[str, ...]]
+Files = list[tuple[str, str]]
 
 
-def write_chart(
-    out: Path, name: str, columns: Columns, axes: Sequence[Axes], *, data: object = None
-) -> list[tuple[str, str]]:
-    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
+class MotionOption(StrEnum):
+    """Ranges of random states."""
+
+    LARGE = "large"
+    SMALL = "small"
+
+
+def draw_study(charts: Any, result: StudyResult) -> Sequence[Axes]:
+    """Draw error against cost."""
+    drawn: Sequence[Axes] = charts.plot_study(result)
+    return drawn
+
+
+class Picture(NamedTuple):
+    """One result of a command and its picture: both files are called `chart_STEM`."""
+
+    stem: str
+    result: Callable[[Any, SimpleNamespace, Report], Any]
+    draw: Callable[[Any, Any], Sequence[Axes]] = draw_study
+
+
+class Printed(NamedTuple):
+    """What is printed: headings, rows, and remarks below them."""
+
+    headings: Sequence[str]
+    rows: Iterable[Sequence[str]]
+    remarks: Sequence[tuple[str, str]] = ()
+
+
+class Shown(NamedTuple):
+    """How a column of a study is printed: its heading in the CSV file, a format, a factor and a zero."""
+
+    heading: str
+    form: str
+    factor: float = 1.0
+    zero: float = 0.0
+
+    def text(self, entry: float | None) -> str:
+        """Return an entry as text."""
+        return "" if entry is None else format(self.factor * entry - self.zero, self.form)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chart:
+    """One command.
+
+    Attributes
+    ----------
+    text : str
+        Its help.
+    options : mapping
+        Annotation and default of each option, by its name.
+    pictures : sequence of Picture
+    table : callable
+        Returns what is printed of the results.
+    data : callable
+        Returns what `--json` prints; the result by default, or the results by the names of their files.
+    more : callable
+        Writes further files of the results into a folder.
+    """
+
+    text: str
+    options: Mapping[str, tuple[Any, object]] = field(default_factory=dict)
+    pictures: Sequence[Picture]
+    table: Callable[..., Printed]
+    data: Callable[..., object] | None = None
+    more: Callable[..., Files] = lambda out, charts, *results: []
+
+    def run(self, *, report: Report, out: Path, **given: object) -> Said:
+        """Compute the results, write their files, and return what to print."""
+        from .. import charts, studies
+
+        results, files, count = [], [], len(self.pictures)
+        for number, picture in enumerate(self.pictures):
+            share = part_of(report, number / count, (number + 1) / count)
+            result = picture.result(studies, SimpleNamespace(**given), share)
+            files += write_chart(out, picture.stem, result.columns(), picture.draw(charts, result))
+            results.append(result)
+        files += self.more(out, charts, *results)
+        stems = [picture.stem for picture in self.pictures]
+        data: object = dict(zip(stems, results, strict=True)) if count > 1 else results[0]
+        if self.data is not None:
+            data = self.data(*results)
+        table = self.table(*results)
+        rows = [tuple(row) for row in table.rows]
+        return Said(data, partial(print_chart, table.headings, rows, [*table.remarks, *files]))
+
+
+def write_chart(out: Path, stem: str, columns: Mapping[str, Iterable[object]], axes: Sequence[Axes]) -> Files:
+    """Write chart and table; return the rows that name them."""
     from ..charts import save
 
     out.mkdir(parents=True, exist_ok=True)
-    files = {
-        "chart": save(axes[0], out / f"{name}.png", dpi=DPI),
-        "table": write_csv(out / f"{name}.csv", columns),
-    }
-    if data is not None:
-        files["data"] = console.write_json(out / f"{name}.json", data)
-    return [(kind, str(path)) for kind, path in files.items()]
+    path = out / f"chart_{stem}.png"
+    return [
+        ("chart", str(save(axes[0], path, dpi=DPI))),
+        ("table", str(write_csv(path.with_suffix(".csv"), columns))),
+    ]
 
 
-def print_chart(headings: Sequence[str], rows: Rows, files: Rows) -> None:
+def print_chart(headings: Sequence[str], rows: Rows, files: Files) -> None:
     """Print a table, without headings if there are none, and files and remarks below it."""
     if headings:
         console.print_columns(headings, rows)
@@ -66,119 +152,478 @@ def number(entry: object) -> str:
     return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
 
 
-def costs(cost: FilmCost) -> tuple[str, str]:
-    """Return the costs of a force in a batch and alone as text."""
-    return f"{1e6 * cost.force_time:.3g} us", f"{1e6 * cost.call_time:.3g} us"
+def written_data(out: Path, stem: str, data: object) -> Files:
+    """Write data as JSON; return the row that names the file."""
+    return [("data", str(console.write_json(out / f"chart_{stem}.json", data)))]
 
 
-def milliseconds(cost: float | None) -> str:
-    """Return a time [s] as text."""
-    return "" if cost is None else f"{1e3 * cost:.3g} ms"
+# What is printed of the results.
 
 
-# The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables.
+def study_table(model: str, shown: Mapping[str, Shown], *, last: int = -1) -> Callable[..., Printed]:
+    """Return what prints a row for each rung of a study, below the name of its case if it has one."""
+
+    def table(*results: StudyResult) -> Printed:
+        result, rows = results[last], []
+        for case, rungs in groupby(result.rungs, key=lambda rung: rung.case):
+            if case:
+                rows.append((case, *("" for _ in shown)))
+            for rung in rungs:
+                entries = (one.text(rung[one.heading]) for one in shown.values())
+                rows.append((f"{'  ' if case else ''}{rung.name}", *entries))
+        remarks = [("reference", result.reference)]
+        floor = result.conditions.get("reference error, 99 % [1]")
+        if floor is not None:
+            remarks.append(("its error, 99 %", f"{floor:.1e}"))
+        return Printed((model, *shown), rows, remarks)
+
+    return table
 
 
-States = Annotated[int, Option(help="Random states.", min=1, max=CHART_STATES)]
-
-
-class MotionOption(StrEnum):
-    """Ranges of random states."""
-
-    LARGE = "large"
-    SMALL = "small"
-
-
-def journal(
-    report: Report,
-    ld: Slenderness = 0.5,
-    states: States = 300,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1978,
-    motion: Annotated[MotionOption, Option(help="Range of the states' velocities.")] = MotionOption.LARGE,
-    out: Folder = OUT,
-) -> Said:
-    """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
-    from .. import charts, studies
-
-    ranges = studies.LARGE if motion is MotionOption.LARGE else studies.SMALL
-    result = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
-    files = write_chart(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
-    headings = ("film", "median error", "99 % error", "batch", "alone")
-    rows = [
-        (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *costs(rung.cost))
-        for rung in result.rungs
-    ]
-    floor = ("its error, 99 %", f"{result.reference_high:.1e}")
-    return Said(
-        result, partial(print_chart, headings, rows, [("reference", result.reference), floor, *files])
-    )
-
-
-def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
-    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
-    from .. import charts, studies
+def _stability_table(result: Any) -> Printed:
     from ..charts.whirl_verdicts import verdicts
 
-    result = studies.journal_stability(ld, report=report)
-    files = write_chart(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
     rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
-    return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
+    return Printed(headings, rows, [("reference", result.reference)])
 
 
-def contact(
-    report: Report,
-    cells: Annotated[
-        int, Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
-    ] = 64,
-    out: Folder = OUT,
-) -> Said:
-    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
-    from .. import charts, studies
+def _bearings_table(film: Any, whirl: Any) -> Printed:
+    shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
+    headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
+    rows = [
+        (
+            one.name,
+            *(
+                one.outcomes[k] if (speed := one.threshold_speed[k]) is None else f"{RPM * speed:.4g}"
+                for k in shown
+            ),
+        )
+        for one in whirl.types
+    ]
+    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
+    said = [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
+    return Printed(headings, rows, [("convention", film.convention), *said])
 
-    result = studies.contact_precision(cells, report=report)
-    files = write_chart(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
-    rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
-    show = partial(
-        print_chart, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
+
+def _rolling_table(curves: Any, ladder: StudyResult) -> Printed:
+    headings = (
+        "preload [N]",
+        f"running at {RPM * curves.speeds[-1]:.5g} rpm [N]",
+        "radial [N/um]",
+        "axial [N/um]",
     )
-    return Said(result.columns(), show)
+    last = (curves.running_preload, 1e-6 * curves.radial_stiffness, 1e-6 * curves.axial_stiffness)
+    rows = [
+        (number(preload), *(number(one[k, -1].item()) for one in last))
+        for k, preload in enumerate(curves.preloads)
+    ]
+    errors = ("median error of K [1]", "90 % error of K [1]")
+    return Printed(
+        headings,
+        rows,
+        [
+            (rung.name, "error of K: median {:.2g}, 90 % {:.2g}".format(*(rung[one] for one in errors)))
+            for rung in ladder.rungs
+        ],
+    )
 
 
-def contact_cases(
-    report: Report,
-    cells: Annotated[
-        int, Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
-    ] = 40,
-    tolerance: Annotated[float, Option(help="Of the steps of converged runs.")] = 1e-4,
-    settle: Annotated[
-        float, Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
-    ] = 60.0,
-    out: Folder = OUT,
-) -> Said:
-    """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
-    from .. import charts, studies
+def _limits_table(atlas: Any) -> Printed:
+    from ..studies import failures
 
-    result = studies.contact_cases(cells, tolerance, settle, report=report)
-    files = write_chart(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
-    files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
+    rows: Rows = []
+    for panel, curves in groupby(failures(atlas), key=lambda one: one[0].panel):
+        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
+        rows += [(f"  {limit.name}", "nowhere" if at is None else f"{at:.3g}") for limit, at in curves]
+    return Printed((), rows)
+
+
+def _plain_table(result: Any) -> Printed:
+    table = result.columns()
+    return Printed(
+        tuple(table), [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
+    )
+
+
+def _cases_table(result: Any) -> Printed:
     headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
     rows = [
         (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
         for row in result.statements
     ]
-    return Said([row._asdict() for row in result.statements], partial(print_chart, headings, rows, files))
+    return Printed(headings, rows)
 
 
-def contact_limits(report: Report, out: Folder = OUT) -> Said:
-    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
-    from .. import charts, studies
+# Further files.
 
-    result = studies.contact_limits(report=report)
-    files = write_chart(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
-    table = result.columns()
-    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, partial(print_chart, tuple(table), rows, files))
+
+def _limit_pictures(out: Path, charts: Any, atlas: Any) -> Files:
+    files = written_data(out, "limits", atlas.columns())
+    for name, axes in charts.plot_limits(atlas).items():
+        files.append((name, str(charts.save(axes[0], out / f"chart_limits_{name}.png", dpi=DPI))))
+    return files
+
+
+def _heated_film(out: Path, charts: Any, *_: object) -> Files:
+    from ..studies import HEAT_CASES
+    from ..studies.heat_accuracy import heated_film
+
+    case = HEAT_CASES[1]
+    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
+    return [("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI)))]
+
+
+def _shaft_table(out: Path, charts: ModuleType, result: StudyResult) -> Files:
+    from ..studies.bush_tiers import shaft_columns
+
+    shaft = result.notes["shaft"]
+    errors = [100.0 * row.error for row in shaft]
+    return [
+        ("closed form of the shaft", f"{min(errors):.2f} to {max(errors):.2f} % high"),
+        ("its table", str(write_csv(out / "chart_bush_shaft.csv", shaft_columns(shaft)))),
+    ]
+
+
+# The table of the commands.
+
+
+LD = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
+States = Annotated[int, Option(help="Random states, of each bearing.", min=1, max=CHART_STATES)]
+SEED = Annotated[int, Option(help="Seed of the random states.", min=0)]
+MICRO = 1e6
+
+CHARTS = {
+    "journal": Chart(
+        text="Error of the force against its cost, for every journal film: chart_journal.png and .csv.",
+        options={
+            "ld": (LD, 0.5),
+            "states": (States, 300),
+            "seed": (SEED, 1978),
+            "motion": (
+                Annotated[MotionOption, Option(help="Range of the states' velocities.")],
+                MotionOption.LARGE,
+            ),
+        },
+        pictures=[
+            Picture(
+                "journal",
+                lambda studies, given, report: studies.journal_accuracy(
+                    given.ld,
+                    states=given.states,
+                    ranges=studies.LARGE if given.motion is MotionOption.LARGE else studies.SMALL,
+                    seed=given.seed,
+                    report=report,
+                ),
+            )
+        ],
+        table=study_table(
+            "film",
+            {
+                "median error": Shown("median error [1]", ".2e"),
+                "99 % error": Shown("99 % error [1]", ".2e"),
+                "batch [us]": Shown("force in a batch [s]", ".3g", MICRO),
+                "alone [us]": Shown("force alone, prepare() [s]", ".3g", MICRO),
+            },
+        ),
+    ),
+    "stability": Chart(
+        text="Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv.",
+        options={"ld": (LD, 0.5)},
+        pictures=[
+            Picture(
+                "stability",
+                lambda studies, given, report: studies.journal_stability(given.ld, report=report),
+                lambda charts, result: charts.plot_journal_stability(result),
+            )
+        ],
+        table=_stability_table,
+    ),
+    "bearings": Chart(
+        text="Types of bearings: K and C over the Sommerfeld number, whirl threshold over the load.",
+        options={
+            "ld": (LD, 0.5),
+            "mass": (
+                Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")],
+                "250 kg",
+            ),
+        },
+        pictures=[
+            Picture(
+                "bearings",
+                lambda studies, given, report: studies.bearing_coefficients(given.ld, report=report),
+                lambda charts, result: charts.plot_bearing_coefficients(result),
+            ),
+            Picture(
+                "whirl",
+                lambda studies, given, report: studies.bearing_thresholds(
+                    given.ld, mass=parse_quantity(given.mass, "kg"), report=report
+                ),
+                lambda charts, result: [charts.plot_bearing_thresholds(result)],
+            ),
+        ],
+        table=_bearings_table,
+        data=lambda film, whirl: {"coefficients": film, "thresholds": whirl},
+    ),
+    "pads": Chart(
+        text="Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv.",
+        options={"ld": (LD, 0.5), "states": (States, 100), "seed": (SEED, 1978)},
+        pictures=[
+            Picture(
+                "pads",
+                lambda studies, given, report: studies.pad_accuracy(
+                    given.ld, states=given.states, seed=given.seed, report=report
+                ),
+            )
+        ],
+        table=study_table(
+            "film",
+            {
+                "median error": Shown("median error [1]", ".2e"),
+                "90 % error": Shown("90 % error [1]", ".2e"),
+                "99 % error": Shown("99 % error [1]", ".2e"),
+                "batch [us]": Shown("force of a pad in a batch [s]", ".3g", MICRO),
+                "alone [us]": Shown("force of a pad alone, prepare() [s]", ".3g", MICRO),
+            },
+        ),
+    ),
+    "rolling": Chart(
+        text="Ball bearings: loads, contact angles, stiffness over speed and preload; error against cost.",
+        options={
+            "speed": (
+                Annotated[str, Option(help="Highest speed of a usual hybrid bearing of a spindle.")],
+                "30000 rpm",
+            ),
+            "states": (States, 40),
+            "seed": (SEED, 1907),
+        },
+        pictures=[
+            Picture(
+                "rolling",
+                lambda studies, given, report: studies.ball_curves(
+                    studies.usual_bearing(),
+                    [k * parse_quantity(given.speed, "rad/s") / (POINTS - 1) for k in range(POINTS)],
+                    report=report,
+                ),
+                lambda charts, result: charts.plot_ball_curves(result),
+            ),
+            Picture(
+                "rolling_ladder",
+                lambda studies, given, report: studies.ball_accuracy(
+                    given.states, seed=given.seed, report=report
+                ),
+            ),
+        ],
+        table=_rolling_table,
+        data=lambda curves, ladder: {"curves": curves, "ladder": ladder},
+    ),
+    "contact": Chart(
+        text="Error of a rolling ball's motion against its cost: scheme, step, grid, reduced laws. Minutes.",
+        options={
+            "cells": (
+                Annotated[
+                    int, Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
+                ],
+                64,
+            )
+        },
+        pictures=[
+            Picture(
+                "contact",
+                lambda studies, given, report: studies.contact_precision(given.cells, report=report),
+            )
+        ],
+        table=study_table(
+            "model", {"rms error": Shown("rms error of delta", ".2e"), "cost [s]": Shown("cost [s]", ".3g")}
+        ),
+    ),
+    "contact_cases": Chart(
+        text="Published cases of a rolling ball, by the published scheme and converged. Some ten minutes.",
+        options={
+            "cells": (
+                Annotated[
+                    int, Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
+                ],
+                40,
+            ),
+            "tolerance": (Annotated[float, Option(help="Of the steps of converged runs.")], 1e-4),
+            "settle": (
+                Annotated[
+                    float, Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
+                ],
+                60.0,
+            ),
+        },
+        pictures=[
+            Picture(
+                "contact_cases",
+                lambda studies, given, report: studies.contact_cases(
+                    given.cells, given.tolerance, given.settle, report=report
+                ),
+                lambda charts, result: charts.plot_contact_cases(result),
+            )
+        ],
+        table=_cases_table,
+        data=lambda result: [row._asdict() for row in result.statements],
+        more=lambda out, charts, result: [
+            ("curves", str(write_csv(out / "chart_contact_curves.csv", result.series())))
+        ],
+    ),
+    "contact_limits": Chart(
+        text="Where the published scheme of a rolling ball fails, and how it decays by itself. A minute.",
+        pictures=[
+            Picture(
+                "contact_limits",
+                lambda studies, given, report: studies.contact_limits(report=report),
+                lambda charts, result: charts.plot_contact_limits(result),
+            )
+        ],
+        table=_plain_table,
+        data=lambda result: result.columns(),
+    ),
+    "limits": Chart(
+        text="Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds.",
+        options={
+            "physics": (
+                Annotated[
+                    list[str] | None,
+                    Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
+                ],
+                None,
+            )
+        },
+        pictures=[
+            Picture(
+                "limits",
+                lambda studies, given, report: studies.limits_atlas(given.physics, report=report),
+                lambda charts, result: charts.plot_limit_summary(result),
+            )
+        ],
+        table=_limits_table,
+        data=lambda atlas: atlas.columns(),
+        more=_limit_pictures,
+    ),
+    "heat": Chart(
+        text="Films that warm: error against cost of the models of heat, and where they fail. A minute.",
+        pictures=[
+            Picture(
+                "heat",
+                lambda studies, given, report: studies.heat_accuracy(report=report),
+            ),
+            Picture(
+                "heat_limits",
+                lambda studies, given, report: studies.limits_atlas(["heat"], report=report),
+                lambda charts, result: charts.plot_limits(result)["heat"],
+            ),
+        ],
+        table=study_table(
+            "model",
+            {
+                "eps": Shown("eccentricity ratio [1]", ".4f"),
+                "angle [deg]": Shown("attitude angle [rad]", ".1f", 180.0 / math.pi),
+                "power [W]": Shown("power loss [W]", ".0f"),
+                "T [degC]": Shown("temperature, or largest [K]", ".1f", 1.0, CELSIUS),
+                "Kyy [MN/m]": Shown("stiffness yy [N/m]", ".4g", 1e-6),
+                "place off [%]": Shown("error of the position [1]", ".1f", 100.0),
+                "power off [%]": Shown("error of the power [1]", ".1f", 100.0),
+                "time [ms]": Shown("CPU time [s]", ".4g", 1e3),
+            },
+            last=0,
+        ),
+        data=lambda result, limits: result.columns(),
+        more=_heated_film,
+    ),
+    "bush": Chart(
+        text="Tiers of the polymer bush: error against cost, and the closed form of its shaft.",
+        pictures=[
+            Picture(
+                "bush",
+                lambda studies, given, report: studies.bush_tiers(report=report),
+            )
+        ],
+        table=study_table(
+            "tier",
+            {
+                "error of the angle": Shown("angle error [1]", ".1e"),
+                "time of the run [ms]": Shown("time of the run [s]", ".3g", 1e3),
+            },
+        ),
+        more=_shaft_table,
+    ),
+    "damper": Chart(
+        text="Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json.",
+        options={
+            "ld": (LD, 0.25),
+            "permeability": (Annotated[float, Option(help="Phi = A H/C^3 of the cage.")], 1e-3),
+            "states": (States, 200),
+        },
+        pictures=[
+            Picture(
+                "damper",
+                lambda studies, given, report: studies.damper_accuracy(
+                    given.ld, given.permeability, states=given.states, report=report
+                ),
+            )
+        ],
+        table=study_table(
+            "film",
+            {
+                "median error": Shown("median error [1]", ".2e"),
+                "99 % error": Shown("99 % error [1]", ".2e"),
+                "against the short film": Shown("99 % error against the short film [1]", ".2e"),
+                "batch [us]": Shown("force in a batch [s]", ".3g", MICRO),
+                "alone [us]": Shown("force alone, prepare() [s]", ".3g", MICRO),
+            },
+        ),
+        more=lambda out, charts, result: written_data(out, "damper", result),
+    ),
+    "cosim": Chart(
+        text="Stability limits of the coupling schemes, and their error against film calls: takes minutes.",
+        pictures=[
+            Picture(
+                "cosim_limits",
+                lambda studies, given, report: studies.coupling_limits(report=report),
+                lambda charts, result: charts.plot_coupling_limits(result),
+            ),
+            Picture(
+                "cosim_cost",
+                lambda studies, given, report: studies.coupling_cost(report=report),
+            ),
+        ],
+        table=study_table(
+            "scheme",
+            {
+                "orbit error / clearance": Shown("orbit_error [1]", ".1e"),
+                "film calls per turn": Shown("film_calls [1/turn]", ".4g"),
+            },
+        ),
+        data=lambda limits, cost: {"limits": limits, "cost": cost},
+    ),
+}
+"""The charts of studies, by their commands."""
+
+
+def __getattr__(name: str) -> Callable[..., Said]:
+    """Return the command of a chart, a function whose options are those of the table."""
+    if name not in CHARTS:
+        raise AttributeError(f"{__name__} has no {name!r}")
+    chart = CHARTS[name]
+
+    def command(*, report: Report, out: Path, **given: object) -> Said:
+        return chart.run(report=report, out=out, **given)
+
+    made = {"report": (Report, Parameter.empty), **chart.options, "out": (Folder, OUT)}
+    command.__doc__ = chart.text
+    command.__signature__ = Signature(  # type: ignore[attr-defined]
+        [
+            Parameter(option, Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+            for option, (annotation, default) in made.items()
+        ]
+    )
+    return command
+
+
+# Charts that are no studies: the models of a scene, and the page of a folder.
 
 
 def scene(
@@ -201,34 +646,18 @@ def scene(
     ]
     title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-    files = write_chart(out, f"chart_{file.stem}", result.columns(), [axes])
+    files = write_chart(out, file.stem, result.columns(), [axes])
+    cost = Shown("", ".3g", 1e3)
     rows = [
-        (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), milliseconds(r.cost), r.reason)
+        (
+            ("* " if r.chosen else "  ") + r.name,
+            number(r.error_estimate),
+            "" if r.cost is None else f"{cost.text(r.cost)} ms",
+            r.reason,
+        )
         for r in result.rungs
     ]
     return Said(result, partial(print_chart, ("model", "estimated error", "cost", "why not"), rows, files))
-
-
-def limits(
-    report: Report,
-    physics: Annotated[
-        list[str] | None,
-        Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
-    ] = None,
-    out: Folder = OUT,
-) -> Said:
-    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
-    from .. import charts, studies
-
-    result = studies.limits_atlas(physics, report=report)
-    files = write_chart(out, "chart_limits", result.columns(), charts.plot_limit_summary(result), data=result)
-    for name, axes in charts.plot_limits(result).items():
-        files.append((name, str(charts.save(axes[0], out / f"chart_limits_{name}.png", dpi=DPI))))
-    rows: list[tuple[str, str]] = []
-    for panel, curves in groupby(studies.failures(result), key=lambda one: one.panel):
-        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
-        rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-    return Said(result, partial(print_chart, (), rows, files))
 
 
 def page(out: Folder = OUT) -> Said:
@@ -237,191 +666,3 @@ def page(out: Folder = OUT) -> Said:
 
     path = str(write_page(out))
     return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
-
-
-def heat(report: Report, out: Folder = OUT) -> Said:
-    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
-    from .. import charts, studies
-    from ..studies.heat_accuracy import heated_film
-
-    result = studies.heat_accuracy(report=part_of(report, 0.0, 0.7))
-    report(0.7, "where each model fails")
-    limits = studies.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
-    files = write_chart(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
-    files += write_chart(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
-    case = studies.HEAT_CASES[1]
-    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
-    files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))
-    table = result.summary()
-    rows = list(zip(*table.values(), strict=True))
-    show = partial(print_chart, tuple(table), rows, [("reference", result.reference), *files])
-    return Said(result.columns(), show)
-
-
-def bush(report: Report, out: Folder = OUT) -> Said:
-    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
-    from .. import charts, studies
-
-    result = studies.bush_tiers(report=report)
-    files = write_chart(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
-    shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
-    rows = [(tier.name, f"{tier.error:.1e}", milliseconds(tier.cost)) for tier in result.tiers]
-    errors = [100.0 * row.error for row in result.shaft]
-    closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
-    last = [("closed form of the shaft", closed), ("its table", str(shaft))]
-    headings = ("tier", "error of the angle", "time of the run")
-    return Said(
-        result, partial(print_chart, headings, rows, [("reference", result.reference), *files, *last])
-    )
-
-
-def damper(
-    report: Report,
-    ld: Slenderness = 0.25,
-    permeability: Annotated[float, Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
-    states: States = 200,
-    out: Folder = OUT,
-) -> Said:
-    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
-    from .. import charts, studies
-
-    result = studies.damper_accuracy(ld, permeability, states=states, report=report)
-    files = write_chart(
-        out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result
-    )
-    rows = [
-        (
-            f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
-            f"{rung.median_error:.2e}",
-            f"{rung.high_error:.2e}",
-            f"{rung.series_error:.2e}",
-            *costs(rung.cost),
-        )
-        for rung in result.rungs
-    ]
-    headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    return Said(result, partial(print_chart, headings, rows, files))
-
-
-def cosim(report: Report, out: Folder = OUT) -> Said:
-    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
-    from .. import charts, studies
-
-    limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
-    cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
-    files = write_chart(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
-    files += write_chart(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
-    rows = [
-        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}")
-        for row in cost.rows
-        if row.orbit_error is not None
-    ]
-    show = partial(print_chart, ("scheme", "macro step", "orbit error / clearance"), rows, files)
-    return Said({"limits": limits, "cost": cost}, show)
-
-
-# The commands `rotorfilm chart bearings` and `rotorfilm chart pads`: bearings made of pads, drawn.
-
-
-def bearings(
-    report: Report,
-    ld: Slenderness = 0.5,
-    mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
-    out: Folder = OUT,
-) -> Said:
-    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
-    from .. import charts, studies
-    from ..core.units import parse_quantity
-
-    film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
-    carried = parse_quantity(mass, "kg")
-    whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
-    files = write_chart(out, "chart_bearings", film.columns(), charts.plot_bearing_coefficients(film))
-    files += write_chart(out, "chart_whirl", whirl.columns(), [charts.plot_bearing_thresholds(whirl)])
-    shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
-    headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
-    rows = [(one.name, *(_speed(one, k) for k in shown)) for one in whirl.types]
-    show = partial(print_chart, headings, rows, [("convention", film.convention), *_said(whirl), *files])
-    return Said({"coefficients": film, "thresholds": whirl}, show)
-
-
-def pads(
-    report: Report,
-    ld: Slenderness = 0.5,
-    states: Annotated[int, Option(help="Random states of each bearing.", min=1, max=CHART_STATES)] = 100,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1978,
-    out: Folder = OUT,
-) -> Said:
-    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
-    from .. import charts, studies
-
-    result = studies.pad_accuracy(ld, states=states, seed=seed, report=report)
-    files = write_chart(out, "chart_pads", result.columns(), charts.plot_pad_accuracy(result))
-    headings = ("film", "median error", "90 % error", "99 % error", "batch", "alone")
-    rows = [
-        (
-            rung.name,
-            *(f"{error:.2e}" for error in (rung.median_error, rung.usual_error, rung.high_error)),
-            *costs(rung.cost),
-        )
-        for rung in result.rungs
-    ]
-    return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
-
-
-def _said(whirl: BearingThresholds) -> list[tuple[str, str]]:
-    """Return what the words mean that stand for a threshold."""
-    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
-    return [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
-
-
-def _speed(one: TypeThresholds, k: int) -> str:
-    speed = one.threshold_speed[k]
-    return one.outcomes[k] if speed is None else f"{30.0 / math.pi * speed:.4g}"
-
-
-# The command `rotorfilm chart rolling`: ball bearings over speed and preload, and their models, drawn.
-
-
-POINTS = 25
-"""Speeds of a curve."""
-
-
-def rolling(
-    report: Report,
-    speed: Annotated[str, Option(help="Highest speed of a usual hybrid bearing of a spindle.")] = "30000 rpm",
-    states: Annotated[int, Option(help="Random states of each bearing.", min=1, max=CHART_STATES)] = 40,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1907,
-    out: Folder = OUT,
-) -> Said:
-    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
-    import numpy as np
-
-    from .. import charts, studies
-    from ..core.units import parse_quantity
-
-    top = parse_quantity(speed, "rad/s")
-    curves = studies.ball_curves(
-        studies.usual_bearing(), np.linspace(0.0, top, POINTS), report=part_of(report, 0.0, 0.5)
-    )
-    ladder = studies.ball_accuracy(states, seed=seed, report=part_of(report, 0.5, 1.0))
-    files = write_chart(out, "chart_rolling", curves.columns(), charts.plot_ball_curves(curves))
-    files += write_chart(out, "chart_rolling_ladder", ladder.columns(), charts.plot_ball_accuracy(ladder))
-    headings = (
-        "preload [N]",
-        f"running at {30.0 / math.pi * top:.5g} rpm [N]",
-        "radial [N/um]",
-        "axial [N/um]",
-    )
-    rows = [
-        tuple(map(number, (preload, running[-1].item(), 1e-6 * radial[-1].item(), 1e-6 * axial[-1].item())))
-        for preload, running, radial, axial in zip(
-            curves.preloads,
-            curves.running_preload,
-            curves.radial_stiffness,
-            curves.axial_stiffness,
-            strict=True,
-        )
-    ]
-    told = [(rung.name, f"K off by {rung.median_error:.2g}, {rung.usual_error:.2g}") for rung in ladder.rungs]
-    return Said({"curves": curves, "ladder": ladder}, partial(print_chart, headings, rows, [*told, *files]))

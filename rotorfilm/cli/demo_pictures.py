@@ -11,11 +11,10 @@ from matplotlib.axes import Axes
 from ..charts import (
     new_figure,
     plot_coupling_error,
-    plot_force_error,
-    plot_journal_accuracy,
     plot_journal_stability,
     plot_locus,
     plot_orbits,
+    plot_study,
     plot_thresholds,
     save,
 )
@@ -36,7 +35,7 @@ def draw_demo(result: DemoResult, folder: Path) -> list[Path]:
             plot_journal_stability(result.stability, point=_working_point(result))[0],
             folder / "stability.png",
         ),
-        save(plot_journal_accuracy(result.accuracy)[0], folder / "accuracy.png"),
+        save(plot_study(result.accuracy)[0], folder / "accuracy.png"),
         save(_draw_coupling(result), folder / "coupling.png"),
     ]
 
@@ -46,7 +45,8 @@ def _draw_overview(result: DemoResult) -> Axes:
     figure = new_figure(size=OVERVIEW_SIZE)
     (orbits, coupling), (stability, accuracy) = figure.subplots(2, 2, height_ratios=(1.0, 1.25))
     compared = result.accuracy
-    reference = f"films at L/D = {compared.slenderness:g}, reference: {compared.reference}"
+    slenderness = compared.conditions["length/diameter [1]"]
+    reference = f"films at L/D = {slenderness:g}, reference: {compared.reference}"
     figure.suptitle(f"{result.scene.title}\n{reference}")
     _draw_orbits(result, orbits)
     orbits.set_title("Orbit of the journal center")
@@ -55,7 +55,7 @@ def _draw_overview(result: DemoResult) -> Axes:
     plot_thresholds(result.stability, point=_working_point(result), axes=stability)
     stability.set(title="Whirl threshold of a rigid rotor (unstable above)", xlabel="eccentricity ratio [1]")
     accuracy.set_title("Error of the force against its cost")
-    plot_force_error(result.accuracy, axes=accuracy)
+    plot_study(result.accuracy, axes=accuracy)
     return orbits
 
 

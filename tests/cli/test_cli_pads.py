@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -51,12 +52,14 @@ def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
     grids = [rung for rung in ladders.pad_rungs() if rung.family is ladders.PadFamily.GRID][:2]
     quick = partial(ladders.pad_accuracy, rungs=grids, cells=(64, 8), rounds=1)
     monkeypatch.setattr(ladders, "pad_accuracy", quick)
-    monkeypatch.setattr("rotorfilm.studies.pad_accuracy.compared_bearings", without_maps)
+    module = import_module("rotorfilm.studies.pad_accuracy")  # its package shows a function of this name
+    monkeypatch.setattr(module, "compared_bearings", without_maps)
     options = ("--ld", "0.7", "--states", "3", "--seed", "5", "--out", tmp_path)
     code, out, _ = run("chart", "pads", *options, "--json")
     assert code == 0
     result = json.loads(out)
-    assert (result["slenderness"], result["states"], result["seed"]) == (0.7, 3, 5)
+    told = ("length/diameter [1]", "states of each bearing [1]", "seed [-]")
+    assert [result["conditions"][name] for name in told] == [0.7, 3, 5]
     assert (tmp_path / "chart_pads.png").read_bytes().startswith(b"\x89PNG")
     table = (tmp_path / "chart_pads.csv").read_text(encoding="utf-8").splitlines()
     assert len(table) == 1 + len(grids)
