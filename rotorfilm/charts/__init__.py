@@ -60,7 +60,6 @@ if TYPE_CHECKING:
         plot_coupling_limits as plot_coupling_limits,
         plot_limit_summary as plot_limit_summary,
         plot_limits as plot_limits,
-        plot_shaft_flux_error as plot_shaft_flux_error,
     )
     from .whirl_verdicts import (
         plot_journal_stability as plot_journal_stability,

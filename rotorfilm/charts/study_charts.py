@@ -132,16 +132,9 @@ def draw_bush_angles(axes: Axes, result: StudyResult) -> None:
     axes.legend(fontsize=7.5)
 
 
-def plot_shaft_flux_error(rows: Sequence[ShaftFluxError], *, axes: Axes | None = None) -> Axes:
-    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length.
-
-    Parameters
-    ----------
-    rows : sequence of ShaftFluxError
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes("Closed form of the heat into the shaft")
+def draw_shaft_flux(axes: Axes, result: StudyResult) -> None:
+    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length."""
+    rows: Sequence[ShaftFluxError] = result.notes["shaft"]
     for stubbiness in dict.fromkeys(row.stubbiness for row in rows):
         line = np.array([(row.cooling, 100.0 * row.error) for row in rows if row.stubbiness == stubbiness]).T
         axes.plot(*line, label=f"R_1/l = {stubbiness:g}")
@@ -153,7 +146,6 @@ def plot_shaft_flux_error(rows: Sequence[ShaftFluxError], *, axes: Axes | None =
     )
     axes.grid(visible=True, alpha=0.3)
     axes.legend(fontsize=7.5)
-    return axes
 
 
 # Figures 2 to 7 of the published cases of a ball on a lubricated plane, redrawn.

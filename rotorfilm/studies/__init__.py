@@ -90,6 +90,7 @@ if TYPE_CHECKING:
         relative_error as relative_error,
         run_study as run_study,
         shortest_time as shortest_time,
+        timed as timed,
     )
 else:
     show(__name__)

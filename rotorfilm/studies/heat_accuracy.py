@@ -242,7 +242,7 @@ def _quantities(model: StudyModel, case: StudyCase, answer: HeatAnswer) -> dict[
     numbers, exact = case.at[1], case.reference
     own = model.law is None
     return {
-        "bearing [-]": case.name,
+        "bearing [-]": case.at[0].name,
         "thinning x rise E [1]": numbers.thinning_rise,
         "Peclet number [1]": numbers.peclet,
         "Nahme number [1]": numbers.nahme,
@@ -305,6 +305,9 @@ def heat_accuracy(
         exact = answered(case, HeatModel.LAYERS, cells=cells, layers=layers)
         cold = equilibrium(bearing_of(case, HeatModel.SUPPLY), case.load, case.speed)
         numbers = heat_numbers(case.bearing, cold.position, case.speed)
-        studied.append(StudyCase(name=case.name, models=HEAT_MODELS, at=(case, numbers), reference=exact))
+        told = f"E = {numbers.thinning_rise:.2g}, Pe = {numbers.peclet:.2g}, Na = {numbers.nahme:.2g}"
+        studied.append(
+            StudyCase(name=f"{case.name}: {told}", models=HEAT_MODELS, at=(case, numbers), reference=exact)
+        )
     text = f"temperature over {cells[0]} x {cells[1]} cells and in {layers} layers across the film"
     return run_study(HEAT, studied, reference=text, report=part_of(report, 0.5, 1.0))

@@ -284,7 +284,14 @@ def film_times(batch: str, alone: str, *, counted: bool = True) -> Costs:
 
 
 class States(NamedTuple):
-    """Position (2, n) [m], velocity (2, n) [m/s] and speed (n,) [rad/s]."""
+    """States of a journal that turns.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2, n) [m]
+    velocity : ndarray, shape (2, n) [m/s]
+    speed : ndarray, shape (n,) [rad/s]
+    """
 
     position: Array
     velocity: Array

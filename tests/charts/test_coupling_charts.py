@@ -27,5 +27,5 @@ def test_cost_is_drawn_and_tabulated(tmp_path):
     refused = dict(zip(table["scheme"], table["refused"], strict=True))
     assert refused["Jacobi 2"]
     assert not refused["SI-exp3"]
-    assert right.get_xlabel().startswith("macro step")
+    assert right.get_xlabel().startswith("macro_angle")
     assert save(left, tmp_path / "cost.png").stat().st_size > 10_000

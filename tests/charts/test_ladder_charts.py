@@ -110,11 +110,11 @@ def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
     )
     batch, single = plot_study(result)
     filled = [line for line in batch.get_lines() if line.get_marker() == "o" and line.get_markersize() == 7]
-    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1.0, 3500.0, 0.1])
+    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1e-6, 3.5e-3, 1e-7])
     np.testing.assert_allclose([line.get_ydata()[0] for line in filled], [1.0, 1e-4, 1e-5])
     assert "map 35 000 times cheaper" in [text.get_text() for text in batch.texts]
     assert batch.get_ylim() == single.get_ylim() == plot_study(result, axes=new_axes("one"))[0].get_ylim()
-    assert "9 random states (seed 1)" in batch.get_figure().get_suptitle()
+    assert "states: 9; seed: 1;" in batch.get_figure().get_suptitle()
 
 
 def test_labels_of_close_points_do_not_overlap():

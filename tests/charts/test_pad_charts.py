@@ -102,9 +102,9 @@ def test_films_of_pads_are_drawn_over_their_cost():
     result = StudyResult(study="pads", reference="a film", conditions=conditions, rungs=tuple(rungs))
     batch, alone = plot_study(result)
     filled = [line.get_data() for line in batch.get_lines() if line.get_markersize() == 7]
-    assert np.ravel(filled) == pytest.approx([0.1, 4e-3, 10.0, 2e-3])
+    assert np.ravel(filled) == pytest.approx([1e-7, 4e-3, 1e-5, 2e-3])
     texts = {text.get_text() for text in alone.texts}
-    assert texts == {"map", "grid", "error of the reference "}
+    assert texts == {"map", "grid", "gray: error of the reference "}
     assert "reference: a film" in batch.figure.get_suptitle()
 
 

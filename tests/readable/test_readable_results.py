@@ -26,7 +26,7 @@ pytest.importorskip("pandas")
 pytest.importorskip("xarray")
 
 NO_RESULTS = {
-    "what a chart is drawn from": {"HeatAnswer", "HeatModel", "StudyPanel", "StudyStyle"},
+    "what a chart is drawn from": {"HeatAnswer", "HeatModel", "StudyStyle"},
     "what a caller gives": {
         "OperatingPoint",
         "DamperGroups",
@@ -38,7 +38,7 @@ NO_RESULTS = {
     },
     "a part of the machinery": {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
-        *("FilmField", "StudyCase", "FilmCase", "Study", "Chart", "BushRun"),
+        *("FilmField", "StudyCase", "FilmCase", "Study", "BushRun"),
         *("RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("RestingBalls", "BuiltDamperFilm"),
