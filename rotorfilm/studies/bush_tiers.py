@@ -105,24 +105,25 @@ def bush_tiers(
     exact = two_moments(bush, times, **TIGHT)
     worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
     local = replace(worn, nodes=max(nodes), melting=LocalMelting())
-    runs: list[tuple[str, str, Callable[[], Array]]] = [
-        ("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
-        ("BushWear", "BushWear", lambda: _one_state(bush, times)),
+    models = [
+        _tier("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
+        _tier("BushWear", "BushWear", lambda: _one_state(bush, times)),
         *(
-            ("BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n)))
+            _tier(
+                "BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n))
+            )
             for n in nodes
         ),
-        (
+        _tier(
             "LocalMelting: another law",
             f"LocalMelting, {local.nodes} nodes",
             lambda: worn_run(times, local),
         ),
         *(
-            ("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
+            _tier("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
             for n in steps
         ),
     ]
-    models = [StudyModel(name=name, family=family, law=run) for family, name, run in runs]
     return run_study(
         BUSH,
         [StudyCase(models=models, reference=exact)],
@@ -130,6 +131,10 @@ def bush_tiers(
         notes={"times": times, "exact": exact, "shaft": shaft_flux_errors()},
         report=report,
     )
+
+
+def _tier(family: str, name: str, run: Callable[[], Array]) -> StudyModel:
+    return StudyModel(name=name, family=family, law=run)
 
 
 def shaft_columns(rows: Sequence[ShaftFluxError]) -> dict[str, list[object]]:

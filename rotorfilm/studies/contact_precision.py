@@ -81,13 +81,7 @@ def contact_precision(
     report(0.0, "reference")
     exact = _full(cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)()
     times = np.linspace(0.0, duration, 2001)
-    models = [
-        StudyModel(name=f"{family}, {label}", family=family, label=label, law=run, repeats=repeats)
-        for family, label, run, repeats in (
-            *_full_plan(cells, duration),
-            *_law_plan(cells // 2, duration, orders),
-        )
-    ]
+    models = [*_full_models(cells, duration), *_law_models(cells // 2, duration, orders)]
     return run_study(
         CONTACT,
         [StudyCase(models=models, reference=(times, CubicSpline(*exact)(times)))],
@@ -97,27 +91,29 @@ def contact_precision(
     )
 
 
-def _full_plan(cells: int, duration: float) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+def _model(family: str, label: str, run: Callable[[], Series], repeats: int = 1) -> StudyModel:
+    return StudyModel(name=f"{family}, {label}", family=family, label=label, law=run, repeats=repeats)
+
+
+def _full_models(cells: int, duration: float) -> Iterator[StudyModel]:
     coarse, middle = cells // 2, 3 * cells // 4
     middle -= middle % 2
     published = FixedSteps(step=PUBLISHED_STEP, order=1)
     run = _full(PUBLISHED_CELLS, StaggeredScheme(), published, duration)
-    yield "published scheme", f"dt {PUBLISHED_STEP:g}", run, 1
+    yield _model("published scheme", f"dt {PUBLISHED_STEP:g}", run)
     for step in (0.2, 0.1, 0.05, 0.025):
-        control = FixedSteps(step=step, order=1)
-        yield f"Euler, {middle} cells", f"dt {step:g}", _full(middle, UpwindScheme(), control, duration), 1
+        run = _full(middle, UpwindScheme(), FixedSteps(step=step, order=1), duration)
+        yield _model(f"Euler, {middle} cells", f"dt {step:g}", run)
     for size in (coarse, middle):
         for step in (0.2, 0.1, 0.05):
-            control = FixedSteps(step=step)
-            yield f"BDF2, {size} cells", f"dt {step:g}", _full(size, UpwindScheme(), control, duration), 1
+            run = _full(size, UpwindScheme(), FixedSteps(step=step), duration)
+            yield _model(f"BDF2, {size} cells", f"dt {step:g}", run)
         for tolerance in (1e-3, 1e-4):
             run = _full(size, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)
-            yield f"adaptive, {size} cells", f"tol {tolerance:g}", run, 1
+            yield _model(f"adaptive, {size} cells", f"tol {tolerance:g}", run)
 
 
-def _law_plan(
-    cells: int, duration: float, orders: tuple[int, ...]
-) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterator[StudyModel]:
     contact = published_contact(cells, UpwindScheme())
     for order in orders:
         law = reduce_contact(contact, order)
@@ -129,7 +125,7 @@ def _law_plan(
             )  # fmt: skip
             return motion.time, motion["z"]
 
-        yield "reduced law", f"order {order}", run, RIDES
+        yield _model("reduced law", f"order {order}", run, RIDES)
 
 
 def _full(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +16,6 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
 from ..cosim import (
-    CoSimulation,
     GaussSeidel,
     InProcessSlave,
     Jacobi,
@@ -110,33 +108,13 @@ UNBALANCE_RATIO = 0.45
 ANGLES = tuple(np.radians([0.5, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0]).tolist())
 
 
-class SchemeRun(NamedTuple):
-    """One run of one scheme.
-
-    Attributes
-    ----------
-    orbit_error : float or None
-        Largest distance from the monolithic solution / clearance; None where the run was refused.
-    film_calls : float
-        Film evaluations per turn, with the derivatives that the scheme asks for.
-    refused : str
-        Empty, or why the run is no answer.
-    """
-
-    orbit_error: float | None
-    film_calls: float
-    refused: str
-
-
 COUPLING = Study(
     name="cosim_cost",
     solve=lambda model, case: coupled_run(model.law, case.at, case.reference),
-    quantities=lambda model, case, run: {
+    quantities=lambda model, case, columns: {
         "scheme": model.family,
         "macro_angle [deg]": float(np.degrees(case.at)),
-        "orbit_error [1]": run.orbit_error,
-        "film_calls [1/turn]": run.film_calls,
-        "refused": run.refused,
+        **columns,
     },
     costs=counted,
 )
@@ -179,9 +157,14 @@ def cost_case() -> tuple[RigidRotor, JournalBearing]:
     return rotor, bearing
 
 
-def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> SchemeRun:
-    """Return error and work of a scheme at a macro step [rad]."""
+def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, object]:
+    """Return error and work of a scheme at a macro step [rad], by the headings of their columns.
+
+    The error is the largest distance from the monolithic solution / clearance, None for a refused run;
+    the work is film evaluations per turn, with the derivatives that the scheme asks for.
+    """
     rotor, bearing = cost_case()
+    error, refused, turns = None, "", float(REVOLUTIONS)
     try:
         with quietly():
             run = couple(
@@ -191,12 +174,11 @@ def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> SchemeRun:
                 duration=float(exact.time[-1]),
                 scheme=scheme,
             )
+        error = orbit_distance(run.trajectory, exact) / bearing.clearance
     except PartialResultError as failure:
-        partial: CoSimulation = failure.partial
-        turns = max(partial.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
-        return SchemeRun(None, partial.film_calls / turns, str(failure))
-    error = orbit_distance(run.trajectory, exact) / bearing.clearance
-    return SchemeRun(error, run.film_calls / REVOLUTIONS, "")
+        run, refused = failure.partial, str(failure)
+        turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
+    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
 
 
 # How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself.
