@@ -149,7 +149,8 @@ def _new_axes(result: StudyResult, style: StudyStyle, panels: int) -> list[Axes]
     rows = math.ceil(count / columns)
     width = columns * style.size[0]
     figure = new_figure(size=(width, rows * style.size[1] + 1.2))
-    told = {"reference [-]": result.reference, **result.conditions}
+    numbers = {name: value for name, value in result.notes.items() if isinstance(value, float)}
+    told = {"reference [-]": result.reference, **result.conditions, **numbers}
     texts = (f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
     lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * width))]
     figure.suptitle("\n".join(lines), fontsize=10)

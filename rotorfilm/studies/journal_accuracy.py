@@ -188,14 +188,6 @@ class StateRange:
         if not (self.squeeze > 0.0 and slowest < fastest):
             raise InputError(f"squeeze and whirl must span a range, got {self.squeeze!r}, {self.whirl!r}")
 
-    def describe(self) -> str:
-        """Return the ranges in one line."""
-        (low, high), (slow, fast) = self.eccentricity_ratio, self.whirl
-        return (
-            f"eps {low:g} to {high:g}, |deps/dt| < {self.squeeze:g} omega, "
-            f"{slow:g} omega < dphi/dt < {fast:g} omega, all uniform"
-        )
-
 
 def _pair(name: str, values: tuple[float, float]) -> tuple[float, float]:
     if not isinstance(values, tuple) or len(values) != 2:
@@ -397,6 +389,5 @@ def journal_accuracy(
         [case],
         reference=text,
         conditions=conditions,
-        notes={"ranges": ranges.describe()},
         report=part_of(report, 0.5, 1.0),
     )

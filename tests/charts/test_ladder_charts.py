@@ -105,9 +105,7 @@ def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
         "reference error, median [1]": 1e-6,
         "reference error, 99 % [1]": 1e-5,
     }
-    result = StudyResult(
-        study="journal", reference="2-D", conditions=conditions, notes={"ranges": "all"}, rungs=rungs
-    )
+    result = StudyResult(study="journal", reference="2-D", conditions=conditions, rungs=rungs)
     batch, single = plot_study(result)
     filled = [line for line in batch.get_lines() if line.get_marker() == "o" and line.get_markersize() == 7]
     np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1e-6, 3.5e-3, 1e-7])
