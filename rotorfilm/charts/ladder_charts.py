@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -76,7 +76,7 @@ class StudyStyle:
 
     title: str
     panels: Sequence[StudyPanel]
-    lines: Mapping[str, str | tuple[str, str, str]] = field(default_factory=dict)
+    lines: Mapping[Any, str | tuple[str, str, str]] = field(default_factory=dict)
     dots: tuple[str, str] = ("99 % of the states", "median")
     joined: bool = False
     labels: bool = True

@@ -125,6 +125,7 @@ def plot_bearing_thresholds(result: BearingThresholds, *, axes: Axes | None = No
 def draw_bush_angles(axes: Axes, result: StudyResult) -> None:
     """Draw the contact angle by the last model of each family, and by the reference."""
     for rung in {rung.family: rung for rung in result.rungs}.values():
+        assert rung.answer is not None
         axes.plot(result.notes["times"], rung.answer, label=rung.name)
     axes.plot(result.notes["times"], result.notes["exact"], "k:", label="reference")
     axes.set(xlabel="time [s]", ylabel="half contact angle [rad]", title="Growing load")
@@ -339,7 +340,7 @@ def _strip(axes: Axes, panel: Panel, limits: list[Limit]) -> None:
 # Charts of coupling schemes: how long a macro step each stands.
 
 
-SCHEME_LINES: dict[str, str | tuple[str, str, str]] = {
+SCHEME_LINES = {
     SchemeName.HELD: ("#1f4fb4", "-", "o"),
     SchemeName.LINEAR: ("#1f4fb4", "--", "s"),
     SchemeName.QUADRATIC: ("#1f4fb4", ":", "^"),
