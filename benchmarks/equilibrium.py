@@ -14,7 +14,7 @@ import numpy as np
 
 from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
-from rotorfilm.studies.journal_accuracy import shortest_time
+from rotorfilm.studies import shortest_time
 
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}
 LOADS = np.geomspace(100.0, 1e5, 12)

@@ -21,7 +21,7 @@ from scipy.linalg import solveh_banded
 
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.journal import ShortFilm, SpectralArcFilm, SplittingFilm
-from rotorfilm.studies.journal_accuracy import shortest_time
+from rotorfilm.studies import shortest_time
 
 SLENDERNESS = (0.25, 1.0)
 STATES, COPIES = 12, 8

@@ -33,10 +33,12 @@ from rotorfilm.bearings.journal import (
     fitted_bearing,
 )
 from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
-from rotorfilm.studies import LARGE, comparison_bearing, random_states
-from rotorfilm.studies.journal_accuracy import (
+from rotorfilm.studies import (
+    LARGE,
     States,
+    comparison_bearing,
     film_costs,
+    random_states,
     reference_force,
     relative_error,
     shortest_time,

@@ -57,13 +57,13 @@ def forces() -> None:
     for slenderness in SLENDERNESS:
         found = pad_accuracy(slenderness, states=100, rungs=kept, rounds=1)
         for rung in found.rungs:
-            errors = (rung.median_error, rung.usual_error, rung.high_error)
+            errors = (rung[f"{part} error [1]"] for part in ("median", "90 %", "99 %"))
             row(
                 slenderness,
                 rung.name,
                 *(f"{error:.1e}" for error in errors),
-                f"{found.reference_usual:.1e}",
-                f"{found.reference_high:.1e}",
+                f"{found.conditions['reference error, 90 % [1]']:.1e}",
+                f"{found.conditions['reference error, 99 % [1]']:.1e}",
             )
 
 

@@ -20,13 +20,7 @@ if TYPE_CHECKING:
         plot_transmissibility as plot_transmissibility,
         plot_transmitted as plot_transmitted,
     )
-    from .ladder_charts import (
-        plot_contact_limits as plot_contact_limits,
-        plot_contact_precision as plot_contact_precision,
-        plot_damper_accuracy as plot_damper_accuracy,
-        plot_heat_accuracy as plot_heat_accuracy,
-        plot_pad_accuracy as plot_pad_accuracy,
-    )
+    from .ladder_charts import plot_study as plot_study
     from .page import write_page as write_page
     from .result_charts import (
         RungPoint as RungPoint,
@@ -38,7 +32,6 @@ if TYPE_CHECKING:
         plot_trajectory as plot_trajectory,
     )
     from .rolling_charts import (
-        plot_ball_accuracy as plot_ball_accuracy,
         plot_ball_curves as plot_ball_curves,
         plot_compliance as plot_compliance,
     )
@@ -61,22 +54,16 @@ if TYPE_CHECKING:
     from .study_charts import (
         plot_bearing_coefficients as plot_bearing_coefficients,
         plot_bearing_thresholds as plot_bearing_thresholds,
-        plot_bush_tiers as plot_bush_tiers,
         plot_contact_cases as plot_contact_cases,
-        plot_coupling_cost as plot_coupling_cost,
+        plot_contact_limits as plot_contact_limits,
         plot_coupling_error as plot_coupling_error,
         plot_coupling_limits as plot_coupling_limits,
         plot_limit_summary as plot_limit_summary,
         plot_limits as plot_limits,
-        plot_shaft_flux_error as plot_shaft_flux_error,
     )
     from .whirl_verdicts import (
         plot_journal_stability as plot_journal_stability,
         plot_thresholds as plot_thresholds,
-    )
-    from .work_precision import (
-        plot_force_error as plot_force_error,
-        plot_journal_accuracy as plot_journal_accuracy,
     )
 else:
     show(__name__)

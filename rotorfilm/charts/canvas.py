@@ -161,7 +161,7 @@ def _outside(box: Bbox, frame: Bbox) -> float:
 # Colors of the charts: one for each family of films, the same in every chart.
 
 
-FAMILY_COLORS = {
+FAMILY_COLORS: dict[str, str] = {
     FilmFamily.SHORT: "#8c564b",
     FilmFamily.PUBLISHED: "#e377c2",
     FilmFamily.FIXED: "#d62728",
@@ -174,7 +174,7 @@ FAMILY_COLORS = {
 }
 """Colors by the family of a rung."""
 
-FAMILY_WIDTHS = {
+FAMILY_WIDTHS: dict[str, float] = {
     FilmFamily.SHORT: 7.0,
     FilmFamily.PUBLISHED: 3.8,
     FilmFamily.FIXED: 2.4,
@@ -187,7 +187,7 @@ FAMILY_WIDTHS = {
 }
 """Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
 
-DASHES: dict[FilmFamily | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
+DASHES: dict[str | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
 """Dashes of lines by family, in widths; of all others the first is solid."""
 
 WITHIN = ("-", "--", ":", "-.")

@@ -1,280 +1,379 @@
-"""Marks of the rungs of a ladder: error over cost, as filled and open dots with labels."""
+"""Error over cost of the models of a study: one function draws all, from a record of each."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..studies import (
-    DamperAccuracy,
-    DamperRung,
-    HeatAccuracy,
-    HeatLadder,
-    HeatModel,
-    PadAccuracy,
-    PadFamily,
-    PadRung,
-    SqueezeFamily,
-)
-from ..studies.contact_precision import ContactLimits, ContactPrecision
-from .canvas import BAD, DOUBTFUL, GOOD, Label, new_axes, new_figure, place_labels
+from ..studies import FilmFamily, HeatModel, PadFamily, SqueezeFamily, StudyResult, StudyRung, pareto_front
+from .canvas import FAMILY_COLORS, FRONT, Label, new_figure, place_labels
+from .study_charts import SCHEME_LINES, draw_bush_angles, draw_shaft_flux
+
+MARKS = "osD^v<>"
+"""Of families that have none of their own, in turn."""
 
 
-class RungMark(NamedTuple):
-    """One rung: its cost [us], 99 % of its errors and their median if that is drawn, its label and color."""
+class StudyPanel(NamedTuple):
+    """The columns that a panel draws, by their headings, and of which families of a case.
 
-    cost: float
-    high: float
-    median: float | None
-    label: str
-    color: str
+    Attributes
+    ----------
+    x, y : str
+        Cost and error.
+    median : str
+        A second error, drawn as an open dot.
+    families : sequence
+        Those drawn; all if empty.
+    crossed : bool
+        Whether runs without an error are drawn as crosses at the top.
+    """
+
+    x: str
+    y: str
+    median: str = ""
+    families: Sequence[str] = ()
+    crossed: bool = False
 
 
-def draw_marks(axes: Axes, marks: Sequence[RungMark], *, margins: tuple[float, float]) -> None:
-    """Draw a filled dot for 99 % of the errors, an open one for the median, and a line between them.
+@dataclass(frozen=True, kw_only=True)
+class StudyStyle:
+    """How a study is drawn.
+
+    Attributes
+    ----------
+    title : str
+    panels : sequence of StudyPanel
+        Drawn for each case of the study.
+    lines : mapping
+        Color, or color, line and mark, by the family of a rung.
+    dots : (str, str)
+        What a filled and an open dot mean.
+    joined : bool
+        Whether the rungs of a family are joined by a line, over all cases.
+    labels : bool
+        Whether marks have labels.
+    band : str
+        Condition with the error of the reference, below which errors mean nothing.
+    champion : str
+        Family whose gain over the others is shown.
+    further : sequence of callable
+        Draw the result into further panels.
+    columns : int
+        Panels in a row.
+    size : (float, float) [inch]
+        Of a panel.
+    """
+
+    title: str
+    panels: Sequence[StudyPanel]
+    lines: Mapping[Any, str | tuple[str, str, str]] = field(default_factory=dict)
+    dots: tuple[str, str] = ("99 % of the states", "median")
+    joined: bool = False
+    labels: bool = True
+    band: str = ""
+    champion: str = ""
+    further: Sequence[Callable[[Axes, StudyResult], object]] = ()
+    columns: int = 2
+    size: tuple[float, float] = (6.6, 6.2)
+
+
+class DrawnPanel(NamedTuple):
+    """One panel of a result: where it is drawn, what, how, and of which rungs."""
+
+    axes: Axes
+    panel: StudyPanel
+    style: StudyStyle
+    rungs: Sequence[StudyRung]
+    band: float
+
+    @property
+    def shown(self) -> list[StudyRung]:
+        """Rungs that have an error and a cost."""
+        return [rung for rung in self.rungs if rung[self.panel.y] and rung[self.panel.x]]
+
+    def line(self, family: str) -> tuple[str, str, str]:
+        """Return color, line and mark of a family."""
+        number = list(dict.fromkeys(rung.family for rung in self.rungs)).index(family)
+        found = self.style.lines.get(family, f"C{number}")
+        return (found, "-", MARKS[number % len(MARKS)]) if isinstance(found, str) else found
+
+
+def plot_study(result: StudyResult, *, axes: Axes | None = None) -> list[Axes]:
+    """Draw errors over costs of the models of a study.
+
+    A filled dot is a high percentile of the error of a model, an open one its median. A gray band is the
+    error of the reference, below which no error can be told.
 
     Parameters
     ----------
-    axes : Axes
-    marks : sequence of RungMark
-    margins : (float, float)
-        Ends of the axis of the cost, in the smallest and in the largest one.
-    """
-    axes.set(xscale="log", yscale="log")
-    axes.grid(visible=True, which="major", alpha=0.3)
-    for x, high, median, _, color in marks:
-        if median is not None:
-            axes.plot([x, x], [median, high], "-", color=color, linewidth=1.0, alpha=0.5)
-            axes.plot(x, median, "o", color=color, markerfacecolor="white", markersize=4.5)
-        axes.plot(x, high, "o", color=color, markersize=7)
-    costs = [mark.cost for mark in marks]
-    axes.set_xlim(margins[0] * min(costs), margins[1] * max(costs))
-
-
-def label_marks(axes: Axes, marks: Sequence[RungMark]) -> None:
-    """Write the labels, once limits and size are final."""
-    medians = [(mark.cost, mark.median) for mark in marks if mark.median is not None]
-    labels = [Label(mark.cost, mark.high, mark.label, mark.color) for mark in marks]
-    place_labels(axes, labels, obstacles=medians)
-
-
-# Chart of error against cost for the ladder of squeeze films.
-
-
-DAMPER_COLORS = {
-    SqueezeFamily.SERIES: "#2ca02c",
-    SqueezeFamily.FINITE: "#1f4fb4",
-    SqueezeFamily.MAP: "#000000",
-    SqueezeFamily.PUBLISHED: "#e377c2",
-    SqueezeFamily.REDUCED: "#d62728",
-}
-SHORT = (SqueezeFamily.SERIES, SqueezeFamily.MAP, SqueezeFamily.REDUCED)
-"""Families of short films."""
-
-
-def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
-    """Draw the squeeze films over the cost of a force: against finite length, and against the series.
-
-    A filled dot is the 99th percentile of the error, an open one the median.
-    """
-    figure = new_figure(size=(14.0, 7.0))
-    shown = figure.subplots(1, 3)
-    for axes, cavitated, title in zip(shown, (True, False), ("cavitated", "full film"), strict=False):
-        rungs = [rung for rung in result.rungs if rung.cavitated is cavitated]
-        _draw_damper(
-            axes,
-            [_mark_damper(rung, rung.high_error, rung.median_error) for rung in rungs if rung.high_error],
-        )
-        axes.set_title(f"{title}, against the film of finite length")
-    short = [rung for rung in result.rungs if rung.cavitated and rung.family in SHORT and rung.series_error]
-    _draw_damper(shown[2], [_mark_damper(rung, rung.series_error, None) for rung in short])
-    shown[2].set_title("cavitated, against the whole series (short film)")
-    figure.suptitle(
-        f"Squeeze films at L/D = {result.slenderness:g}, Phi = {result.permeability_number:g}: error of the "
-        f"force against its cost\n{result.states} random states (seed {result.seed}), eccentricity ratio to "
-        "0.9; filled 99 %, open median",
-        fontsize=11,
-    )
-    return list(shown)
-
-
-def _mark_damper(rung: DamperRung, high: float, median: float | None) -> RungMark:
-    return RungMark(1e6 * rung.cost.force_time, high, median, rung.name, DAMPER_COLORS[rung.family])
-
-
-def _draw_damper(axes: Axes, marks: Sequence[RungMark]) -> None:
-    axes.set(xlabel="time of one force in a batch [us]", ylabel="relative error [1]")
-    draw_marks(axes, marks, margins=(0.3, 6.0))
-    label_marks(axes, marks)
-
-
-# Chart of error against cost of the models of a film's heat, a panel for each bearing.
-
-
-HEAT_COLORS = {
-    HeatModel.SUPPLY: "#d62728",
-    HeatModel.BALANCE: "#000000",
-    HeatModel.HOUSING: "#7f7f7f",
-    HeatModel.ADIABATIC: "#17becf",
-    HeatModel.BUSH: "#1f4fb4",
-    HeatModel.LAYERS: "#2ca02c",
-}
-PANEL = (7.0, 4.6)
-"""Width and height of a panel [inch]."""
-
-
-def plot_heat_accuracy(result: HeatAccuracy) -> list[Axes]:
-    """Draw the models of heat over the cost of an equilibrium: error of the position, and of the power.
-
-    Parameters
-    ----------
-    result : HeatAccuracy
+    result : StudyResult
+    axes : Axes, optional
+        Where to draw the first panel alone, in a figure of its final size; a new figure with all by default.
 
     Returns
     -------
     list of Axes
-        Of one figure, one for each bearing.
     """
-    count = len(result.ladders)
-    columns = min(2, count)
-    rows = math.ceil(count / columns)
-    figure = new_figure(size=(columns * PANEL[0], rows * PANEL[1] + 1.0))
-    shown = [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
-    figure.suptitle(
-        "Films that warm: error of an equilibrium against its cost\n"
-        f"reference: {result.reference}, its walls a steel bush and an insulated journal",
-        fontsize=11,
-    )
-    dots = [
-        Line2D([], [], marker="o", linestyle="", color="0.3", label="position of the journal"),
-        Line2D([], [], marker="o", linestyle="", color="0.3", markerfacecolor="w", label="power loss"),
-    ]
-    figure.legend(handles=dots, loc="outside lower center", ncols=2, fontsize=8.5, frameon=False)
-    for axes, ladder in zip(shown, result.ladders, strict=True):
-        _draw_heat(axes, ladder)
-    for axes, ladder in zip(shown, result.ladders, strict=True):
-        label_marks(axes, _marks(ladder))
+    style = STYLES[result.study]
+    cases = [""] if style.joined else list(dict.fromkeys(rung.case for rung in result.rungs))
+    wanted = [(case, panel) for panel in style.panels for case in cases][: None if axes is None else 1]
+    shown = _new_axes(result, style, len(wanted)) if axes is None else [axes]
+    drawn = []
+    for one, (case, panel) in zip(shown, wanted, strict=False):
+        rungs = [rung for rung in result.rungs if case in ("", rung.case)]
+        rungs = [rung for rung in rungs if rung.family in (panel.families or (rung.family,))]
+        drawn.append(DrawnPanel(one, panel, style, rungs, result.conditions.get(style.band, 0.0)))
+        one.set_title(case, fontsize=10)
+        _draw_panel(drawn[-1])
+    for one, draw in zip(shown[len(wanted) :], style.further, strict=False):
+        draw(one, result)
+    _add_legend(drawn[0], result, alone=axes is not None)
+    for each in drawn:
+        _write_labels(each)
     return shown
 
 
-def _draw_heat(axes: Axes, ladder: HeatLadder) -> None:
-    marks = _marks(ladder)
-    draw_marks(axes, marks, margins=(0.4, 4.0))
-    errors = [error for rung in ladder.rungs for error in (rung.position_error, rung.power_error)]
-    axes.set_ylim(0.4 * min(errors), 3.0 * max(errors))
-    axes.set(xlabel="CPU time of an equilibrium with its coefficients [ms]", ylabel="relative error [1]")
-    E, Pe, Na = ladder.numbers
-    axes.set_title(f"{ladder.case.name}: E = {E:.2g}, Pe = {Pe:.2g}, Na = {Na:.2g}", fontsize=10)
+def _new_axes(result: StudyResult, style: StudyStyle, panels: int) -> list[Axes]:
+    count = panels + len(style.further)
+    columns = min(style.columns, count)
+    rows = math.ceil(count / columns)
+    width = columns * style.size[0]
+    figure = new_figure(size=(width, rows * style.size[1] + 1.2))
+    numbers = {name: value for name, value in result.notes.items() if isinstance(value, float)}
+    told = {"reference [-]": result.reference, **result.conditions, **numbers}
+    texts = (f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
+    lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * width))]
+    figure.suptitle("\n".join(lines), fontsize=10)
+    return [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
 
 
-def _marks(ladder: HeatLadder) -> list[RungMark]:
-    return [
-        RungMark(
-            1e3 * rung.cost, rung.position_error, rung.power_error, rung.model.said, HEAT_COLORS[rung.model]
-        )
-        for rung in ladder.rungs
+def _text(value: object) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def _draw_panel(drawn: DrawnPanel) -> None:
+    axes, panel, style, _, band = drawn
+    axes.set(xscale="log", yscale="log", xlabel=panel.x, ylabel=panel.y)
+    axes.grid(visible=True, which="major", alpha=0.3)
+    if style.joined:
+        _draw_families(drawn)
+        return
+    if band:
+        axes.axhspan(1e-12, band, color="0.85", zorder=0)
+    for rung in drawn.shown:
+        _draw_rung(axes, panel, rung, drawn.line(rung.family)[0])
+    costs, errors = ([rung[name] for rung in drawn.shown] for name in (panel.x, panel.y))
+    errors += [rung[panel.median] for rung in drawn.shown if panel.median]
+    axes.set_xlim(0.4 * min(costs), 4.0 * max(costs))
+    lowest = min(filter(None, (*errors, band)))
+    axes.set_ylim(10.0 ** np.floor(np.log10(0.5 * lowest)), 6.0 * max(errors))
+    if style.champion:
+        _draw_front(axes, panel, drawn.shown, "-")
+        _draw_front(axes, panel, [rung for rung in drawn.shown if rung.family != style.champion], ":")
+
+
+def _draw_rung(axes: Axes, panel: StudyPanel, rung: StudyRung, color: str) -> None:
+    x, high = rung[panel.x], rung[panel.y]
+    if panel.median:
+        axes.plot([x, x], [rung[panel.median], high], "-", color=color, linewidth=1.0, alpha=0.5)
+        axes.plot(x, rung[panel.median], "o", color=color, markerfacecolor="white", markersize=4.5)
+    axes.plot(x, high, "o", color=color, markersize=7)
+
+
+def _draw_families(drawn: DrawnPanel) -> None:
+    axes, panel, _, rungs, _ = drawn
+    top = 3.0 * max(rung[panel.y] for rung in drawn.shown)
+    for family in dict.fromkeys(rung.family for rung in rungs):
+        good = [rung for rung in drawn.shown if rung.family == family]
+        color, line, mark = drawn.line(family)
+        points = ([rung[name] for rung in good] for name in (panel.x, panel.y))
+        axes.plot(*points, line, marker=mark, color=color, label=family)
+        if panel.crossed:
+            bad = [rung[panel.x] for rung in rungs if rung.family == family and rung[panel.y] is None]
+            axes.plot(bad, [top] * len(bad), "x", color=color)
+
+
+def _draw_front(axes: Axes, panel: StudyPanel, rungs: Sequence[StudyRung], style: str) -> None:
+    """Draw the staircase below which no rung lies, by cost and error."""
+    if not rungs:
+        return
+    costs, errors = ([rung[name] for rung in rungs] for name in (panel.x, panel.y))
+    corners = [(costs[i], errors[i]) for i in pareto_front(costs, errors)]
+    x, y = [corners[0][0]], [1e6]
+    for (_, high), (x_next, y_next) in pairwise([(0.0, 1e6), *corners]):
+        x += [x_next, x_next]
+        y += [high, y_next]
+    axes.plot([*x, 1e9], [*y, y[-1]], style, color=FRONT, linewidth=1.3, zorder=0.5)
+
+
+def _write_labels(drawn: DrawnPanel) -> None:
+    """Write the labels, once limits and size are final."""
+    axes, panel, style, _, band = drawn
+    if not style.labels:
+        return
+    labels = [
+        Label(rung[panel.x], rung[panel.y], rung.label or rung.name, drawn.line(rung.family)[0])
+        for rung in drawn.shown
     ]
+    medians = [(rung[panel.x], rung[panel.median]) for rung in drawn.shown if panel.median]
+    place_labels(axes, labels, obstacles=medians)
+    if style.champion:
+        _draw_gain(axes, panel, style, drawn.shown)
+    if band:
+        told = "gray: error of the reference "
+        axes.text(0.99, 0.01, told, transform=axes.transAxes, ha="right", fontsize=8, color="0.35")
 
 
-# Chart of error against cost for the films of pads.
-
-
-PAD_COLORS = {PadFamily.MAP: "#000000", PadFamily.GRID: "#1f4fb4"}
-
-
-def plot_pad_accuracy(result: PadAccuracy) -> list[Axes]:
-    """Draw the films of pads over the cost of a force, in a batch and alone.
-
-    A filled dot is the 99th percentile of the error, an open one the median; the gray band is the distance of
-    the reference from half its cells, 99 %.
-    """
-    figure = new_figure(size=(12.5, 6.9))
-    shown = figure.subplots(1, 2, sharey=True)
-    batch = [_mark(rung, rung.cost.force_time) for rung in result.rungs]
-    alone = [_mark(rung, rung.cost.call_time) for rung in result.rungs]
-    for axes, marks in zip(shown, (batch, alone), strict=True):
-        axes.axhspan(1e-12, result.reference_high, color="0.85", zorder=0)
-        draw_marks(axes, marks, margins=(0.4, 4.0))
-    shown[0].set(
-        xlabel="time of the force of one pad in a batch [us]", ylabel="relative error of the force [1]"
-    )
-    shown[1].set(xlabel="time of the force of one pad, state by state through prepare() [us]")
-    shown[0].set_ylim(0.5 * _lowest(result.rungs), 3.0 * max(rung.high_error for rung in result.rungs))
-    figure.suptitle(_title(result), fontsize=10.5)
-    for axes, marks in zip(shown, (batch, alone), strict=True):
-        label_marks(axes, marks)
-    return list(shown)
-
-
-def _mark(rung: PadRung, cost: float) -> RungMark:
-    return RungMark(1e6 * cost, rung.high_error, rung.median_error, rung.name, PAD_COLORS[rung.family])
-
-
-def _lowest(rungs: Sequence[PadRung]) -> float:
-    return min(rung.median_error for rung in rungs)
-
-
-def _title(result: PadAccuracy) -> str:
-    return (
-        f"Films of pads at L/D = {result.slenderness:g}: error of the force of a bearing against its cost\n"
-        f"{', '.join(result.bearings)}\n"
-        f"{result.states} random states of each (seed {result.seed}), filled 99 %, open median\n"
-        f"reference: {result.reference}; 99 % within {result.reference_high:.1e} of half its cells"
+def _draw_gain(axes: Axes, panel: StudyPanel, style: StudyStyle, rungs: Sequence[StudyRung]) -> None:
+    """Draw how much cheaper the champion is than the closest of the other rungs."""
+    first = [rung for rung in rungs if rung.family == style.champion]
+    others = [rung for rung in rungs if rung.family != style.champion]
+    if not first or not others:
+        return
+    best = min(others, key=lambda rung: float(rung[panel.y]))
+    ends, level = (first[0][panel.x], best[panel.x]), best[panel.y]
+    arrow = {"arrowstyle": "<|-|>", "color": FRONT, "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 4.0}
+    axes.annotate("", (ends[1], level), (ends[0], level), arrowprops=arrow)
+    axes.text(
+        (ends[0] * ends[1]) ** 0.5,
+        1.15 * level,
+        f"{style.champion} {_rounded(ends[1] / ends[0])} times cheaper",
+        ha="center",
+        va="bottom",
+        fontsize=8.5,
+        color=FRONT,
     )
 
 
-# Charts of the ladder of contact models, and of the limits of the published scheme.
+def _rounded(ratio: float) -> str:
+    """Return a ratio with two digits, thousands apart."""
+    digits = max(0, math.floor(math.log10(ratio)) - 1)
+    return f"{round(ratio, -digits):,.0f}".replace(",", " ")
 
 
-def plot_contact_precision(result: ContactPrecision) -> list[Axes]:
-    """Draw the error of the motion over its cost, one color for each family."""
-    axes = new_axes("Rolling ball, W = 1, load 1 + 0.5 sin 2t: error against cost", size=(9.0, 6.4))
-    axes.set(xscale="log", yscale="log", ylabel="rms error of delta / rms of its motion [1]")
-    axes.set_xlabel(f"processor time of {result.duration:g} units of time [s]; reference: {result.reference}")
-    families = list(dict.fromkeys(rung.family for rung in result.rungs))
-    labels = []
-    for number, family in enumerate(families):
-        rungs, color = [rung for rung in result.rungs if rung.family == family], f"C{number}"
-        axes.plot([r.cost for r in rungs], [r.error for r in rungs], "o-", color=color, label=family)
-        labels += [Label(r.cost, r.error, r.label, color) for r in rungs]
-    axes.legend(fontsize=8)
-    place_labels(axes, labels)
-    return [axes]
+def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
+    axes, style = drawn.axes, drawn.style
+    if style.joined:
+        axes.legend(fontsize=8)
+        return
+    dot = partial(Line2D, [], [], marker="o", linestyle="")
+    families = dict.fromkeys(rung.family for rung in result.rungs if rung.family in style.lines)
+    colors = {family: style.lines[family] for family in families}
+    handles = [
+        *(dot(color=color, label=family) for family, color in colors.items() if isinstance(color, str)),
+        dot(color="0.3", label=style.dots[0]),
+        dot(color="0.3", markerfacecolor="w", label=style.dots[1]),
+    ]
+    if style.champion:
+        handles += [
+            Line2D([], [], color=FRONT, label="best at its cost (99 %)"),
+            Line2D([], [], color=FRONT, linestyle=":", label=f"the same without the {style.champion}"),
+        ]
+    if alone:
+        axes.legend(handles=handles, fontsize=7.5, loc="upper right", framealpha=1.0)
+    else:
+        figure = axes.get_figure()
+        assert isinstance(figure, Figure)
+        figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=8.5, frameon=False)
 
 
-def plot_contact_limits(result: ContactLimits) -> list[Axes]:
-    """Draw where the published scheme fails under load steps, and the decay times it shows."""
-    steps, decay = new_figure(size=(12.0, 4.8)).subplots(1, 2)
-    _cells(steps, result.reached, result.steps, result.load_steps, _failure)
-    steps.set(title="load step at W = 1: time of failure", xlabel="amplitude A", ylabel="step dt")
-    ratio = result.shown / result.physical
-    _cells(decay, ratio, result.steps, result.inertias, _decay)
-    decay.set(title="decay time shown / physical", xlabel="inertia W", ylabel="step dt")
-    return [steps, decay]
+# The record of each study.
 
 
-def _cells(
-    axes: Axes, values: np.ndarray, rows: tuple[float, ...], columns: tuple[float, ...], describe: object
-) -> None:
-    assert callable(describe)
-    for (i, j), value in np.ndenumerate(values):
-        text, color = describe(float(value))
-        axes.fill_between([j - 0.5, j + 0.5], i - 0.5, i + 0.5, color=color, edgecolor="white")
-        axes.text(j, i, text, ha="center", va="center", fontsize=9)
-    axes.set_xticks(range(len(columns)), [f"{value:g}" for value in columns])
-    axes.set_yticks(range(len(rows)), [f"{value:g}" for value in rows])
-    axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
+HIGH, MEDIAN = "99 % error [1]", "median error [1]"
+BATCH, ALONE = "force in a batch [s]", "force alone, prepare() [s]"
+BAND = "reference error, 99 % [1]"
 
-
-def _failure(time: float) -> tuple[str, str]:
-    return ("runs", GOOD) if np.isinf(time) else (f"{time:.3g}", BAD)
-
-
-def _decay(ratio: float) -> tuple[str, str]:
-    color = GOOD if ratio > 0.9 else DOUBTFUL if ratio > 0.5 else BAD
-    return f"{ratio:.2g}", color
+STYLES = {
+    "journal": StudyStyle(
+        title="Journal films: relative error of the force against its cost",
+        panels=(StudyPanel(BATCH, HIGH, MEDIAN), StudyPanel(ALONE, HIGH, MEDIAN)),
+        lines=FAMILY_COLORS,
+        band=BAND,
+        champion=FilmFamily.MAP,
+    ),
+    "pads": StudyStyle(
+        title="Films of pads: relative error of the force of a bearing against its cost",
+        panels=(
+            StudyPanel("force of a pad in a batch [s]", HIGH, MEDIAN),
+            StudyPanel("force of a pad alone, prepare() [s]", HIGH, MEDIAN),
+        ),
+        lines={PadFamily.MAP: "#000000", PadFamily.GRID: "#1f4fb4"},
+        band=BAND,
+    ),
+    "damper": StudyStyle(
+        title="Squeeze films: relative error of the force against its cost",
+        panels=(
+            StudyPanel(BATCH, HIGH, MEDIAN),
+            StudyPanel(
+                BATCH,
+                "99 % error against the short film [1]",
+                families=(SqueezeFamily.SERIES, SqueezeFamily.MAP, SqueezeFamily.REDUCED),
+            ),
+        ),
+        lines={
+            SqueezeFamily.SERIES: "#2ca02c",
+            SqueezeFamily.FINITE: "#1f4fb4",
+            SqueezeFamily.MAP: "#000000",
+            SqueezeFamily.PUBLISHED: "#e377c2",
+            SqueezeFamily.REDUCED: "#d62728",
+        },
+    ),
+    "heat": StudyStyle(
+        title="Films that warm: error of an equilibrium with its coefficients against its cost",
+        panels=(StudyPanel("CPU time [s]", "error of the position [1]", "error of the power [1]"),),
+        lines={
+            HeatModel.SUPPLY: "#d62728",
+            HeatModel.BALANCE: "#000000",
+            HeatModel.HOUSING: "#7f7f7f",
+            HeatModel.ADIABATIC: "#17becf",
+            HeatModel.BUSH: "#1f4fb4",
+            HeatModel.LAYERS: "#2ca02c",
+        },
+        dots=("position of the journal", "power loss"),
+        size=(7.0, 4.6),
+    ),
+    "rolling_ladder": StudyStyle(
+        title="Models of ball bearings: error of the stiffness against its cost",
+        panels=(StudyPanel("force and derivatives [s]", "90 % error of K [1]", "median error of K [1]"),),
+        dots=("90 % of the states", "median"),
+        size=(7.6, 4.8),
+    ),
+    "bush": StudyStyle(
+        title="Models of the polymer bush under a growing load",
+        panels=(StudyPanel("time of the run [s]", "angle error [1]"),),
+        joined=True,
+        labels=False,
+        further=(draw_bush_angles, draw_shaft_flux),
+        columns=3,
+        size=(5.0, 4.4),
+    ),
+    "contact": StudyStyle(
+        title="Rolling ball, W = 1, load 1 + 0.5 sin 2t: error of delta / its motion against processor time",
+        panels=(StudyPanel("cost [s]", "rms error of delta"),),
+        joined=True,
+        size=(9.0, 5.6),
+    ),
+    "cosim_cost": StudyStyle(
+        title="Coupling schemes: error of the orbit / clearance; x: refused",
+        panels=(
+            StudyPanel("film_calls [1/turn]", "orbit_error [1]"),
+            StudyPanel("macro_angle [deg]", "orbit_error [1]", crossed=True),
+        ),
+        lines=SCHEME_LINES,
+        joined=True,
+        labels=False,
+        size=(5.5, 4.4),
+    ),
+}
+"""How each study is drawn, by its name."""

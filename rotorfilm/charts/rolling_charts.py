@@ -1,4 +1,4 @@
-"""Charts of ball bearings: loads, contact angles and stiffness over speed, swing, error against cost."""
+"""Charts of ball bearings: loads, contact angles and stiffness over speed, swing."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..analysis import VariableCompliance
-from ..studies import BallAccuracy, BallCurves
+from ..studies import BallCurves
 from .canvas import new_axes, new_figure
-from .ladder_charts import RungMark, draw_marks, label_marks
 
 RPM = 30.0 / math.pi
 SHOWN = 8
@@ -59,31 +58,6 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
     axes.set_ylim(1e-3 * 1e9 * result.swing_amplitude.max(), 3e9 * result.swing_amplitude.max())
     _finish(axes)
     return axes
-
-
-def plot_ball_accuracy(result: BallAccuracy) -> list[Axes]:
-    """Draw the error of the stiffness of each model over the time of its force and derivatives.
-
-    A filled dot is the 90th percentile, an open one the median.
-
-    Parameters
-    ----------
-    result : BallAccuracy
-    """
-    axes = new_axes(
-        f"Models of ball bearings, {result.states} loads and speeds of two bearings", size=(7.6, 5.4)
-    )
-    marks = [
-        RungMark(1e6 * rung.call_time, rung.usual_error, rung.median_error, rung.name, "#1f4fb4")
-        for rung in result.rungs
-    ]
-    draw_marks(axes, marks, margins=(0.4, 4.0))
-    axes.set(
-        xlabel="time of force and derivatives at one place [us]",
-        ylabel=f"error of K against {result.reference.partition(',')[0]} [1]",
-    )
-    label_marks(axes, marks)
-    return [axes]
 
 
 def _draw_loads(result: BallCurves, axes: Axes) -> None:

@@ -1,4 +1,4 @@
-"""Charts of the types of bearings side by side: stiffness, damping, whirl thresholds."""
+"""Charts of types of bearings, of the atlas of limits, of coupling schemes and of published cases."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from ..bearings.contact import ContactState
 from ..core.model import Array
-from ..studies import BearingCoefficients, BearingThresholds, BushTiers, ShaftFluxError, WhirlOutcome
+from ..studies import BearingCoefficients, BearingThresholds, ShaftFluxError, StudyResult, WhirlOutcome
 from ..studies.contact_cases import CaseRun, CaseSection, CaseSolution, ContactCases, SolutionKind
-from ..studies.coupling_cost import CouplingCost, CouplingLimits, LimitRow, SchemeName
+from ..studies.contact_precision import ContactLimits
+from ..studies.coupling_cost import CouplingLimits, LimitRow, SchemeName
 from ..studies.limits_journal import Limit, LimitAtlas, Panel, failure
-from .canvas import legend_beside, new_axes, new_figure
+from .canvas import BAD, DOUBTFUL, GOOD, legend_beside, new_axes, new_figure
 
 ENTRIES = ("xx", "xy", "yx", "yy")
 
@@ -118,44 +119,23 @@ def plot_bearing_thresholds(result: BearingThresholds, *, axes: Axes | None = No
     return axes
 
 
-# Charts of the tiers of the melting bush: error against cost, the runs, the closed form of the shaft.
+# Further charts of the melting bush: the runs of its models, the closed form of the shaft.
 
 
-MARKS = "osD^v<>"
+def draw_bush_angles(axes: Axes, result: StudyResult) -> None:
+    """Draw the contact angle by the last model of each family, and by the reference."""
+    for rung in {rung.family: rung for rung in result.rungs}.values():
+        assert rung.answer is not None
+        axes.plot(result.notes["times"], rung.answer, label=rung.name)
+    axes.plot(result.notes["times"], result.notes["exact"], "k:", label="reference")
+    axes.set(xlabel="time [s]", ylabel="half contact angle [rad]", title="Growing load")
+    axes.grid(visible=True, alpha=0.3)
+    axes.legend(fontsize=7.5)
 
 
-def plot_bush_tiers(result: BushTiers) -> list[Axes]:
-    """Draw error against cost of each tier, the contact angles of some, and the closed form of the shaft."""
-    figure = new_figure(size=(15.0, 5.2))
-    cost, angle, shaft = figure.subplots(1, 3)
-    families = list(dict.fromkeys(tier.family for tier in result.tiers))
-    for family, mark in zip(families, MARKS, strict=False):
-        tiers = [tier for tier in result.tiers if tier.family == family]
-        line = cost.plot([1e3 * t.cost for t in tiers], [t.error for t in tiers], f"{mark}-", label=family)[0]
-        angle.plot(result.times, tiers[-1].contact_angle, color=line.get_color(), label=tiers[-1].name)
-    angle.plot(result.times, result.exact, "k:", label="reference")
-    cost.set(
-        xscale="log", yscale="log", xlabel="time of the run [ms]", ylabel="largest error of the angle [1]"
-    )
-    angle.set(xlabel="time [s]", ylabel="half contact angle [rad]")
-    for axes, title in ((cost, "Error against cost"), (angle, "Growing load")):
-        axes.set_title(title)
-        axes.grid(visible=True, alpha=0.3)
-        axes.legend(fontsize=7.5)
-    plot_shaft_flux_error(result.shaft, axes=shaft)
-    return [cost, angle, shaft]
-
-
-def plot_shaft_flux_error(rows: Sequence[ShaftFluxError], *, axes: Axes | None = None) -> Axes:
-    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length.
-
-    Parameters
-    ----------
-    rows : sequence of ShaftFluxError
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes("Closed form of the heat into the shaft")
+def draw_shaft_flux(axes: Axes, result: StudyResult) -> None:
+    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length."""
+    rows: Sequence[ShaftFluxError] = result.notes["shaft"]
     for stubbiness in dict.fromkeys(row.stubbiness for row in rows):
         line = np.array([(row.cooling, 100.0 * row.error) for row in rows if row.stubbiness == stubbiness]).T
         axes.plot(*line, label=f"R_1/l = {stubbiness:g}")
@@ -167,7 +147,6 @@ def plot_shaft_flux_error(rows: Sequence[ShaftFluxError], *, axes: Axes | None =
     )
     axes.grid(visible=True, alpha=0.3)
     axes.legend(fontsize=7.5)
-    return axes
 
 
 # Figures 2 to 7 of the published cases of a ball on a lubricated plane, redrawn.
@@ -285,26 +264,22 @@ def plot_limits(atlas: LimitAtlas) -> dict[str, list[Axes]]:
     dict of str to list of Axes
         Those of one figure by its physics, in the order of the panels of the atlas.
     """
-    physics = list(dict.fromkeys(panel.physics for panel in atlas.panels.values()))
+    physics = dict.fromkeys(panel.physics for panel in atlas.panels)
     return {name: _figure(atlas, name) for name in physics}
 
 
 def _figure(atlas: LimitAtlas, physics: str) -> list[Axes]:
-    own = {key: panel for key, panel in atlas.panels.items() if panel.physics == physics}
+    own = {panel: limits for panel, limits in atlas.panels.items() if panel.physics == physics}
     columns = min(COLUMNS, len(own))
     rows = math.ceil(len(own) / columns)
     figure = new_figure(size=(columns * SIZE[0], rows * SIZE[1]))
     figure.suptitle(physics)
     drawn = [figure.add_subplot(rows, columns, k + 1) for k in range(len(own))]
-    for axes, (key, panel) in zip(drawn, own.items(), strict=True):
-        for limit in _of(atlas, key):
+    for axes, (panel, limits) in zip(drawn, own.items(), strict=True):
+        for limit in limits:
             axes.plot(limit.abscissa, limit.ordinate, ".-", label=limit.name)
         _finish(axes, panel)
     return drawn
-
-
-def _of(atlas: LimitAtlas, key: str) -> list[Limit]:
-    return [limit for limit in atlas.limits if limit.panel == key]
 
 
 def _finish(axes: Axes, panel: Panel) -> None:
@@ -336,12 +311,12 @@ def plot_limit_summary(atlas: LimitAtlas) -> list[Axes]:
     list of Axes
         Of one figure, in the order of the panels of the atlas.
     """
-    judged = {key: panel for key, panel in atlas.panels.items() if panel.level is not None}
+    judged = {panel: limits for panel, limits in atlas.panels.items() if panel.level is not None}
     figure = new_figure(size=(9.4, 1.0 + 0.72 * len(judged)))
     figure.suptitle("Errors below 10 %: green all variants, yellow some, red none")
     drawn = list(figure.subplots(len(judged), 1, squeeze=False)[:, 0])
-    for axes, (key, panel) in zip(drawn, judged.items(), strict=True):
-        _strip(axes, panel, _of(atlas, key))
+    for axes, (panel, limits) in zip(drawn, judged.items(), strict=True):
+        _strip(axes, panel, limits)
     return drawn
 
 
@@ -362,10 +337,10 @@ def _strip(axes: Axes, panel: Panel, limits: list[Limit]) -> None:
     axes.set_xlabel(panel.x_label, fontsize=7, labelpad=1)
 
 
-# Charts of coupling schemes: how long a macro step each stands, and its error against film calls.
+# Charts of coupling schemes: how long a macro step each stands.
 
 
-STYLES = {
+SCHEME_LINES = {
     SchemeName.HELD: ("#1f4fb4", "-", "o"),
     SchemeName.LINEAR: ("#1f4fb4", "--", "s"),
     SchemeName.QUADRATIC: ("#1f4fb4", ":", "^"),
@@ -406,40 +381,12 @@ def plot_coupling_limits(limits: CouplingLimits) -> Sequence[Axes]:
     return [left, right]
 
 
-def plot_coupling_cost(cost: CouplingCost) -> Sequence[Axes]:
-    """Draw the orbit error over film calls, and over the macro step; refused runs are crosses at the top.
-
-    Parameters
-    ----------
-    cost : CouplingCost
-    """
-    left, right = new_figure(size=(11.0, 4.8)).subplots(1, 2)
-    top = max(row.orbit_error for row in cost.rows if row.orbit_error is not None) * 3.0
-    for scheme in dict.fromkeys(row.scheme for row in cost.rows):
-        rows = [row for row in cost.rows if row.scheme == scheme]
-        good = [row for row in rows if row.orbit_error is not None]
-        bad = [row for row in rows if row.orbit_error is None]
-        color, line, mark = STYLES[scheme]
-        errors = [row.orbit_error for row in good]
-        angles = np.degrees([row.macro_angle for row in good])
-        left.loglog([row.film_calls for row in good], errors, line, marker=mark, color=color, label=scheme)
-        right.loglog(angles, errors, line, marker=mark, color=color, label=scheme)
-        right.loglog(np.degrees([row.macro_angle for row in bad]), [top] * len(bad), "x", color=color)
-    left.set(xlabel="film evaluations and derivatives per turn", ylabel="orbit error / clearance")
-    right.set(xlabel="macro step [deg]; x: refused", ylabel="orbit error / clearance")
-    left.set_title(f"orbit to eccentricity ratio {cost.eccentricity_ratio:.2f}")
-    for axes in (left, right):
-        axes.grid(visible=True, which="both", alpha=0.25)
-    left.legend(fontsize=8)
-    return [left, right]
-
-
 def _draw_coupling(axes: Axes, rows: Sequence[LimitRow], place: Callable[[LimitRow], float]) -> None:
     for scheme in dict.fromkeys(row.scheme for row in rows if _limited(row)):
         own = sorted((row for row in rows if row.scheme == scheme), key=place)
         theory = [row for row in own if row.critical_macro_angle is not None]
         runs = [row for row in own if row.simulated is not None]
-        color, line, mark = STYLES[scheme]
+        color, line, mark = SCHEME_LINES[scheme]
         angles = np.degrees([row.critical_macro_angle or np.nan for row in theory])
         axes.plot([place(row) for row in theory], angles, line, color=color, label=scheme)
         found = np.degrees([row.simulated or np.nan for row in runs])
@@ -489,3 +436,39 @@ def plot_coupling_error(
     axes.set(xlabel="macro step [deg of shaft rotation]", ylabel="largest orbit error / clearance")
     axes.legend(fontsize=8)
     return axes
+
+
+# Chart of the limits of the published scheme of a rolling ball.
+
+
+def plot_contact_limits(result: ContactLimits) -> list[Axes]:
+    """Draw where the published scheme fails under load steps, and the decay times it shows."""
+    steps, decay = new_figure(size=(12.0, 4.8)).subplots(1, 2)
+    _cells(steps, result.reached, result.steps, result.load_steps, _failure)
+    steps.set(title="load step at W = 1: time of failure", xlabel="amplitude A", ylabel="step dt")
+    ratio = result.shown / result.physical
+    _cells(decay, ratio, result.steps, result.inertias, _decay)
+    decay.set(title="decay time shown / physical", xlabel="inertia W", ylabel="step dt")
+    return [steps, decay]
+
+
+def _cells(
+    axes: Axes, values: np.ndarray, rows: tuple[float, ...], columns: tuple[float, ...], describe: object
+) -> None:
+    assert callable(describe)
+    for (i, j), value in np.ndenumerate(values):
+        text, color = describe(float(value))
+        axes.fill_between([j - 0.5, j + 0.5], i - 0.5, i + 0.5, color=color, edgecolor="white")
+        axes.text(j, i, text, ha="center", va="center", fontsize=9)
+    axes.set_xticks(range(len(columns)), [f"{value:g}" for value in columns])
+    axes.set_yticks(range(len(rows)), [f"{value:g}" for value in rows])
+    axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
+
+
+def _failure(time: float) -> tuple[str, str]:
+    return ("runs", GOOD) if np.isinf(time) else (f"{time:.3g}", BAD)
+
+
+def _decay(ratio: float) -> tuple[str, str]:
+    color = GOOD if ratio > 0.9 else DOUBTFUL if ratio > 0.5 else BAD
+    return f"{ratio:.2g}", color

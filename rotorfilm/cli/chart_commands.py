@@ -1,4 +1,4 @@
-"""The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables."""
+"""The commands `rotorfilm chart ...`: studies computed, drawn and written as PNG and CSV."""
 
 from __future__ import annotations
 
@@ -8,78 +8,50 @@ from enum import StrEnum
 from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from ..core.errors import visible
 from ..core.limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..core.progress import Report, part_of
 from ..core.results import write_csv
+from ..core.units import parse_quantity
 from . import printing as console
 from .command import Argument, Option, Said, Settings, load_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..studies import BearingThresholds, TypeThresholds
-    from ..studies.journal_accuracy import FilmCost
-
-# What the commands of charts share: files that they write, and how they say it.
-
+    from ..studies import StudyResult
 
 DPI = 110
-
-Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
-Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
 OUT = Path("rotorfilm-charts")
+RPM = 30.0 / math.pi
+POINTS = 25
+"""Speeds of a curve of ball bearings."""
 
-Rows = Iterable[Sequence[str]]
-Columns = Mapping[str, Iterable[object]]
+MEDIAN, HIGH = "median error [1]", "99 % error [1]"
+FORCES = ("force in a batch [s]", "force alone, prepare() [s]")
+PADS = ("force of a pad in a batch [s]", "force of a pad alone, prepare() [s]")
+HEAT = ("eccentricity ratio [1]", "power loss [W]", "temperature, or largest [K]", "stiffness yy [N/m]")
+HEAT_ERRORS = ("error of the position [1]", "error of the power [1]", "CPU time [s]")
 
+COLUMNS: dict[str, Sequence[str]] = {
+    "journal": (MEDIAN, HIGH, *FORCES),
+    "pads": (MEDIAN, "90 % error [1]", HIGH, *PADS),
+    "damper": (MEDIAN, HIGH, "99 % error against the short film [1]", *FORCES),
+    "heat": (*HEAT, *HEAT_ERRORS),
+    "rolling_ladder": ("median error of K [1]", "90 % error of K [1]", "force and derivatives [s]"),
+    "bush": ("angle error [1]", "time of the run [s]"),
+    "contact": ("rms error of delta", "cost [s]"),
+    "cosim_cost": ("orbit_error [1]", "film_calls [1/turn]"),
+}
+"""Columns of the table of a study that are printed."""
 
-def write_chart(
-    out: Path, name: str, columns: Columns, axes: Sequence[Axes], *, data: object = None
-) -> list[tuple[str, str]]:
-    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
-    from ..charts import save
-
-    out.mkdir(parents=True, exist_ok=True)
-    files = {
-        "chart": save(axes[0], out / f"{name}.png", dpi=DPI),
-        "table": write_csv(out / f"{name}.csv", columns),
-    }
-    if data is not None:
-        files["data"] = console.write_json(out / f"{name}.json", data)
-    return [(kind, str(path)) for kind, path in files.items()]
-
-
-def print_chart(headings: Sequence[str], rows: Rows, files: Rows) -> None:
-    """Print a table, without headings if there are none, and files and remarks below it."""
-    if headings:
-        console.print_columns(headings, rows)
-    else:
-        console.print_rows("", rows)
-    console.print_rows("", files)
-
-
-def number(entry: object) -> str:
-    """Return an entry of a table as text."""
-    return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
-
-
-def costs(cost: FilmCost) -> tuple[str, str]:
-    """Return the costs of a force in a batch and alone as text."""
-    return f"{1e6 * cost.force_time:.3g} us", f"{1e6 * cost.call_time:.3g} us"
-
-
-def milliseconds(cost: float | None) -> str:
-    """Return a time [s] as text."""
-    return "" if cost is None else f"{1e3 * cost:.3g} ms"
-
-
-# The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables.
-
-
-States = Annotated[int, Option(help="Random states.", min=1, max=CHART_STATES)]
+Files = list[tuple[str, str]]
+Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
+Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
+States = Annotated[int, Option(help="Random states, of each bearing.", min=1, max=CHART_STATES)]
+Seed = Annotated[int, Option(help="Seed of the random states.", min=0)]
 
 
 class MotionOption(StrEnum):
@@ -89,41 +61,113 @@ class MotionOption(StrEnum):
     SMALL = "small"
 
 
+class Printed(NamedTuple):
+    """What is printed: headings, rows, and files and remarks below them."""
+
+    headings: Sequence[str]
+    rows: Iterable[Sequence[str]]
+    remarks: Sequence[tuple[str, str]] = ()
+
+    def show(self) -> None:
+        """Print a table, without headings if there are none."""
+        if self.headings:
+            console.print_columns(self.headings, self.rows)
+        else:
+            console.print_rows("", self.rows)
+        console.print_rows("", self.remarks)
+
+
+def write_chart(
+    out: Path, stem: str, columns: Mapping[str, Iterable[object]], axes: Sequence[Axes], data: object = None
+) -> Files:
+    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
+    out.mkdir(parents=True, exist_ok=True)
+    files = [*write_picture(out, stem, axes), ("table", str(write_csv(out / f"chart_{stem}.csv", columns)))]
+    if data is not None:
+        files.append(("data", str(console.write_json(out / f"chart_{stem}.json", data))))
+    return files
+
+
+def write_picture(out: Path, stem: str, axes: Sequence[Axes], kind: str = "chart") -> Files:
+    """Write a picture; return the row that names it."""
+    from ..charts import save
+
+    return [(kind, str(save(axes[0], out / f"chart_{stem}.png", dpi=DPI)))]
+
+
+def number(entry: object) -> str:
+    """Return an entry of a table as text."""
+    return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
+
+
+def write_study(out: Path, result: StudyResult, data: object = None) -> Files:
+    """Write chart and table of a study, and data as JSON if there are any; return the rows that name them."""
+    from ..charts import plot_study
+
+    return write_chart(out, result.study, result.columns(), plot_study(result), data)
+
+
+def printed_study(result: StudyResult, files: Files) -> Printed:
+    """Return what is printed of a study: a row for each rung, below the name of its case if it has one."""
+    headings, rows = COLUMNS[result.study], []
+    for case, rungs in groupby(result.rungs, key=lambda rung: rung.case):
+        if case:
+            rows.append((case, *("" for _ in headings)))
+        indent = "  " if case else ""
+        rows += [(f"{indent}{rung.name}", *(number(rung[one]) for one in headings)) for rung in rungs]
+    floor = result.conditions.get("reference error, 99 % [1]")
+    remarks = [
+        ("reference", result.reference),
+        *([] if floor is None else [("its error, 99 %", f"{floor:.1e}")]),
+    ]
+    return Printed(("model", *headings), rows, [*remarks, *files])
+
+
+def said_study(out: Path, result: StudyResult) -> Said:
+    """Write a study, and return what is said of it."""
+    return Said(result, printed_study(result, write_study(out, result)).show)
+
+
+# Studies of error against cost.
+
+
 def journal(
     report: Report,
     ld: Slenderness = 0.5,
     states: States = 300,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1978,
+    seed: Seed = 1978,
     motion: Annotated[MotionOption, Option(help="Range of the states' velocities.")] = MotionOption.LARGE,
     out: Folder = OUT,
 ) -> Said:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
-    from .. import charts, studies
+    from .. import studies
 
     ranges = studies.LARGE if motion is MotionOption.LARGE else studies.SMALL
-    result = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
-    files = write_chart(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
-    headings = ("film", "median error", "99 % error", "batch", "alone")
-    rows = [
-        (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *costs(rung.cost))
-        for rung in result.rungs
-    ]
-    floor = ("its error, 99 %", f"{result.reference_high:.1e}")
-    return Said(
-        result, partial(print_chart, headings, rows, [("reference", result.reference), floor, *files])
-    )
+    found = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
+    return said_study(out, found)
 
 
-def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
-    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
-    from .. import charts, studies
-    from ..charts.whirl_verdicts import verdicts
+def pads(
+    report: Report, ld: Slenderness = 0.5, states: States = 100, seed: Seed = 1978, out: Folder = OUT
+) -> Said:
+    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
+    from .. import studies
 
-    result = studies.journal_stability(ld, report=report)
-    files = write_chart(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
-    headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
-    return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
+    return said_study(out, studies.pad_accuracy(ld, states=states, seed=seed, report=report))
+
+
+def damper(
+    report: Report,
+    ld: Slenderness = 0.25,
+    permeability: Annotated[float, Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
+    states: States = 200,
+    out: Folder = OUT,
+) -> Said:
+    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
+    from .. import studies
+
+    result = studies.damper_accuracy(ld, permeability, states=states, report=report)
+    return Said(result, printed_study(result, write_study(out, result, result)).show)
 
 
 def contact(
@@ -134,15 +178,129 @@ def contact(
     out: Folder = OUT,
 ) -> Said:
     """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
+    from .. import studies
+
+    return said_study(out, studies.contact_precision(cells, report=report))
+
+
+def bush(report: Report, out: Folder = OUT) -> Said:
+    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
+    from .. import studies
+    from ..studies.bush_tiers import shaft_columns
+
+    result = studies.bush_tiers(report=report)
+    files, shaft = write_study(out, result), result.notes["shaft"]
+    errors = [100.0 * row.error for row in shaft]
+    files += [
+        ("closed form of the shaft", f"{min(errors):.2f} to {max(errors):.2f} % high"),
+        ("its table", str(write_csv(out / "chart_bush_shaft.csv", shaft_columns(shaft)))),
+    ]
+    return Said(result, printed_study(result, files).show)
+
+
+def heat(report: Report, out: Folder = OUT) -> Said:
+    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
+    from .. import charts, studies
+    from ..studies.heat_accuracy import heated_film
+
+    result = studies.heat_accuracy(report=part_of(report, 0.0, 0.7))
+    limits = studies.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
+    files = write_study(out, result)
+    files += write_chart(out, "heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
+    case = studies.HEAT_CASES[1]
+    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
+    files += write_picture(out, "heat_film", pictures, "film")
+    return Said(result, printed_study(result, files).show)
+
+
+def rolling(
+    report: Report,
+    speed: Annotated[str, Option(help="Highest speed of a usual hybrid bearing of a spindle.")] = "30000 rpm",
+    states: States = 40,
+    seed: Seed = 1907,
+    out: Folder = OUT,
+) -> Said:
+    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
     from .. import charts, studies
 
-    result = studies.contact_precision(cells, report=report)
-    files = write_chart(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
-    rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
-    show = partial(
-        print_chart, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
-    )
-    return Said(result.columns(), show)
+    top = parse_quantity(speed, "rad/s")
+    speeds = [k * top / (POINTS - 1) for k in range(POINTS)]
+    curves = studies.ball_curves(studies.usual_bearing(), speeds, report=part_of(report, 0.0, 0.5))
+    ladder = studies.ball_accuracy(states, seed=seed, report=part_of(report, 0.5, 1.0))
+    files = write_chart(out, "rolling", curves.columns(), charts.plot_ball_curves(curves))
+    headings = ("preload [N]", f"running at {RPM * top:.5g} rpm [N]", "radial [N/um]", "axial [N/um]")
+    last = (curves.running_preload, 1e-6 * curves.radial_stiffness, 1e-6 * curves.axial_stiffness)
+    rows = [
+        (number(preload), *(number(one[k, -1].item()) for one in last))
+        for k, preload in enumerate(curves.preloads)
+    ]
+    below = printed_study(ladder, [*files, *write_study(out, ladder)])
+
+    def show() -> None:
+        Printed(headings, rows).show()
+        below.show()
+
+    return Said({"curves": curves, "ladder": ladder}, show)
+
+
+def cosim(report: Report, out: Folder = OUT) -> Said:
+    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
+    from .. import charts, studies
+
+    limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
+    cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
+    files = write_chart(out, "cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
+    show = printed_study(cost, [*files, *write_study(out, cost)]).show
+    return Said({"limits": limits, "cost": cost}, show)
+
+
+# Where models fail, and bearings side by side.
+
+
+def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
+    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
+    from .. import charts, studies
+    from ..charts.whirl_verdicts import verdicts
+
+    result = studies.journal_stability(ld, report=report)
+    files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
+    headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
+    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
+    return Said(result, Printed(headings, rows, [("reference", result.reference), *files]).show)
+
+
+def limits(
+    report: Report,
+    physics: Annotated[
+        list[str] | None,
+        Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
+    ] = None,
+    out: Folder = OUT,
+) -> Said:
+    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
+    from .. import charts, studies
+
+    atlas = studies.limits_atlas(physics, report=report)
+    table = atlas.columns()
+    files = write_chart(out, "limits", table, charts.plot_limit_summary(atlas), table)
+    for name, axes in charts.plot_limits(atlas).items():
+        files += write_picture(out, f"limits_{name}", axes, name)
+    rows: list[tuple[str, str]] = []
+    for panel, curves in groupby(studies.failures(atlas), key=lambda one: one[0].panel):
+        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
+        rows += [(f"  {limit.name}", "nowhere" if at is None else f"{at:.3g}") for limit, at in curves]
+    return Said(table, Printed((), rows, files).show)
+
+
+def contact_limits(report: Report, out: Folder = OUT) -> Said:
+    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
+    from .. import charts, studies
+
+    result = studies.contact_limits(report=report)
+    table = result.columns()
+    files = write_chart(out, "contact_limits", table, charts.plot_contact_limits(result))
+    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
+    return Said(table, Printed(tuple(table), rows, files).show)
 
 
 def contact_cases(
@@ -160,25 +318,45 @@ def contact_cases(
     from .. import charts, studies
 
     result = studies.contact_cases(cells, tolerance, settle, report=report)
-    files = write_chart(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
+    files = write_chart(out, "contact_cases", result.columns(), charts.plot_contact_cases(result))
     files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
     headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
     rows = [
         (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
         for row in result.statements
     ]
-    return Said([row._asdict() for row in result.statements], partial(print_chart, headings, rows, files))
+    return Said([row._asdict() for row in result.statements], Printed(headings, rows, files).show)
 
 
-def contact_limits(report: Report, out: Folder = OUT) -> Said:
-    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
+def bearings(
+    report: Report,
+    ld: Slenderness = 0.5,
+    mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
+    out: Folder = OUT,
+) -> Said:
+    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
     from .. import charts, studies
 
-    result = studies.contact_limits(report=report)
-    files = write_chart(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
-    table = result.columns()
-    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, partial(print_chart, tuple(table), rows, files))
+    film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
+    carried = parse_quantity(mass, "kg")
+    whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
+    files = write_chart(out, "bearings", film.columns(), charts.plot_bearing_coefficients(film))
+    files += write_chart(out, "whirl", whirl.columns(), [charts.plot_bearing_thresholds(whirl)])
+    shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
+    headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
+    rows = [(one.name, *(_speed(one, k) for k in shown)) for one in whirl.types]
+    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
+    said = [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
+    show = Printed(headings, rows, [("convention", film.convention), *said, *files]).show
+    return Said({"coefficients": film, "thresholds": whirl}, show)
+
+
+def _speed(one: Any, k: int) -> str:
+    speed = one.threshold_speed[k]
+    return one.outcomes[k] if speed is None else f"{RPM * speed:.4g}"
+
+
+# The models of a scene, and the page of a folder.
 
 
 def scene(
@@ -201,34 +379,12 @@ def scene(
     ]
     title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-    files = write_chart(out, f"chart_{file.stem}", result.columns(), [axes])
+    files = write_chart(out, file.stem, result.columns(), [axes])
     rows = [
-        (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), milliseconds(r.cost), r.reason)
+        (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), number(r.cost), r.reason)
         for r in result.rungs
     ]
-    return Said(result, partial(print_chart, ("model", "estimated error", "cost", "why not"), rows, files))
-
-
-def limits(
-    report: Report,
-    physics: Annotated[
-        list[str] | None,
-        Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
-    ] = None,
-    out: Folder = OUT,
-) -> Said:
-    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
-    from .. import charts, studies
-
-    result = studies.limits_atlas(physics, report=report)
-    files = write_chart(out, "chart_limits", result.columns(), charts.plot_limit_summary(result), data=result)
-    for name, axes in charts.plot_limits(result).items():
-        files.append((name, str(charts.save(axes[0], out / f"chart_limits_{name}.png", dpi=DPI))))
-    rows: list[tuple[str, str]] = []
-    for panel, curves in groupby(studies.failures(result), key=lambda one: one.panel):
-        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
-        rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-    return Said(result, partial(print_chart, (), rows, files))
+    return Said(result, Printed(("model", "estimated error", "cost [s]", "why not"), rows, files).show)
 
 
 def page(out: Folder = OUT) -> Said:
@@ -237,191 +393,3 @@ def page(out: Folder = OUT) -> Said:
 
     path = str(write_page(out))
     return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
-
-
-def heat(report: Report, out: Folder = OUT) -> Said:
-    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
-    from .. import charts, studies
-    from ..studies.heat_accuracy import heated_film
-
-    result = studies.heat_accuracy(report=part_of(report, 0.0, 0.7))
-    report(0.7, "where each model fails")
-    limits = studies.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
-    files = write_chart(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
-    files += write_chart(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
-    case = studies.HEAT_CASES[1]
-    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
-    files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))
-    table = result.summary()
-    rows = list(zip(*table.values(), strict=True))
-    show = partial(print_chart, tuple(table), rows, [("reference", result.reference), *files])
-    return Said(result.columns(), show)
-
-
-def bush(report: Report, out: Folder = OUT) -> Said:
-    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
-    from .. import charts, studies
-
-    result = studies.bush_tiers(report=report)
-    files = write_chart(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
-    shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
-    rows = [(tier.name, f"{tier.error:.1e}", milliseconds(tier.cost)) for tier in result.tiers]
-    errors = [100.0 * row.error for row in result.shaft]
-    closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
-    last = [("closed form of the shaft", closed), ("its table", str(shaft))]
-    headings = ("tier", "error of the angle", "time of the run")
-    return Said(
-        result, partial(print_chart, headings, rows, [("reference", result.reference), *files, *last])
-    )
-
-
-def damper(
-    report: Report,
-    ld: Slenderness = 0.25,
-    permeability: Annotated[float, Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
-    states: States = 200,
-    out: Folder = OUT,
-) -> Said:
-    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
-    from .. import charts, studies
-
-    result = studies.damper_accuracy(ld, permeability, states=states, report=report)
-    files = write_chart(
-        out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result
-    )
-    rows = [
-        (
-            f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
-            f"{rung.median_error:.2e}",
-            f"{rung.high_error:.2e}",
-            f"{rung.series_error:.2e}",
-            *costs(rung.cost),
-        )
-        for rung in result.rungs
-    ]
-    headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    return Said(result, partial(print_chart, headings, rows, files))
-
-
-def cosim(report: Report, out: Folder = OUT) -> Said:
-    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
-    from .. import charts, studies
-
-    limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
-    cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
-    files = write_chart(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
-    files += write_chart(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
-    rows = [
-        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}")
-        for row in cost.rows
-        if row.orbit_error is not None
-    ]
-    show = partial(print_chart, ("scheme", "macro step", "orbit error / clearance"), rows, files)
-    return Said({"limits": limits, "cost": cost}, show)
-
-
-# The commands `rotorfilm chart bearings` and `rotorfilm chart pads`: bearings made of pads, drawn.
-
-
-def bearings(
-    report: Report,
-    ld: Slenderness = 0.5,
-    mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
-    out: Folder = OUT,
-) -> Said:
-    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
-    from .. import charts, studies
-    from ..core.units import parse_quantity
-
-    film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
-    carried = parse_quantity(mass, "kg")
-    whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
-    files = write_chart(out, "chart_bearings", film.columns(), charts.plot_bearing_coefficients(film))
-    files += write_chart(out, "chart_whirl", whirl.columns(), [charts.plot_bearing_thresholds(whirl)])
-    shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
-    headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
-    rows = [(one.name, *(_speed(one, k) for k in shown)) for one in whirl.types]
-    show = partial(print_chart, headings, rows, [("convention", film.convention), *_said(whirl), *files])
-    return Said({"coefficients": film, "thresholds": whirl}, show)
-
-
-def pads(
-    report: Report,
-    ld: Slenderness = 0.5,
-    states: Annotated[int, Option(help="Random states of each bearing.", min=1, max=CHART_STATES)] = 100,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1978,
-    out: Folder = OUT,
-) -> Said:
-    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
-    from .. import charts, studies
-
-    result = studies.pad_accuracy(ld, states=states, seed=seed, report=report)
-    files = write_chart(out, "chart_pads", result.columns(), charts.plot_pad_accuracy(result))
-    headings = ("film", "median error", "90 % error", "99 % error", "batch", "alone")
-    rows = [
-        (
-            rung.name,
-            *(f"{error:.2e}" for error in (rung.median_error, rung.usual_error, rung.high_error)),
-            *costs(rung.cost),
-        )
-        for rung in result.rungs
-    ]
-    return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
-
-
-def _said(whirl: BearingThresholds) -> list[tuple[str, str]]:
-    """Return what the words mean that stand for a threshold."""
-    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
-    return [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
-
-
-def _speed(one: TypeThresholds, k: int) -> str:
-    speed = one.threshold_speed[k]
-    return one.outcomes[k] if speed is None else f"{30.0 / math.pi * speed:.4g}"
-
-
-# The command `rotorfilm chart rolling`: ball bearings over speed and preload, and their models, drawn.
-
-
-POINTS = 25
-"""Speeds of a curve."""
-
-
-def rolling(
-    report: Report,
-    speed: Annotated[str, Option(help="Highest speed of a usual hybrid bearing of a spindle.")] = "30000 rpm",
-    states: Annotated[int, Option(help="Random states of each bearing.", min=1, max=CHART_STATES)] = 40,
-    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1907,
-    out: Folder = OUT,
-) -> Said:
-    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
-    import numpy as np
-
-    from .. import charts, studies
-    from ..core.units import parse_quantity
-
-    top = parse_quantity(speed, "rad/s")
-    curves = studies.ball_curves(
-        studies.usual_bearing(), np.linspace(0.0, top, POINTS), report=part_of(report, 0.0, 0.5)
-    )
-    ladder = studies.ball_accuracy(states, seed=seed, report=part_of(report, 0.5, 1.0))
-    files = write_chart(out, "chart_rolling", curves.columns(), charts.plot_ball_curves(curves))
-    files += write_chart(out, "chart_rolling_ladder", ladder.columns(), charts.plot_ball_accuracy(ladder))
-    headings = (
-        "preload [N]",
-        f"running at {30.0 / math.pi * top:.5g} rpm [N]",
-        "radial [N/um]",
-        "axial [N/um]",
-    )
-    rows = [
-        tuple(map(number, (preload, running[-1].item(), 1e-6 * radial[-1].item(), 1e-6 * axial[-1].item())))
-        for preload, running, radial, axial in zip(
-            curves.preloads,
-            curves.running_preload,
-            curves.radial_stiffness,
-            curves.axial_stiffness,
-            strict=True,
-        )
-    ]
-    told = [(rung.name, f"K off by {rung.median_error:.2g}, {rung.usual_error:.2g}") for rung in ladder.rungs]
-    return Said({"curves": curves, "ladder": ladder}, partial(print_chart, headings, rows, [*told, *files]))

@@ -11,16 +11,16 @@ from matplotlib.axes import Axes
 from ..charts import (
     new_figure,
     plot_coupling_error,
-    plot_force_error,
-    plot_journal_accuracy,
     plot_journal_stability,
     plot_locus,
     plot_orbits,
+    plot_study,
     plot_thresholds,
     save,
 )
 from ..core.results import Trajectory
 from ..scenes.demo import DemoResult, demo_rungs
+from ..studies import FilmFamily
 
 OVERVIEW_SIZE, OVERVIEW_DPI = (14.0, 11.2), 100
 """Size [inch] and resolution of the picture with everything."""
@@ -36,7 +36,7 @@ def draw_demo(result: DemoResult, folder: Path) -> list[Path]:
             plot_journal_stability(result.stability, point=_working_point(result))[0],
             folder / "stability.png",
         ),
-        save(plot_journal_accuracy(result.accuracy)[0], folder / "accuracy.png"),
+        save(plot_study(result.accuracy)[0], folder / "accuracy.png"),
         save(_draw_coupling(result), folder / "coupling.png"),
     ]
 
@@ -46,7 +46,8 @@ def _draw_overview(result: DemoResult) -> Axes:
     figure = new_figure(size=OVERVIEW_SIZE)
     (orbits, coupling), (stability, accuracy) = figure.subplots(2, 2, height_ratios=(1.0, 1.25))
     compared = result.accuracy
-    reference = f"films at L/D = {compared.slenderness:g}, reference: {compared.reference}"
+    slenderness = compared.conditions["length/diameter [1]"]
+    reference = f"films at L/D = {slenderness:g}, reference: {compared.reference}"
     figure.suptitle(f"{result.scene.title}\n{reference}")
     _draw_orbits(result, orbits)
     orbits.set_title("Orbit of the journal center")
@@ -55,7 +56,7 @@ def _draw_overview(result: DemoResult) -> Axes:
     plot_thresholds(result.stability, point=_working_point(result), axes=stability)
     stability.set(title="Whirl threshold of a rigid rotor (unstable above)", xlabel="eccentricity ratio [1]")
     accuracy.set_title("Error of the force against its cost")
-    plot_force_error(result.accuracy, axes=accuracy)
+    plot_study(result.accuracy, axes=accuracy)
     return orbits
 
 
@@ -76,7 +77,7 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
 
 def _draw_locus(result: DemoResult) -> Axes:
     ratios = np.array(result.stability.eccentricity_ratio)
-    families = {rung.name: rung.family for rung in demo_rungs()}
+    families = {rung.name: FilmFamily(rung.family) for rung in demo_rungs()}
     curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
     return plot_locus(curves, families=families)
 

@@ -22,9 +22,9 @@ from ..core.results import Trajectory, orbit_distance, to_plain, write_csv
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly
 from ..studies import (
-    ComparedFilm,
-    JournalAccuracy,
     JournalStability,
+    StudyModel,
+    StudyResult,
     comparison_bearing,
     journal_accuracy,
     journal_rungs,
@@ -233,7 +233,7 @@ class DemoResult(Readable):
         By film, at the eccentricity ratios of `stability`.
     stability : JournalStability
         Whirl threshold by film.
-    accuracy : JournalAccuracy
+    accuracy : StudyResult
         Error and cost of the force by film.
     """
 
@@ -246,7 +246,7 @@ class DemoResult(Readable):
     coupling: CouplingStudy
     attitude_angle: dict[str, Array]
     stability: JournalStability
-    accuracy: JournalAccuracy
+    accuracy: StudyResult
 
     @property
     def scene_run(self) -> CoupledRun:
@@ -335,7 +335,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     return result
 
 
-def demo_rungs() -> tuple[ComparedFilm, ...]:
+def demo_rungs() -> tuple[StudyModel, ...]:
     """Return the films that the demonstration compares."""
     return tuple(rung for rung in journal_rungs() if rung.name in RUNGS)
 

@@ -16,7 +16,7 @@ from ..core.model import Array, Reaction
 from ..core.readable import Readable
 from ..core.results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from ..core.units import CELSIUS
-from ..studies import ComparedFilm
+from ..studies import StudyModel
 from ..studies.journal_accuracy import SPEED
 from .journal_tables import bearing_data
 
@@ -219,9 +219,9 @@ def attitude_angle(bearing: JournalBearing, eccentricity_ratio: Array) -> Array:
 
 
 def attitude_angles(
-    bearing: JournalBearing, rungs: Sequence[ComparedFilm], eccentricity_ratio: Array
+    bearing: JournalBearing, rungs: Sequence[StudyModel], eccentricity_ratio: Array
 ) -> dict[str, Array]:
     """Return the attitude angles (n,) [rad] of the bearing with the film of each rung, by its name."""
     return {
-        rung.name: attitude_angle(fitted_bearing(bearing, rung.film), eccentricity_ratio) for rung in rungs
+        rung.name: attitude_angle(fitted_bearing(bearing, rung.law), eccentricity_ratio) for rung in rungs
     }

@@ -8,9 +8,7 @@ if TYPE_CHECKING:
     from ..bearings.journal import fitted_bearing as fitted_bearing
     from ..core.sources import show
     from .ball_accuracy import (
-        BallAccuracy as BallAccuracy,
         BallCurves as BallCurves,
-        BallModelRung as BallModelRung,
         ball_accuracy as ball_accuracy,
         ball_curves as ball_curves,
         usual_bearing as usual_bearing,
@@ -27,8 +25,6 @@ if TYPE_CHECKING:
         bearing_types as bearing_types,
     )
     from .bush_tiers import (
-        BushTier as BushTier,
-        BushTiers as BushTiers,
         ShaftFluxError as ShaftFluxError,
         bush_tiers as bush_tiers,
         shaft_flux_errors as shaft_flux_errors,
@@ -36,43 +32,33 @@ if TYPE_CHECKING:
     from .contact_cases import contact_cases as contact_cases
     from .contact_precision import contact_limits as contact_limits, contact_precision as contact_precision
     from .coupling_cost import (
-        CostRow as CostRow,
-        CouplingCost as CouplingCost,
         CouplingLimits as CouplingLimits,
         LimitRow as LimitRow,
         coupling_cost as coupling_cost,
         coupling_limits as coupling_limits,
     )
     from .damper_accuracy import (
-        DamperAccuracy as DamperAccuracy,
-        DamperRung as DamperRung,
         SqueezeFamily as SqueezeFamily,
         damper_accuracy as damper_accuracy,
         damper_rungs as damper_rungs,
     )
     from .heat_accuracy import (
         HEAT_CASES as HEAT_CASES,
-        HeatAccuracy as HeatAccuracy,
         HeatAnswer as HeatAnswer,
         HeatCase as HeatCase,
-        HeatLadder as HeatLadder,
         HeatModel as HeatModel,
-        HeatRung as HeatRung,
         heat_accuracy as heat_accuracy,
     )
     from .journal_accuracy import (
         LARGE as LARGE,
         SMALL as SMALL,
-        ComparedFilm as ComparedFilm,
         FilmFamily as FilmFamily,
-        JournalAccuracy as JournalAccuracy,
-        RungAccuracy as RungAccuracy,
         StateRange as StateRange,
         comparison_bearing as comparison_bearing,
         journal_accuracy as journal_accuracy,
         journal_rungs as journal_rungs,
-        pareto_front as pareto_front,
         random_states as random_states,
+        reference_force as reference_force,
     )
     from .journal_stability import (
         JournalStability as JournalStability,
@@ -81,19 +67,30 @@ if TYPE_CHECKING:
     )
     from .limits_atlas import limits_atlas as limits_atlas
     from .limits_journal import (
-        Failure as Failure,
         Limit as Limit,
         LimitAtlas as LimitAtlas,
         Panel as Panel,
         failures as failures,
     )
     from .pad_accuracy import (
-        ComparedPad as ComparedPad,
-        PadAccuracy as PadAccuracy,
         PadFamily as PadFamily,
-        PadRung as PadRung,
         pad_accuracy as pad_accuracy,
         pad_rungs as pad_rungs,
+    )
+    from .study import (
+        FilmCase as FilmCase,
+        States as States,
+        Study as Study,
+        StudyCase as StudyCase,
+        StudyModel as StudyModel,
+        StudyResult as StudyResult,
+        StudyRung as StudyRung,
+        film_costs as film_costs,
+        pareto_front as pareto_front,
+        relative_error as relative_error,
+        run_study as run_study,
+        shortest_time as shortest_time,
+        timed as timed,
     )
 else:
     show(__name__)

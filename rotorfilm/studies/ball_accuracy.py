@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +24,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Reaction, prepared_tangent
 from ..core.progress import Report, silent
 from ..core.readable import Readable
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study, shortest_time, spread
 
 SEED, ROUNDS = 1907, 200
 VISCOSITY, COEFFICIENT = 0.02, 18e-9
@@ -36,66 +36,23 @@ PRESSURES, SPEEDS = (0.8e9, 1.8e9), (50.0, 3000.0)
 CLOSED, STATIC, RUNNING, FILMS = "closed form", "static balls", "running balls", "running balls on films"
 
 
-@dataclass(frozen=True, kw_only=True)
-class BallModelRung(Readable):
-    """Error and cost of one model.
-
-    Attributes
-    ----------
-    name : str
-    median_error, usual_error : float [1]
-        Median and 90th percentile of the error of the stiffness, relative to its largest entry.
-    states : int
-        Where the model has an answer.
-    call_time : float [s]
-        Of force and derivatives at one place.
-    """
-
-    name: str
-    median_error: float
-    usual_error: float
-    states: int
-    call_time: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class BallAccuracy(Readable):
-    """Error against cost of the models of ball bearings.
-
-    Attributes
-    ----------
-    states, seed : int
-        Of each of two bearings: deep groove under a radial load, angular contact under thrust too.
-    reference : str
-        What errors are measured against.
-    rungs : tuple of BallModelRung
-    """
-
-    states: int
-    seed: int
-    reference: str
-    rungs: tuple[BallModelRung, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table of the rungs, headings with units; the conditions repeat in every row."""
-        rows = [
-            {
-                "model [-]": rung.name,
-                "median error of K [1]": rung.median_error,
-                "90 % error of K [1]": rung.usual_error,
-                "states [1]": rung.states,
-                "force and derivatives [s]": rung.call_time,
-                "states of each bearing [1]": self.states,
-                "seed [-]": self.seed,
-                "reference [-]": self.reference,
-            }
-            for rung in self.rungs
-        ]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+BALLS = Study(
+    name="rolling_ladder",
+    solve=lambda model, case: model.law[1],
+    quantities=lambda model, case, errors: {
+        "model [-]": model.name,
+        **spread(errors, "median", "90 %", of=" of K"),
+        "states [1]": len(errors),
+    },
+    costs=lambda study, case, report: (
+        (study.solve(model, case), {"force and derivatives [s]": _time(model.law[0])})
+        for model in case.models
+    ),
+)
 
 
 @arguments
-def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent) -> BallAccuracy:
+def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent) -> StudyResult:
     """Return how far the stiffness of each model is from that of running balls on oil films, and its cost.
 
     Parameters
@@ -121,26 +78,15 @@ def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent
         for name, error in _errors(bearing, load, speed).items():
             errors[name].append(error)
         report((number + 1) / (2 * states), "states")
-    last: dict[str, Reaction] = {
+    laws: dict[str, Reaction] = {
         CLOSED: _closed(bearings[0]),
         STATIC: replace(bearings[0], law=StaticBalls()),
         RUNNING: bearings[0],
     }
-    return BallAccuracy(
-        states=states,
-        seed=seed,
-        reference=f"{FILMS} of {1e3 * VISCOSITY:g} mPa s, those of the most loaded ball",
-        rungs=tuple(
-            BallModelRung(
-                name=name,
-                median_error=float(np.median(found)),
-                usual_error=float(np.quantile(found, 0.9)),
-                states=len(found),
-                call_time=_time(last[name]),
-            )
-            for name, found in errors.items()
-        ),
-    )
+    models = [StudyModel(name=name, family="balls", law=(laws[name], errors[name])) for name in errors]
+    reference = f"{FILMS} of {1e3 * VISCOSITY:g} mPa s, those of the most loaded ball"
+    conditions = {"states of each bearing [1]": states, "seed [-]": seed, "reference [-]": reference}
+    return run_study(BALLS, [StudyCase(models=models)], reference=reference, conditions=conditions)
 
 
 def _drawn(
@@ -193,12 +139,7 @@ def _stiffness(model: Reaction, load: Sequence[float], speed: float) -> Array:
 def _time(model: Reaction) -> float:
     """Return the shortest time of force and derivatives at one place [s]."""
     tangent, way = prepared_tangent(model), 0.3 * model.clearance
-    spent = []
-    for _ in range(ROUNDS):
-        begin = perf_counter()
-        tangent(0.2 * way, -way, 0.0, 0.0, 1000.0)
-        spent.append(perf_counter() - begin)
-    return min(spent)
+    return shortest_time(lambda: tangent(0.2 * way, -way, 0.0, 0.0, 1000.0), ROUNDS)
 
 
 # Ball bearings over speed and preload: loads of the balls, contact angles, stiffness, swing.

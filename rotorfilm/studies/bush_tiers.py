@@ -33,6 +33,7 @@ from ..bearings.bush import (
 from ..core.model import Array, Dynamic
 from ..core.progress import Report, silent
 from ..core.readable import Readable
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
 
 HEAT = 1e8
 """Melting heat [J/m3]; it scales the time and nothing else."""
@@ -50,30 +51,6 @@ COOLINGS = tuple(np.linspace(0.02, 0.3, 15).tolist())
 
 STUBBINESSES = (0.1, 0.25, 0.5, 1.0)
 """Shaft radius / half length of the bush."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class BushTier(Readable):
-    """One tier.
-
-    Attributes
-    ----------
-    name : str
-    family : str
-        Tiers of one family differ in a number of steps or nodes.
-    error : float [1]
-        Largest relative error of the contact angle.
-    cost : float [s]
-        Time of the run.
-    contact_angle : tuple of floats [rad]
-        Half the contact angle at the times of the ladder.
-    """
-
-    name: str
-    family: str
-    error: float
-    cost: float
-    contact_angle: tuple[float, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,45 +72,17 @@ class ShaftFluxError(Readable):
     error: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class BushTiers(Readable):
-    """What `bush_tiers` answers.
-
-    Attributes
-    ----------
-    reference : str
-        What errors are measured against.
-    times : tuple of floats [s]
-        Times at which the tiers are compared.
-    exact : tuple of floats [rad]
-        Half the contact angle of the reference at these times.
-    tiers : tuple of BushTier
-        The models of the bush.
-    shaft : tuple of ShaftFluxError
-    """
-
-    reference: str
-    times: tuple[float, ...]
-    exact: tuple[float, ...]
-    tiers: tuple[BushTier, ...]
-    shaft: tuple[ShaftFluxError, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the tiers as columns of a table."""
-        return {
-            "tier": [tier.name for tier in self.tiers],
-            "family": [tier.family for tier in self.tiers],
-            "angle error [1]": [tier.error for tier in self.tiers],
-            "time of the run [s]": [tier.cost for tier in self.tiers],
-        }
-
-    def shaft_columns(self) -> dict[str, list[object]]:
-        """Return the errors of the closed form as columns of a table."""
-        return {
-            "cooling [1]": [row.cooling for row in self.shaft],
-            "stubbiness [1]": [row.stubbiness for row in self.shaft],
-            "error of the closed form [1]": [row.error for row in self.shaft],
-        }
+BUSH = Study(
+    name="bush",
+    solve=lambda model, case: model.law(),
+    quantities=lambda model, case, angle: {
+        "tier": model.name,
+        "family": model.family,
+        "angle error [1]": float(np.abs(angle / case.reference - 1.0).max()),
+    },
+    costs=timed("time of the run [s]", perf_counter),
+    keeps_answers=True,
+)
 
 
 def bush_tiers(
@@ -141,7 +90,7 @@ def bush_tiers(
     steps: Sequence[int] = (20, 200, 2000),
     *,
     report: Report = silent,
-) -> BushTiers:
+) -> StudyResult:
     """Return error and cost of every tier, one run each, and the error of the closed form of the shaft.
 
     Parameters
@@ -156,41 +105,45 @@ def bush_tiers(
     exact = two_moments(bush, times, **TIGHT)
     worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
     local = replace(worn, nodes=max(nodes), melting=LocalMelting())
-    runs: list[tuple[str, str, Callable[[], Array]]] = [
-        ("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
-        ("BushWear", "BushWear", lambda: _one_state(bush, times)),
+    models = [
+        _tier("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
+        _tier("BushWear", "BushWear", lambda: _one_state(bush, times)),
         *(
-            ("BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n)))
+            _tier(
+                "BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n))
+            )
             for n in nodes
         ),
-        (
+        _tier(
             "LocalMelting: another law",
             f"LocalMelting, {local.nodes} nodes",
             lambda: worn_run(times, local),
         ),
         *(
-            ("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
+            _tier("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
             for n in steps
         ),
     ]
-    tiers = []
-    for number, (family, name, run) in enumerate(runs):
-        report(number / (len(runs) + 1), name)
-        begin = perf_counter()
-        angle = run()
-        cost = perf_counter() - begin
-        error = float(np.abs(angle / exact - 1.0).max())
-        tiers.append(
-            BushTier(name=name, family=family, error=error, cost=cost, contact_angle=tuple(angle.tolist()))
-        )
-    report(len(runs) / (len(runs) + 1), "heat into the shaft")
-    return BushTiers(
+    return run_study(
+        BUSH,
+        [StudyCase(models=models, reference=exact)],
         reference="two moments of the wear, integrated at 1e-10",
-        times=tuple(times.tolist()),
-        exact=tuple(exact.tolist()),
-        tiers=tuple(tiers),
-        shaft=shaft_flux_errors(),
+        notes={"times": times, "exact": exact, "shaft": shaft_flux_errors()},
+        report=report,
     )
+
+
+def _tier(family: str, name: str, run: Callable[[], Array]) -> StudyModel:
+    return StudyModel(name=name, family=family, law=run)
+
+
+def shaft_columns(rows: Sequence[ShaftFluxError]) -> dict[str, list[object]]:
+    """Return the errors of the closed form as columns of a table."""
+    return {
+        "cooling [1]": [row.cooling for row in rows],
+        "stubbiness [1]": [row.stubbiness for row in rows],
+        "error of the closed form [1]": [row.error for row in rows],
+    }
 
 
 def shaft_flux_errors(

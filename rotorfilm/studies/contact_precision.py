@@ -28,6 +28,7 @@ from ..core.errors import ConvergenceError
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
 from .contact_cases import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
 
 LOAD = SineLoad(amplitude=0.5, frequency=2.0)
 INERTIA = 1.0
@@ -35,35 +36,25 @@ RIDES = 5
 """Runs of a reduced law, the shortest of which counts."""
 
 
-class ContactRung(NamedTuple):
-    """One way to the motion.
-
-    Attributes
-    ----------
-    family, label : str
-    error : float
-        Rms of the error of delta / rms of its change from rest.
-    cost : float
-        Processor time [s] of the motion; building a law not counted.
-    """
-
-    family: str
-    label: str
-    error: float
-    cost: float
+Series = tuple[Array, Array]
+"""Times, and delta at them."""
 
 
-class ContactPrecision(NamedTuple):
-    """The rungs, and what they were measured against."""
+def _quantities(model: StudyModel, case: StudyCase, found: Series) -> dict[str, object]:
+    times, reference = case.reference
+    miss = CubicSpline(*found)(times) - reference
+    size = float(np.sqrt(np.mean((reference - reference[0]) ** 2)))
+    error = float(np.sqrt(np.mean(miss**2))) / size
+    return {"family": model.family, "label": model.label, "rms error of delta": error}
 
-    duration: float
-    reference: str
-    rungs: tuple[ContactRung, ...]
 
-    def columns(self) -> dict[str, list[object]]:
-        """Return the rungs as columns of a table."""
-        headings = {"family": "family", "label": "label", "error": "rms error of delta", "cost": "cost [s]"}
-        return {text: [getattr(rung, name) for rung in self.rungs] for name, text in headings.items()}
+CONTACT = Study(
+    name="contact",
+    solve=lambda model, case: model.law(),
+    quantities=_quantities,
+    costs=timed("cost [s]", process_time),
+)
+"""Error: rms of that of delta / rms of its change from rest. Building a reduced law is not counted."""
 
 
 def contact_precision(
@@ -72,7 +63,7 @@ def contact_precision(
     tolerance: float = 1e-5,
     orders: tuple[int, ...] = (2, 3, 5, 8),
     report: Report = silent,
-) -> ContactPrecision:
+) -> StudyResult:
     """Return the ladder for W = 1 under the load 1 + 0.5 sin(2 t) from rest; some minutes.
 
     Parameters
@@ -90,47 +81,39 @@ def contact_precision(
     report(0.0, "reference")
     exact = _full(cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)()
     times = np.linspace(0.0, duration, 2001)
-    reference = CubicSpline(*exact)(times)
-    size = float(np.sqrt(np.mean((reference - reference[0]) ** 2)))
-    plan = [*_full_plan(cells, duration), *_law_plan(cells // 2, duration, orders)]
-    rungs = []
-    for number, (family, label, run, repeats) in enumerate(plan):
-        report((number + 1) / (len(plan) + 1), f"{family}, {label}")
-        cost = np.inf
-        for _ in range(repeats):
-            begin = process_time()
-            found = run()
-            cost = min(cost, process_time() - begin)
-        miss = CubicSpline(*found)(times) - reference
-        rungs.append(ContactRung(family, label, float(np.sqrt(np.mean(miss**2))) / size, float(cost)))
-    name = f"BDF2 of tolerance {tolerance:g}, {cells} x {cells} upwind cells"
-    return ContactPrecision(duration, name, tuple(rungs))
+    models = [*_full_models(cells, duration), *_law_models(cells // 2, duration, orders)]
+    return run_study(
+        CONTACT,
+        [StudyCase(models=models, reference=(times, CubicSpline(*exact)(times)))],
+        reference=f"BDF2 of tolerance {tolerance:g}, {cells} x {cells} upwind cells",
+        notes={"duration": duration},
+        report=report,
+    )
 
 
-Series = tuple[Array, Array]
+def _model(family: str, label: str, run: Callable[[], Series], repeats: int = 1) -> StudyModel:
+    return StudyModel(name=f"{family}, {label}", family=family, label=label, law=run, repeats=repeats)
 
 
-def _full_plan(cells: int, duration: float) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+def _full_models(cells: int, duration: float) -> Iterator[StudyModel]:
     coarse, middle = cells // 2, 3 * cells // 4
     middle -= middle % 2
     published = FixedSteps(step=PUBLISHED_STEP, order=1)
     run = _full(PUBLISHED_CELLS, StaggeredScheme(), published, duration)
-    yield "published scheme", f"dt {PUBLISHED_STEP:g}", run, 1
+    yield _model("published scheme", f"dt {PUBLISHED_STEP:g}", run)
     for step in (0.2, 0.1, 0.05, 0.025):
-        control = FixedSteps(step=step, order=1)
-        yield f"Euler, {middle} cells", f"dt {step:g}", _full(middle, UpwindScheme(), control, duration), 1
+        run = _full(middle, UpwindScheme(), FixedSteps(step=step, order=1), duration)
+        yield _model(f"Euler, {middle} cells", f"dt {step:g}", run)
     for size in (coarse, middle):
         for step in (0.2, 0.1, 0.05):
-            control = FixedSteps(step=step)
-            yield f"BDF2, {size} cells", f"dt {step:g}", _full(size, UpwindScheme(), control, duration), 1
+            run = _full(size, UpwindScheme(), FixedSteps(step=step), duration)
+            yield _model(f"BDF2, {size} cells", f"dt {step:g}", run)
         for tolerance in (1e-3, 1e-4):
             run = _full(size, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)
-            yield f"adaptive, {size} cells", f"tol {tolerance:g}", run, 1
+            yield _model(f"adaptive, {size} cells", f"tol {tolerance:g}", run)
 
 
-def _law_plan(
-    cells: int, duration: float, orders: tuple[int, ...]
-) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterator[StudyModel]:
     contact = published_contact(cells, UpwindScheme())
     for order in orders:
         law = reduce_contact(contact, order)
@@ -142,7 +125,7 @@ def _law_plan(
             )  # fmt: skip
             return motion.time, motion["z"]
 
-        yield "reduced law", f"order {order}", run, RIDES
+        yield _model("reduced law", f"order {order}", run, RIDES)
 
 
 def _full(

@@ -16,7 +16,6 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
 from ..cosim import (
-    CoSimulation,
     GaussSeidel,
     InProcessSlave,
     Jacobi,
@@ -30,6 +29,7 @@ from ..cosim import (
 from ..cosim.watch import quietly
 from ..rotors.jeffcott import JeffcottRotor
 from ..rotors.rigid import RigidRotor
+from .study import Study, StudyCase, StudyModel, StudyResult, counted, run_study
 
 # What couplings are compared on: the schemes by kind, and a rigid rotor at rest in its bearing.
 
@@ -108,56 +108,19 @@ UNBALANCE_RATIO = 0.45
 ANGLES = tuple(np.radians([0.5, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0]).tolist())
 
 
-@dataclass(frozen=True, kw_only=True)
-class CostRow(Readable):
-    """One run of one scheme.
-
-    Attributes
-    ----------
-    scheme : SchemeName
-    macro_angle : float [rad]
-    orbit_error : float or None [1]
-        Largest distance from the monolithic solution / clearance; None where the run was refused.
-    film_calls : float [1]
-        Film evaluations per turn, with the derivatives that the scheme asks for.
-    refused : str
-        Empty, or why the run is no answer.
-    """
-
-    scheme: SchemeName
-    macro_angle: float
-    orbit_error: float | None
-    film_calls: float
-    refused: str
+COUPLING = Study(
+    name="cosim_cost",
+    solve=lambda model, case: coupled_run(model.law, case.at, case.reference),
+    quantities=lambda model, case, columns: {
+        "scheme": model.family,
+        "macro_angle [deg]": float(np.degrees(case.at)),
+        **columns,
+    },
+    costs=counted,
+)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CouplingCost(Readable):
-    """Runs of all schemes on one orbit.
-
-    Attributes
-    ----------
-    eccentricity_ratio : float [1]
-        Largest one of the orbit.
-    rows : tuple of CostRow
-        One for each run.
-    """
-
-    eccentricity_ratio: float
-    rows: tuple[CostRow, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table, angles in degrees."""
-        return {
-            "scheme": [row.scheme for row in self.rows],
-            "macro_angle [deg]": [float(np.degrees(row.macro_angle)) for row in self.rows],
-            "orbit_error [1]": [row.orbit_error for row in self.rows],
-            "film_calls [1/turn]": [row.film_calls for row in self.rows],
-            "refused": [row.refused for row in self.rows],
-        }
-
-
-def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = silent) -> CouplingCost:
+def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = silent) -> StudyResult:
     """Return the errors and the work of all schemes at several macro steps.
 
     Parameters
@@ -175,14 +138,16 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
         [*(np.linspace(0.0, duration, round(duration * SPEED / angle) + 1) for angle in macro_angles), starts]
     )
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
-    rows = []
-    for number, angle in enumerate(macro_angles):
-        for count, scheme in enumerate(SCHEMES):
-            done = (number + count / len(SCHEMES)) / len(macro_angles)
-            report(done, f"{scheme.label}, {np.degrees(angle):.3g} deg")
-            rows.append(_row(rotor, bearing, scheme, angle, exact))
+    models = [
+        StudyModel(name=scheme.label, family=SchemeName(scheme.label), law=scheme) for scheme in SCHEMES
+    ]
+    cases = [
+        StudyCase(name=f"{np.degrees(angle):.3g} deg", models=models, at=angle, reference=exact)
+        for angle in macro_angles
+    ]
     largest = float(np.hypot(*exact.position).max()) / bearing.clearance
-    return CouplingCost(eccentricity_ratio=largest, rows=tuple(rows))
+    notes = {"eccentricity ratio": largest}
+    return run_study(COUPLING, cases, reference="monolithic solution", notes=notes, report=report)
 
 
 def cost_case() -> tuple[RigidRotor, JournalBearing]:
@@ -192,9 +157,14 @@ def cost_case() -> tuple[RigidRotor, JournalBearing]:
     return rotor, bearing
 
 
-def _row(
-    rotor: RigidRotor, bearing: JournalBearing, scheme: Scheme, angle: float, exact: Trajectory
-) -> CostRow:
+def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, object]:
+    """Return error and work of a scheme at a macro step [rad], by the headings of their columns.
+
+    The error is the largest distance from the monolithic solution / clearance, None for a refused run;
+    the work is film evaluations per turn, with the derivatives that the scheme asks for.
+    """
+    rotor, bearing = cost_case()
+    error, refused, turns = None, "", float(REVOLUTIONS)
     try:
         with quietly():
             run = couple(
@@ -204,20 +174,11 @@ def _row(
                 duration=float(exact.time[-1]),
                 scheme=scheme,
             )
-    except PartialResultError as failure:
-        partial: CoSimulation = failure.partial
-        turns = max(partial.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
-        error, calls, refused = None, partial.film_calls / turns, str(failure)
-    else:
         error = orbit_distance(run.trajectory, exact) / bearing.clearance
-        calls, refused = run.film_calls / REVOLUTIONS, ""
-    return CostRow(
-        scheme=SchemeName(scheme.label),
-        macro_angle=angle,
-        orbit_error=error,
-        film_calls=calls,
-        refused=refused,
-    )
+    except PartialResultError as failure:
+        run, refused = failure.partial, str(failure)
+        turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
+    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
 
 
 # How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -23,9 +22,19 @@ from ..bearings.damper import (
 )
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
 from ..core.errors import ValidityWarning, require_count, require_positive
-from ..core.progress import Report, part_of, silent
-from ..core.readable import Readable
-from .journal_accuracy import SEED, FilmCost, States, film_costs, relative_error
+from ..core.progress import Report, silent
+from .study import (
+    SEED,
+    FilmCase,
+    States,
+    Study,
+    StudyModel,
+    StudyResult,
+    film_times,
+    relative_error,
+    run_study,
+    spread,
+)
 
 LARGEST = 0.9
 """Eccentricity ratio of the states at most."""
@@ -87,72 +96,21 @@ def squeeze_family(damper: PorousDamper) -> SqueezeFamily:
     return FAMILIES[type(damper.film)]
 
 
-@dataclass(frozen=True, kw_only=True)
-class DamperRung(Readable):
-    """Error and cost of one squeeze film.
+DAMPER = Study(
+    name="damper",
+    solve=lambda model, case: model.law.force(*case.states),
+    quantities=lambda model, case, force: {
+        "film [-]": model.name,
+        "cavitated [-]": case.at[0],
+        **spread(relative_error(force, case.reference), "median", "99 %"),
+        **spread(relative_error(force, case.at[1]), "99 %", of=" against the short film"),
+    },
+    costs=film_times("force in a batch [s]", "force alone, prepare() [s]"),
+)
+"""Errors are those against the film of finite length; those against the short film leave out the length."""
 
-    Attributes
-    ----------
-    name : str
-    family : SqueezeFamily
-    cavitated : bool
-        Whether the film ruptures.
-    median_error, high_error : float [1]
-        Median and 99th percentile of |force - reference| / |reference|, the film of finite length.
-    series_error : float [1]
-        99th percentile against the short film with the whole series; what the length costs is not in it.
-    cost : FilmCost
-    """
-
-    name: str
-    family: SqueezeFamily
-    cavitated: bool
-    median_error: float
-    high_error: float
-    series_error: float
-    cost: FilmCost
-
-
-@dataclass(frozen=True, kw_only=True)
-class DamperAccuracy(Readable):
-    """Error against cost of the ladder of squeeze films.
-
-    Attributes
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    permeability_number : float [1]
-        Phi of the cage; H/L = 0.1, grading 0.1.
-    states, seed : int
-    rungs : tuple of DamperRung
-    """
-
-    slenderness: float
-    permeability_number: float
-    states: int
-    seed: int
-    rungs: tuple[DamperRung, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table of the rungs, headings with units; the conditions repeat in every row."""
-        rows = [
-            {
-                "film [-]": rung.name,
-                "cavitated [-]": rung.cavitated,
-                "median error [1]": rung.median_error,
-                "99 % error [1]": rung.high_error,
-                "99 % error against the short film [1]": rung.series_error,
-                "force in a batch [s]": rung.cost.force_time,
-                "force alone, prepare() [s]": rung.cost.call_time,
-                "batch [1]": rung.cost.batch,
-                "length/diameter [1]": self.slenderness,
-                "permeability number [1]": self.permeability_number,
-                "states [1]": self.states,
-                "seed [-]": self.seed,
-            }
-            for rung in self.rungs
-        ]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+CASES = {"cavitated": True, "full film": False}
+"""Whether films rupture, by the names of the cases."""
 
 
 def damper_accuracy(
@@ -163,7 +121,7 @@ def damper_accuracy(
     seed: int = SEED,
     rounds: int = ROUNDS,
     report: Report = silent,
-) -> DamperAccuracy:
+) -> StudyResult:
     """Measure error and cost of every squeeze film in one run.
 
     Parameters
@@ -188,21 +146,36 @@ def damper_accuracy(
         require_positive(name, value)
     require_count("states", states, 1)
     drawn = _states(states, seed)
-    rungs: list[DamperRung] = []
-    # Rungs outside their range are the point.
+    cases = []
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        for part, cavitated in enumerate((True, False)):
+        # Rungs outside their range are the point.
+        for kind, cavitated in CASES.items():
             dampers = damper_rungs(slenderness, permeability_number, cavitated=cavitated)
-            share = part_of(report, 0.5 * part, 0.5 * (part + 1))
-            costs = film_costs(dampers, drawn, rounds=rounds, report=share)
-            rungs += _compared(dampers, costs.values(), drawn, cavitated=cavitated)
-    return DamperAccuracy(
-        slenderness=slenderness,
-        permeability_number=permeability_number,
-        states=states,
-        seed=seed,
-        rungs=tuple(rungs),
-    )
+            models = [
+                StudyModel(name=film, family=squeeze_family(damper), law=damper)
+                for film, damper in dampers.items()
+            ]
+            # The closest film of finite length comes first, the whole series last.
+            finite = next(one.law for one in models if one.family is SqueezeFamily.FINITE)
+            whole = [one.law for one in models if one.family is SqueezeFamily.SERIES][-1]
+            cases.append(
+                FilmCase(
+                    name=kind,
+                    models=models,
+                    at=(cavitated, whole.force(*drawn)),
+                    reference=finite.force(*drawn),
+                    states=drawn,
+                    bearing=lambda damper: damper,
+                    rounds=rounds,
+                )
+            )
+    conditions = {
+        "length/diameter [1]": slenderness,
+        "permeability number [1]": permeability_number,
+        "states [1]": states,
+        "seed [-]": seed,
+    }
+    return run_study(DAMPER, cases, reference="film of finite length", conditions=conditions, report=report)
 
 
 def compared_damper(
@@ -244,32 +217,6 @@ def damper_rungs(
         **{name: replace(whole, film=film) for name, film in full.items()},
         "finite length, map": replace(whole, film=FiniteMapSqueeze()),
     }
-
-
-def _compared(
-    dampers: Mapping[str, PorousDamper], costs: Iterable[FilmCost], states: States, *, cavitated: bool
-) -> list[DamperRung]:
-    forces = [damper.force(*states) for damper in dampers.values()]
-    families = [squeeze_family(damper) for damper in dampers.values()]
-    pairs = list(zip(families, forces, strict=True))
-    # The closest film of finite length comes first, the whole series last.
-    reference = next(force for family, force in pairs if family is SqueezeFamily.FINITE)
-    whole = [force for family, force in pairs if family is SqueezeFamily.SERIES][-1]
-    rungs = []
-    for name, family, force, cost in zip(dampers, families, forces, costs, strict=True):
-        errors = relative_error(force, reference)
-        rungs.append(
-            DamperRung(
-                name=name,
-                family=family,
-                cavitated=cavitated,
-                median_error=float(np.median(errors)),
-                high_error=float(np.quantile(errors, 0.99)),
-                series_error=float(np.quantile(relative_error(force, whole), 0.99)),
-                cost=cost,
-            )
-        )
-    return rungs
 
 
 def _states(count: int, seed: int) -> States:

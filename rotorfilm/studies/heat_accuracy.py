@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import partial
 from time import process_time
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +17,6 @@ from ..bearings.journal import (
     FilmProfile,
     HeatedFilm,
     HeatedState,
-    HeatNumbers,
     JournalBearing,
     LayeredTemperature,
     MeanTemperature,
@@ -27,8 +24,9 @@ from ..bearings.journal import (
 )
 from ..bearings.oil import Cooling, Oil
 from ..core.model import Array, Reaction
-from ..core.progress import Report, silent
+from ..core.progress import Report, part_of, silent
 from ..core.units import CELSIUS
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
 
 # Models of a film's heat: as cold as the supply, one temperature, a field, layers across the film.
 
@@ -240,91 +238,46 @@ ROUNDS = 5
 """Runs of a model with one temperature, the shortest of which counts."""
 
 
-SHOWN = {
-    "eps": ("eccentricity ratio [1]", 1.0, 0.0, ".4f"),
-    "angle [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0, ".1f"),
-    "power [W]": ("power loss [W]", 1.0, 0.0, ".0f"),
-    "T [degC]": ("temperature, or largest [K]", 1.0, CELSIUS, ".1f"),
-    "Kyy [MN/m]": ("stiffness yy [N/m]", 1e-6, 0.0, ".4g"),
-    "place off [%]": ("error of the position [1]", 100.0, 0.0, ".1f"),
-    "power off [%]": ("error of the power [1]", 100.0, 0.0, ".1f"),
-    "time [ms]": ("CPU time [s]", 1e3, 0.0, ".4g"),
-}
-"""What a print-out shows: column of the table, its factor, its zero and its format. T is the one temperature
-of the film, or the largest of its field."""
+def _quantities(model: StudyModel, case: StudyCase, answer: HeatAnswer) -> dict[str, object]:
+    numbers, exact = case.at[1], case.reference
+    own = model.law is None
+    return {
+        "bearing [-]": case.at[0].name,
+        "thinning x rise E [1]": numbers.thinning_rise,
+        "Peclet number [1]": numbers.peclet,
+        "Nahme number [1]": numbers.nahme,
+        "model [-]": model.name,
+        "eccentricity ratio [1]": answer.eccentricity_ratio,
+        "attitude angle [rad]": answer.attitude_angle,
+        "power loss [W]": answer.power_loss,
+        "temperature, or largest [K]": answer.temperature,
+        "stiffness yy [N/m]": answer.load_stiffness,
+        "error of the position [1]": None if own else position_error(answer, exact),
+        "error of the power [1]": None if own else abs(answer.power_loss / exact.power_loss - 1.0),
+    }
 
 
-@dataclass(frozen=True, kw_only=True)
-class HeatRung:
-    """Answer, error and cost of one model for one bearing.
+HEAT = Study(
+    name="heat",
+    solve=lambda model, case: answered(case.at[0], model.law, cells=CELLS, layers=LAYERS),
+    quantities=_quantities,
+    costs=timed("CPU time [s]", process_time),
+)
 
-    Attributes
-    ----------
-    model : HeatModel
-    answer : HeatAnswer
-    position_error : float [1]
-        Distance from the journal's position by the reference / its eccentricity.
-    power_error : float [1]
-        |power loss - reference| / reference.
-    cost : float [s]
-        CPU time of an equilibrium with its coefficients.
-    """
-
-    model: HeatModel
-    answer: HeatAnswer
-    position_error: float
-    power_error: float
-    cost: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeatLadder:
-    """All models for one bearing.
-
-    Attributes
-    ----------
-    case : HeatCase
-    numbers : HeatNumbers
-        Of the film at supply temperature.
-    reference : HeatAnswer
-        Layers across the film, on finer cells.
-    rungs : tuple of HeatRung
-    """
-
-    case: HeatCase
-    numbers: HeatNumbers
-    reference: HeatAnswer
-    rungs: tuple[HeatRung, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeatAccuracy:
-    """Error against cost of the models of heat on several bearings.
-
-    Attributes
-    ----------
-    ladders : tuple of HeatLadder
-    reference : str
-    """
-
-    ladders: tuple[HeatLadder, ...]
-    reference: str
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table: a row for each model and bearing, and one for each reference."""
-        rows = [row for ladder in self.ladders for row in _rows(ladder)]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
-
-    def summary(self) -> dict[str, list[str]]:
-        """Return the answers as a print-out, under a row with the name of each bearing."""
-        table, previous = self.columns(), None
-        rows: list[list[str]] = []
-        for k, (name, model) in enumerate(zip(table["bearing [-]"], table["model [-]"], strict=True)):
-            if name != previous:
-                rows.append([str(name), *("" for _ in SHOWN)])
-                previous = name
-            rows.append([f"  {model}", *(_shown(table, k, *how) for how in SHOWN.values())])
-        return {heading: [row[k] for row in rows] for k, heading in enumerate(("model", *SHOWN))}
+HEAT_MODELS = (
+    *(
+        StudyModel(
+            name=model.value,
+            family=model,
+            label=model.said,
+            law=model,
+            repeats=ROUNDS if model in ONE_TEMPERATURE else 1,
+        )
+        for model in HeatModel
+    ),
+    StudyModel(name="reference", family="reference"),
+)
+"""The last has a row of the table and no mark."""
 
 
 def heat_accuracy(
@@ -333,7 +286,7 @@ def heat_accuracy(
     cells: tuple[int, int] = REFERENCE_CELLS,
     layers: int = REFERENCE_LAYERS,
     report: Report = silent,
-) -> HeatAccuracy:
+) -> StudyResult:
     """Return error and cost of all models of heat.
 
     Parameters
@@ -346,77 +299,15 @@ def heat_accuracy(
     report : callable, optional
         Told how far the job is.
     """
-    ladders = []
+    studied = []
     for number, case in enumerate(cases):
-        report(number / len(cases), case.name)
-        ladders.append(_ladder(case, cells, layers))
+        report(0.5 * number / len(cases), f"reference of {case.name}")
+        exact = answered(case, HeatModel.LAYERS, cells=cells, layers=layers)
+        cold = equilibrium(bearing_of(case, HeatModel.SUPPLY), case.load, case.speed)
+        numbers = heat_numbers(case.bearing, cold.position, case.speed)
+        told = f"E = {numbers.thinning_rise:.2g}, Pe = {numbers.peclet:.2g}, Na = {numbers.nahme:.2g}"
+        studied.append(
+            StudyCase(name=f"{case.name}: {told}", models=HEAT_MODELS, at=(case, numbers), reference=exact)
+        )
     text = f"temperature over {cells[0]} x {cells[1]} cells and in {layers} layers across the film"
-    return HeatAccuracy(ladders=tuple(ladders), reference=text)
-
-
-def _ladder(case: HeatCase, cells: tuple[int, int], layers: int) -> HeatLadder:
-    reference = answered(case, HeatModel.LAYERS, cells=cells, layers=layers)
-    cold = bearing_of(case, HeatModel.SUPPLY)
-    at = equilibrium(cold, case.load, case.speed)
-    return HeatLadder(
-        case=case,
-        numbers=heat_numbers(case.bearing, at.position, case.speed),
-        reference=reference,
-        rungs=tuple(_rung(case, model, reference) for model in HeatModel),
-    )
-
-
-def _rung(case: HeatCase, model: HeatModel, reference: HeatAnswer) -> HeatRung:
-    solve = partial(answered, case, model, cells=CELLS, layers=LAYERS)
-    answer, cost = _timed(solve, ROUNDS if model in ONE_TEMPERATURE else 1)
-    return HeatRung(
-        model=model,
-        answer=answer,
-        position_error=position_error(answer, reference),
-        power_error=abs(answer.power_loss / reference.power_loss - 1.0),
-        cost=cost,
-    )
-
-
-def _timed(solve: partial[HeatAnswer], rounds: int) -> tuple[HeatAnswer, float]:
-    """Return an answer, and the shortest of the CPU times that it took."""
-    times = []
-    for _ in range(rounds):
-        begin = process_time()
-        answer = solve()
-        times.append(process_time() - begin)
-    return answer, min(times)
-
-
-def _shown(
-    table: dict[str, list[object]], row: int, column: str, factor: float, zero: float, form: str
-) -> str:
-    value: Any = table[column][row]
-    return "" if value is None else format(factor * value - zero, form)
-
-
-def _rows(ladder: HeatLadder) -> Iterator[dict[str, object]]:
-    for rung in ladder.rungs:
-        errors = (rung.position_error, rung.power_error, rung.cost)
-        yield _row(ladder, rung.model.value, rung.answer, errors)
-    yield _row(ladder, "reference", ladder.reference, (None, None, None))
-
-
-def _row(
-    ladder: HeatLadder, model: str, answer: HeatAnswer, errors: tuple[float | None, ...]
-) -> dict[str, object]:
-    return {
-        "bearing [-]": ladder.case.name,
-        "thinning x rise E [1]": ladder.numbers.thinning_rise,
-        "Peclet number [1]": ladder.numbers.peclet,
-        "Nahme number [1]": ladder.numbers.nahme,
-        "model [-]": model,
-        "eccentricity ratio [1]": answer.eccentricity_ratio,
-        "attitude angle [rad]": answer.attitude_angle,
-        "power loss [W]": answer.power_loss,
-        "temperature, or largest [K]": answer.temperature,
-        "stiffness yy [N/m]": answer.load_stiffness,
-        "error of the position [1]": errors[0],
-        "error of the power [1]": errors[1],
-        "CPU time [s]": errors[2],
-    }
+    return run_study(HEAT, studied, reference=text, report=part_of(report, 0.5, 1.0))

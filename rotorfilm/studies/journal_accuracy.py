@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from time import perf_counter
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import (
@@ -31,7 +29,18 @@ from ..bearings.journal import (
 from ..core.errors import InputError, require_count, require_number, require_positive
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
-from ..core.readable import Readable
+from .study import (
+    SEED,
+    FilmCase,
+    States,
+    Study,
+    StudyModel,
+    StudyResult,
+    film_times,
+    relative_error,
+    run_study,
+    spread,
+)
 
 # The rungs of the journal film: every law, every place where its film may end, several orders.
 
@@ -60,44 +69,11 @@ class FilmFamily(StrEnum):
     MAP = "map"
 
 
-@dataclass(frozen=True, kw_only=True)
-class RungName:
-    """What a rung is called.
-
-    Attributes
-    ----------
-    family : FilmFamily
-        What it has in common with its neighbors.
-    label : str
-        What tells it from them; empty if nothing has to.
-    """
-
-    family: FilmFamily
-    label: str
-
-    @property
-    def name(self) -> str:
-        """Family and label, unique in the ladder."""
-        return f"{self.family} {self.label}".strip()
-
-
-@dataclass(frozen=True, kw_only=True)
-class ComparedFilm(RungName):
-    """One film law of the ladder.
-
-    Attributes
-    ----------
-    film : FilmLaw
-    """
-
-    film: FilmLaw
-
-
-def journal_rungs() -> tuple[ComparedFilm, ...]:
+def journal_rungs() -> tuple[StudyModel, ...]:
     """Return the ladder, families from the cheapest to the closest."""
     fixed, rotating, free = FixedArc(), RotatingArc(), ComplementarityArc()
     return (
-        ComparedFilm(family=FilmFamily.SHORT, label="", film=ShortFilm()),
+        _rung(FilmFamily.SHORT, "", ShortFilm()),
         *(_splitting(FilmFamily.PUBLISHED, fixed, n, 1) for n in (1, 2)),
         *(_splitting(FilmFamily.FIXED, fixed, n, None) for n in (2, 6)),
         _converged(FilmFamily.FIXED, fixed),
@@ -108,23 +84,23 @@ def journal_rungs() -> tuple[ComparedFilm, ...]:
         _converged(FilmFamily.FREE, free),
         *(_grid(FilmFamily.GRID, *cells) for cells in ((48, 4), (96, 8), (192, 16))),
         *(_grid(FilmFamily.EXTRAPOLATED, *cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
-        ComparedFilm(family=FilmFamily.MAP, label="", film=MapFilm()),
+        _rung(FilmFamily.MAP, "", MapFilm()),
     )
 
 
-def chosen_rungs(rungs: Sequence[ComparedFilm] | None) -> tuple[ComparedFilm, ...]:
+def chosen_rungs(rungs: Sequence[StudyModel] | None) -> tuple[StudyModel, ...]:
     """Return the rungs to compare, the whole ladder for None.
 
     Raises
     ------
     InputError
-        If there is none, one is not a `Rung`, or two have the same name.
+        If there is none, one is not a `StudyModel`, or two have the same name.
     """
     if rungs is None:
         return journal_rungs()
     chosen = tuple(rungs)
-    if not chosen or not all(isinstance(rung, ComparedFilm) for rung in chosen):
-        raise InputError(f"rungs must hold at least one Rung and nothing else, got {rungs!r}")
+    if not chosen or not all(isinstance(rung, StudyModel) for rung in chosen):
+        raise InputError(f"rungs must hold at least one StudyModel and nothing else, got {rungs!r}")
     names = [rung.name for rung in chosen]
     if len(set(names)) < len(names):
         raise InputError(f"rungs must have different names, got {names!r}")
@@ -148,23 +124,23 @@ def comparison_bearing(slenderness: float) -> JournalBearing:
     )
 
 
-def _splitting(
-    family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False
-) -> ComparedFilm:
+def _rung(family: FilmFamily, label: str, film: FilmLaw) -> StudyModel:
+    return StudyModel(name=f"{family} {label}".strip(), family=family, label=label, law=film)
+
+
+def _splitting(family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False) -> StudyModel:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
-    return ComparedFilm(
-        family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc)
-    )
+    return _rung(family, label, SplittingFilm(order=(n, m), constant=constant, rupture=arc))
 
 
-def _converged(family: FilmFamily, arc: Rupture) -> ComparedFilm:
-    return ComparedFilm(family=family, label="converged", film=SpectralArcFilm(rupture=arc, degree=CONVERGED))
+def _converged(family: FilmFamily, arc: Rupture) -> StudyModel:
+    return _rung(family, "converged", SpectralArcFilm(rupture=arc, degree=CONVERGED))
 
 
-def _grid(family: FilmFamily, around: int, along: int) -> ComparedFilm:
+def _grid(family: FilmFamily, around: int, along: int) -> StudyModel:
     plain = ReynoldsFilm(cells=(around, along))
     film = plain if family is FilmFamily.GRID else ExtrapolatedFilm(film=plain)
-    return ComparedFilm(family=family, label=f"{around} x {along}", film=film)
+    return _rung(family, f"{around} x {along}", film)
 
 
 # The states at which journal films are compared, and the two-dimensional solution there.
@@ -172,9 +148,6 @@ def _grid(family: FilmFamily, around: int, along: int) -> ComparedFilm:
 
 SPEED = 100.0
 """Angular speed of the comparisons [rad/s]; in dimensionless form nothing depends on it."""
-
-SEED = 1978
-"""Seed of the states, so that every run compares the same ones."""
 
 REFERENCE_CELLS = (768, 32)
 """Cells of the finest of the three grids behind the reference."""
@@ -215,14 +188,6 @@ class StateRange:
         if not (self.squeeze > 0.0 and slowest < fastest):
             raise InputError(f"squeeze and whirl must span a range, got {self.squeeze!r}, {self.whirl!r}")
 
-    def describe(self) -> str:
-        """Return the ranges in one line."""
-        (low, high), (slow, fast) = self.eccentricity_ratio, self.whirl
-        return (
-            f"eps {low:g} to {high:g}, |deps/dt| < {self.squeeze:g} omega, "
-            f"{slow:g} omega < dphi/dt < {fast:g} omega, all uniform"
-        )
-
 
 def _pair(name: str, values: tuple[float, float]) -> tuple[float, float]:
     if not isinstance(values, tuple) or len(values) != 2:
@@ -236,14 +201,6 @@ LARGE = StateRange()
 
 SMALL = StateRange(squeeze=0.05, whirl=(-0.05, 0.05))
 """Small motion about static equilibria."""
-
-
-class States(NamedTuple):
-    """Position (2, n) [m], velocity (2, n) [m/s] and speed (n,) [rad/s]."""
-
-    position: Array
-    velocity: Array
-    speed: Array
 
 
 class ReferenceForce(NamedTuple):
@@ -286,11 +243,6 @@ def squeeze_share(bearing: JournalBearing, states: States) -> float:
     """Return the share of the states in which squeeze outweighs the wedge, |g_c| > |g_s| [1]."""
     e, w = bearing.kinematics(*states)
     return float(np.mean(np.abs(np.sum(e * w, axis=0)) > np.abs(e[0] * w[1] - e[1] * w[0])))
-
-
-def relative_error(force: Array, reference: Array) -> Array:
-    """Return |force - reference| / |reference| of vectors (2, n)."""
-    return np.asarray(np.hypot(*(force - reference)) / np.hypot(*reference))
 
 
 def reference_force(
@@ -339,125 +291,6 @@ def _extrapolation(e: Array, w: Array, slenderness: float, cells: tuple[int, int
     return finer, np.hypot(*(finer - coarser)) / (3.0 * np.hypot(*finer))
 
 
-# Cost of one evaluation, measured so that rungs can be compared: interleaved, shortest of several rounds.
-
-
-SHORTEST_RUN = 0.01
-"""Length [s] of a measured run, long against the resolution of the clock."""
-
-BATCH = (8, 8192)
-"""States of a batch at least and at most."""
-
-STILL_FALLING = 0.9
-"""A batch is doubled while that lowers the cost of a state below this part of it."""
-
-
-class Timed(Protocol):
-    """A bearing whose forces are timed."""
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force, shape (2, ...)."""
-
-    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
-        """Return the force as a function of five numbers."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FilmCost(Readable):
-    """Cost of one force.
-
-    Attributes
-    ----------
-    force_time : float [s]
-        In a batch.
-    call_time : float [s]
-        One state at a time from Python, through `prepare()` of the bearing.
-    batch : int
-        States of the batch.
-    """
-
-    force_time: float
-    call_time: float
-    batch: int
-
-
-def film_costs(
-    bearings: Mapping[str, Timed],
-    states: States,
-    *,
-    rounds: int,
-    report: Report = silent,
-) -> dict[str, FilmCost]:
-    """Return the cost of each film at the given states, which repeat as often as the batch needs.
-
-    Every round measures every film once, so that a disturbance of the machine hits all of them. A
-    batch holds as many states as make a state cheap, and as last long enough to be measured; not more, since
-    on a busy machine short runs are more often left alone.
-    """
-    runs = {}
-    for name, bearing in bearings.items():
-        report(0.0, f"batch for {name}")
-        runs[name] = _batch_run(bearing, states), _call_run(bearing, states)
-    shortest = {name: [np.inf, np.inf] for name in runs}
-    for number in range(rounds):
-        for name, pair in runs.items():
-            report(number / rounds, f"cost, round {number + 1} of {rounds}: {name}")
-            for k, (run, _) in enumerate(pair):
-                shortest[name][k] = min(shortest[name][k], shortest_time(run, 1))
-    return {
-        name: FilmCost(
-            force_time=shortest[name][0] / batch[1], call_time=shortest[name][1] / calls[1], batch=batch[1]
-        )
-        for name, (batch, calls) in runs.items()
-    }
-
-
-def shortest_time(call: Callable[[], object], repeats: int = 7, loops: int = 1) -> float:
-    """Return the shortest time [s] of a call, among several runs of so many calls each."""
-    times = []
-    for _ in range(repeats):
-        begin = perf_counter()
-        for _ in range(loops):
-            call()
-        times.append(perf_counter() - begin)
-    return min(times) / loops
-
-
-def _batch_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
-    """Return a call long enough to be measured, and how many states it evaluates."""
-    (size, largest), each = BATCH, np.inf
-    while True:
-        repeated = [np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states]
-
-        def run(arguments: list[np.ndarray] = repeated) -> object:
-            return bearing.force(*arguments)
-
-        run()  # The first call compiles and builds tables.
-        seconds, before = shortest_time(run, 2), each
-        each = seconds / size
-        if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
-            return run, size
-        size *= 2
-
-
-def _call_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
-    """Return a loop over states long enough to be measured, and how many states it visits."""
-    call = bearing.prepare()
-    columns = np.concatenate([states.position, states.velocity, states.speed[None]]).T.tolist()
-    size = 8
-    while True:
-        visited = [columns[k % len(columns)] for k in range(size)]
-
-        def run(states: list[list[float]] = visited) -> None:
-            for state in states:
-                call(*state)
-
-        run()
-        if shortest_time(run, 1) > SHORTEST_RUN:
-            return run, size
-        size *= 2
-
-
 # Error against cost of every journal film, on random states, against a two-dimensional reference.
 
 
@@ -468,88 +301,23 @@ ROUNDS = 9
 """Rounds of timing, of which the shortest counts."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RungAccuracy(RungName, Readable):
-    """Error and cost of one rung.
-
-    Attributes
-    ----------
-    median_error, high_error, worst_error : float [1]
-        Median, 99th percentile and maximum of |force - reference| / |reference|.
-    tension_share : float [1]
-        Share of the states in which the film carries tension of more than 1 % of its largest pressure.
-    cost : FilmCost
-    """
-
-    median_error: float
-    high_error: float
-    worst_error: float
-    tension_share: float
-    cost: FilmCost
+def _quantities(model: StudyModel, case: FilmCase, force: Array) -> dict[str, object]:
+    bearing: JournalBearing = case.at
+    pulled = tension(model.law, *bearing.kinematics(*case.states), bearing.slenderness)
+    return {
+        "family [-]": model.family,
+        "label [-]": model.label,
+        **spread(relative_error(force, case.reference), "median", "99 %", "largest"),
+        "states in tension [1]": float(np.mean(pulled > TENSION)),
+    }
 
 
-@dataclass(frozen=True, kw_only=True)
-class JournalAccuracy(Readable):
-    """Error against cost of the ladder of journal films.
-
-    Attributes
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    ranges : StateRange
-        Where the states were drawn from.
-    states, seed : int
-        How many, and the seed of the random numbers.
-    squeeze_share : float [1]
-        Share of the states in which squeeze outweighs the wedge.
-    reference : str
-        What the errors are measured against.
-    reference_median, reference_high : float [1]
-        Median and 99th percentile of the estimated relative error of the reference: errors below mean
-        nothing.
-    rungs : tuple of RungAccuracy
-    """
-
-    slenderness: float
-    ranges: StateRange
-    states: int
-    seed: int
-    squeeze_share: float
-    reference: str
-    reference_median: float
-    reference_high: float
-    rungs: tuple[RungAccuracy, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table of the rungs, headings with units; the conditions repeat in every row."""
-        low, high = self.ranges.eccentricity_ratio
-        rows = [
-            {
-                "family [-]": rung.family,
-                "label [-]": rung.label,
-                "median error [1]": rung.median_error,
-                "99 % error [1]": rung.high_error,
-                "largest error [1]": rung.worst_error,
-                "force in a batch [s]": rung.cost.force_time,
-                "force alone, prepare() [s]": rung.cost.call_time,
-                "batch [1]": rung.cost.batch,
-                "states in tension [1]": rung.tension_share,
-                "length/diameter [1]": self.slenderness,
-                "states [1]": self.states,
-                "seed [-]": self.seed,
-                "eccentricity ratio from [1]": low,
-                "eccentricity ratio to [1]": high,
-                "largest squeeze rate/speed [1]": self.ranges.squeeze,
-                "whirl/speed from [1]": self.ranges.whirl[0],
-                "whirl/speed to [1]": self.ranges.whirl[1],
-                "squeeze above wedge [1]": self.squeeze_share,
-                "reference [-]": self.reference,
-                "reference error, median [1]": self.reference_median,
-                "reference error, 99 % [1]": self.reference_high,
-            }
-            for rung in self.rungs
-        ]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+JOURNAL = Study(
+    name="journal",
+    solve=lambda model, case: fitted_bearing(case.at, model.law).force(*case.states),
+    quantities=_quantities,
+    costs=film_times("force in a batch [s]", "force alone, prepare() [s]"),
+)
 
 
 def journal_accuracy(
@@ -558,11 +326,11 @@ def journal_accuracy(
     states: int = 300,
     ranges: StateRange = LARGE,
     seed: int = SEED,
-    rungs: Sequence[ComparedFilm] | None = None,
+    rungs: Sequence[StudyModel] | None = None,
     cells: tuple[int, int] = REFERENCE_CELLS,
     rounds: int = ROUNDS,
     report: Report = silent,
-) -> JournalAccuracy:
+) -> StudyResult:
     """Measure error and cost of every rung in one run.
 
     Parameters
@@ -575,7 +343,7 @@ def journal_accuracy(
         Where they are drawn from.
     seed : int
         Of the random numbers.
-    rungs : sequence of ComparedFilm, optional
+    rungs : sequence of StudyModel, optional
         `journal_rungs()` by default.
     cells : tuple of int
         Cells of the finest grid of the reference, multiples of 16 and at least (64, 16).
@@ -590,54 +358,36 @@ def journal_accuracy(
         If a number is out of range, the cells break their rule, or there are no rungs.
     """
     require_count("rounds", rounds)
-    rungs = chosen_rungs(rungs)
-    bearing = comparison_bearing(slenderness)
+    models, bearing = chosen_rungs(rungs), comparison_bearing(slenderness)
     sample = random_states(ranges, count=states, clearance=bearing.clearance, seed=seed)
     reference = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))
-    bearings = {rung.name: fitted_bearing(bearing, rung.film) for rung in rungs}
-    costs = film_costs(bearings, sample, rounds=rounds, report=part_of(report, 0.5, 0.8))
-    measured: list[RungAccuracy] = []
-    for rung, fitted, cost in zip(rungs, bearings.values(), costs.values(), strict=True):
-        report(0.8 + 0.2 * len(measured) / len(rungs), f"error of {rung.name}")
-        measured.append(_measured(rung, fitted, sample, reference, cost))
-    return JournalAccuracy(
-        slenderness=slenderness,
-        ranges=ranges,
-        states=states,
-        seed=seed,
-        squeeze_share=squeeze_share(bearing, sample),
-        reference=_reference_text(cells),
-        reference_median=float(np.median(reference.error)),
-        reference_high=float(np.quantile(reference.error, 0.99)),
-        rungs=tuple(measured),
+    case = FilmCase(
+        models=models,
+        at=bearing,
+        reference=reference.force,
+        states=sample,
+        bearing=lambda film: fitted_bearing(bearing, film),
+        rounds=rounds,
     )
-
-
-def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
-    """Return the indices of the points that no other beats in both cost and error, cheapest first."""
-    front: list[int] = []
-    for i in np.lexsort((errors, costs)).tolist():
-        if not front or errors[i] < errors[front[-1]]:
-            front.append(i)
-    return front
-
-
-def _measured(
-    rung: ComparedFilm, bearing: JournalBearing, sample: States, reference: ReferenceForce, cost: FilmCost
-) -> RungAccuracy:
-    error = relative_error(bearing.force(*sample), reference.force)
-    pulled = tension(rung.film, *bearing.kinematics(*sample), bearing.slenderness)
-    return RungAccuracy(
-        family=rung.family,
-        label=rung.label,
-        median_error=float(np.median(error)),
-        high_error=float(np.quantile(error, 0.99)),
-        worst_error=float(np.max(error)),
-        tension_share=float(np.mean(pulled > TENSION)),
-        cost=cost,
+    text = f"2-D film, {cells[0]} x {cells[1]} and {cells[0] // 2} x {cells[1] // 2} cells extrapolated"
+    conditions = {
+        "length/diameter [1]": slenderness,
+        "states [1]": states,
+        "seed [-]": seed,
+        "eccentricity ratio from [1]": ranges.eccentricity_ratio[0],
+        "eccentricity ratio to [1]": ranges.eccentricity_ratio[1],
+        "largest squeeze rate/speed [1]": ranges.squeeze,
+        "whirl/speed from [1]": ranges.whirl[0],
+        "whirl/speed to [1]": ranges.whirl[1],
+        "squeeze above wedge [1]": squeeze_share(bearing, sample),
+        "reference [-]": text,
+        "reference error, median [1]": float(np.median(reference.error)),
+        "reference error, 99 % [1]": float(np.quantile(reference.error, 0.99)),
+    }
+    return run_study(
+        JOURNAL,
+        [case],
+        reference=text,
+        conditions=conditions,
+        report=part_of(report, 0.5, 1.0),
     )
-
-
-def _reference_text(cells: tuple[int, int]) -> str:
-    around, along = cells
-    return f"2-D film, {around} x {along} and {around // 2} x {along // 2} cells extrapolated"

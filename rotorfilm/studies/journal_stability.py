@@ -19,14 +19,12 @@ from .journal_accuracy import (
     LARGE,
     SPEED,
     TENSION,
-    ComparedFilm,
-    RungName,
-    States,
     chosen_rungs,
     comparison_bearing,
     random_states,
     require_cells,
 )
+from .study import States, StudyModel
 
 THRESHOLD_CELLS = (384, 16)
 """Finer grid of the reference; each derivative is a mean of eight solutions on it."""
@@ -42,7 +40,7 @@ def journal_stability(
     slenderness: float,
     *,
     eccentricity_ratio: Sequence[float] = ECCENTRICITY_RATIOS,
-    rungs: Sequence[ComparedFilm] | None = None,
+    rungs: Sequence[StudyModel] | None = None,
     cells: tuple[int, int] = THRESHOLD_CELLS,
     report: Report = silent,
 ) -> JournalStability:
@@ -54,7 +52,7 @@ def journal_stability(
         Length / diameter, 0.1 to 4.
     eccentricity_ratio : sequence of float [1]
         Each above 0 and below 1.
-    rungs : sequence of ComparedFilm, optional
+    rungs : sequence of StudyModel, optional
         `journal_rungs()` by default.
     cells : tuple of int
         Cells of the finest grid of the reference, multiples of 16 and at least (64, 16).
@@ -142,17 +140,18 @@ def _parameter(mass: float | None, clearance: float, load: Array) -> float | Non
 
 
 def _judged(
-    rung: ComparedFilm,
+    rung: StudyModel,
     bearing: JournalBearing,
     ratios: Array,
     exact: tuple[float | None, ...],
     sample: States,
 ) -> RungStability:
-    own = fitted_bearing(bearing, rung.film)
+    own = fitted_bearing(bearing, rung.law)
     curve = _curve(own, ratios)
-    at_rest = tension(rung.film, *own.kinematics(*_static_states(own, ratios)), own.slenderness)
-    moving = tension(rung.film, *own.kinematics(*sample), own.slenderness)
+    at_rest = tension(rung.law, *own.kinematics(*_static_states(own, ratios)), own.slenderness)
+    moving = tension(rung.law, *own.kinematics(*sample), own.slenderness)
     return RungStability(
+        name=rung.name,
         family=rung.family,
         label=rung.label,
         speed_parameter=curve.parameters,
@@ -195,11 +194,13 @@ eccentricity ratio by 0.001 changes it by several per cent."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class RungStability(RungName, Readable):
+class RungStability(Readable):
     """Whirl threshold by one rung, over the eccentricity ratios of a `JournalStability`.
 
     Attributes
     ----------
+    name, family, label : str
+        Of the film; see `StudyModel`.
     speed_parameter : tuple of n floats or None [1]
         speed * sqrt(clearance * mass / load) at the onset of whirl; None where there is none.
     deviation : tuple of n floats or None [1]
@@ -216,6 +217,9 @@ class RungStability(RungName, Readable):
         Share of random states of large motion in which the film carries more tension than `TENSION`.
     """
 
+    name: str
+    family: str
+    label: str
     speed_parameter: tuple[float | None, ...]
     deviation: tuple[float | None, ...]
     reasons: tuple[str, ...]

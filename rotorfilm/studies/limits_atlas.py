@@ -1,4 +1,4 @@
-"""The atlas of limits of all physics: every panel of `limits_*.py`, computed in turn."""
+"""The atlas of limits of all physics, with the panels of heat, dampers, contacts and bushes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,6 @@ from .contact_cases import published_contact
 from .contact_precision import natural_motions
 from .damper_accuracy import compared_damper
 from .heat_accuracy import HeatAnswer, HeatCase, HeatModel, answered, position_error
-from .journal_accuracy import relative_error
 from .limits_journal import (
     JOURNAL_PANELS,
     ROTOR_PANELS,
@@ -45,9 +44,10 @@ from .limits_journal import (
     Curve,
     Limit,
     LimitAtlas,
-    PanelCurves,
+    Panel,
     panel,
 )
+from .study import relative_error
 
 # Limits of the polymer bush that melts, under a load that grows by half.
 #
@@ -350,25 +350,21 @@ HEAT_PANELS = (heat_rise, heat_peclet, heat_profile)
 """Panels of a film's heat, in the order in which they are drawn."""
 
 
-# The atlas of limits of all physics: every panel of `limits_*.py`, computed in turn.
+# All panels, computed in turn.
 
 
-PANELS: dict[str, PanelCurves] = {
-    each.key: each
-    for physics in (
-        JOURNAL_PANELS,
-        SUPPLY_PANELS,
-        HEAT_PANELS,
-        ROTOR_PANELS,
-        DAMPER_PANELS,
-        CONTACT_PANELS,
-        BUSH_PANELS,
-    )
-    for each in physics
-}
-"""All panels by their names, in the order in which they are drawn."""
+PANELS: tuple[Panel, ...] = (
+    *JOURNAL_PANELS,
+    *SUPPLY_PANELS,
+    *HEAT_PANELS,
+    *ROTOR_PANELS,
+    *DAMPER_PANELS,
+    *CONTACT_PANELS,
+    *BUSH_PANELS,
+)
+"""All panels, in the order in which they are drawn."""
 
-PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
+PHYSICS = tuple(dict.fromkeys(each.physics for each in PANELS))
 """What the panels are about."""
 
 
@@ -391,13 +387,13 @@ def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silen
     for name in physics:
         if name not in PHYSICS:
             raise InputError(f"physics must be among {', '.join(PHYSICS)}, got {name!r}")
-    chosen = {key: each for key, each in PANELS.items() if each.panel.physics in physics}
+    chosen = [each for each in PANELS if each.physics in physics]
     if not chosen:
         raise InputError(f"physics must name one of {', '.join(PHYSICS)}, got none")
     found: list[Limit] = []
-    for number, each in enumerate(chosen.values()):
-        report(number / len(chosen), f"{each.panel.physics}: {each.panel.title}")
+    for number, each in enumerate(chosen):
+        report(number / len(chosen), f"{each.physics}: {each.title}")
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             # That a model is used beyond its range is what the atlas shows.
             found += each.limits()
-    return LimitAtlas(panels={key: each.panel for key, each in chosen.items()}, limits=tuple(found))
+    return LimitAtlas(limits=tuple(found))

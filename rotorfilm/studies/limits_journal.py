@@ -1,17 +1,16 @@
 """The atlas of limits: where each simplification fails, as curves and the level that counts as failed.
 
-Each physics has a file of its own with its panels, `limits_journal.py`, `limits_supply.py`,
-`limits_heat.py`, `limits_rotor.py` (steps in time), `limits_damper.py`, `limits_contact.py` and
-`limits_bush.py`; `limits_atlas.py` puts them together.
+A panel is a record: which physics, how its axes read, and a function that yields its curves. Here are those
+of a journal bearing, of its supply and of steps in time; `limits_atlas.py` has the others.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,35 +33,16 @@ from ..bearings.journal import (
 from ..core.model import Array
 from ..cosim import critical_macro_step
 from .coupling_cost import resting_rotor
-from .journal_accuracy import SPEED, comparison_bearing, relative_error
+from .journal_accuracy import SPEED, comparison_bearing
+from .study import relative_error
 
 FAILED = 0.1
 """Relative error at which a simplification counts as failed."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limit:
-    """One curve of the atlas.
-
-    Attributes
-    ----------
-    panel : str
-        The simplification.
-    name : str
-        Which of them.
-    abscissa, ordinate : ndarray, shape (n,)
-        What it depends on, and the error or limit there; not-a-number where it has none.
-    """
-
-    panel: str
-    name: str
-    abscissa: Array
-    ordinate: Array
-
-
-@dataclass(frozen=True, kw_only=True)
 class Panel:
-    """How one panel is read.
+    """One panel of the atlas: a simplification, how it is read, and what computes its curves.
 
     Attributes
     ----------
@@ -75,6 +55,8 @@ class Panel:
         Whether the abscissa is drawn so.
     level : float or None
         Error from which a curve counts as failed; None where the ordinate itself is the limit.
+    curves : callable
+        Yields name, abscissa and ordinate of each curve.
     """
 
     physics: str
@@ -83,6 +65,14 @@ class Panel:
     y_label: str
     level: float | None = FAILED
     logarithmic: bool = False
+    curves: Callable[[], Iterator[Curve]]
+
+    def limits(self) -> list[Limit]:
+        """Return the curves."""
+        return [
+            Limit(panel=self, name=name, abscissa=np.asarray(x), ordinate=np.asarray(y))
+            for name, x, y in self.curves()
+        ]
 
 
 Curve = tuple[str, ArrayLike, ArrayLike]
@@ -90,35 +80,32 @@ Curve = tuple[str, ArrayLike, ArrayLike]
 
 
 @dataclass(frozen=True, kw_only=True)
-class PanelCurves:
-    """A panel, its name in the atlas, and what computes its curves.
+class Limit:
+    """One curve of the atlas.
 
     Attributes
     ----------
-    key : str
     panel : Panel
-    curves : callable
-        Yields name, abscissa and ordinate of each curve.
+        The simplification.
+    name : str
+        Which variant of it.
+    abscissa, ordinate : ndarray, shape (n,)
+        What it depends on, and the error or limit there; not-a-number where it has none.
     """
 
-    key: str
     panel: Panel
-    curves: Callable[[], Iterator[Curve]]
-
-    def limits(self) -> list[Limit]:
-        """Return the curves."""
-        return [
-            Limit(panel=self.key, name=name, abscissa=np.asarray(x), ordinate=np.asarray(y))
-            for name, x, y in self.curves()
-        ]
+    name: str
+    abscissa: Array
+    ordinate: Array
 
 
 def panel(
     physics: str, title: str, x_label: str, y_label: str, **reading: Any
-) -> Callable[[Callable[[], Iterator[Curve]]], PanelCurves]:
-    """Make a panel of the function below, whose name is its name in the atlas; arguments as of `Panel`."""
-    found = Panel(physics=physics, title=title, x_label=x_label, y_label=y_label, **reading)
-    return lambda curves: PanelCurves(key=curves.__name__, panel=found, curves=curves)
+) -> Callable[[Callable[[], Iterator[Curve]]], Panel]:
+    """Make a panel of the function below; arguments as of `Panel`."""
+    return lambda curves: Panel(
+        physics=physics, title=title, x_label=x_label, y_label=y_label, curves=curves, **reading
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,21 +114,33 @@ class LimitAtlas:
 
     Attributes
     ----------
-    panels : dict of str to Panel
-        How each is read, by its name.
     limits : tuple of Limit
-        The curves.
+        The curves, those of a panel in a row.
     """
 
-    panels: dict[str, Panel] = field(default_factory=dict)
     limits: tuple[Limit, ...]
+
+    @property
+    def panels(self) -> dict[Panel, list[Limit]]:
+        """The panels with their curves."""
+        return {
+            panel: [one for one in self.limits if one.panel is panel]
+            for panel in dict.fromkeys(one.panel for one in self.limits)
+        }
 
     def columns(self) -> dict[str, list[object]]:
         """Return the columns of the table, a row for each point of each curve."""
         rows = [
-            (panel.physics, panel.title, one.name, panel.x_label, float(x), panel.y_label, float(y))
+            (
+                one.panel.physics,
+                one.panel.title,
+                one.name,
+                one.panel.x_label,
+                float(x),
+                one.panel.y_label,
+                float(y),
+            )
             for one in self.limits
-            for panel in (self.panels[one.panel],)
             for x, y in zip(one.abscissa, one.ordinate, strict=True)
         ]
         headings = ("physics", "simplification", "variant", "abscissa", "at", "ordinate", "error or limit")
@@ -160,30 +159,9 @@ def failure(limit: Limit, level: float) -> float | None:
     return float(np.interp(np.log(level), y, x))
 
 
-class Failure(NamedTuple):
-    """Where one curve fails; `at` is None where it does not.
-
-    Attributes
-    ----------
-    panel : Panel
-    name : str
-        Which curve.
-    at : float or None
-        Abscissa of the panel from which it fails.
-    """
-
-    panel: Panel
-    name: str
-    at: float | None
-
-
-def failures(atlas: LimitAtlas) -> Sequence[Failure]:
-    """Return panel, curve and where it fails, of all curves with a level."""
-    return [
-        Failure(panel, one.name, failure(one, panel.level))
-        for one in atlas.limits
-        if (panel := atlas.panels[one.panel]).level is not None
-    ]
+def failures(atlas: LimitAtlas) -> list[tuple[Limit, float | None]]:
+    """Return all curves with a level, each with the abscissa from which it fails; None if nowhere."""
+    return [(one, failure(one, one.panel.level)) for one in atlas.limits if one.panel.level is not None]
 
 
 # Limits of the films of a journal bearing: a full one of L/D 1/2.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -14,17 +14,23 @@ from ..bearings.pads import LobedBearing, PadFilm, PadGridFilm, PadMapFilm, lobe
 from ..core.errors import InputError, ValidityWarning, require_count, require_positive
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
-from ..core.readable import Readable
 from .bearing_types import CLEARANCE, RADIUS, SPEED, VISCOSITY
-from .journal_accuracy import SEED, FilmCost, States, film_costs
+from .study import (
+    SEED,
+    FilmCase,
+    States,
+    Study,
+    StudyModel,
+    StudyResult,
+    film_times,
+    run_study,
+    spread,
+)
 
 CELLS = (288, 24)
 """Cells of a pad, and of half its length, of the reference."""
 
 ROUNDS = 5
-
-TIMED = 1
-"""Bearings whose forces are timed: films of pads cost alike."""
 
 
 class PadFamily(StrEnum):
@@ -34,111 +40,33 @@ class PadFamily(StrEnum):
     GRID = "grid"
 
 
-@dataclass(frozen=True, kw_only=True)
-class ComparedPad:
-    """One film of pads of the ladder.
-
-    Attributes
-    ----------
-    name : str
-    family : PadFamily
-    film : PadFilm
-    """
-
-    name: str
-    family: PadFamily
-    film: PadFilm
-
-
-@dataclass(frozen=True, kw_only=True)
-class PadRung(Readable):
-    """Error and cost of one film of pads.
-
-    Attributes
-    ----------
-    name : str
-    family : PadFamily
-    median_error, usual_error, high_error : float [1]
-        Median, 90th and 99th percentile of |force - reference| over the force, or over 5 % of the largest at
-        that place where that is more.
-    cost : FilmCost
-        Of one pad.
-    """
-
-    name: str
-    family: PadFamily
-    median_error: float
-    usual_error: float
-    high_error: float
-    cost: FilmCost
-
-
-@dataclass(frozen=True, kw_only=True)
-class PadAccuracy(Readable):
-    """Error against cost of the films of pads.
-
-    Attributes
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    bearings : tuple of str
-        Of which states were drawn.
-    states, seed : int
-        Of each bearing, and the seed of the random numbers.
-    reference : str
-        What the errors are measured against.
-    reference_usual, reference_high : float [1]
-        The 90th and 99th percentile of the distance of the reference from half its cells: errors below mean
-        nothing.
-    rungs : tuple of PadRung
-    """
-
-    slenderness: float
-    bearings: tuple[str, ...]
-    states: int
-    seed: int
-    reference: str
-    reference_usual: float
-    reference_high: float
-    rungs: tuple[PadRung, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table of the rungs, headings with units; the conditions repeat in every row."""
-        rows = [
-            {
-                "family [-]": rung.family,
-                "film [-]": rung.name,
-                "median error [1]": rung.median_error,
-                "90 % error [1]": rung.usual_error,
-                "99 % error [1]": rung.high_error,
-                "force of a pad in a batch [s]": rung.cost.force_time,
-                "force of a pad alone, prepare() [s]": rung.cost.call_time,
-                "length/diameter [1]": self.slenderness,
-                "states of each bearing [1]": self.states,
-                "seed [-]": self.seed,
-                "bearings [-]": ", ".join(self.bearings),
-                "reference [-]": self.reference,
-                "reference error, 90 % [1]": self.reference_usual,
-                "reference error, 99 % [1]": self.reference_high,
-            }
-            for rung in self.rungs
-        ]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
-
-
-def pad_rungs() -> tuple[ComparedPad, ...]:
+def pad_rungs() -> tuple[StudyModel, ...]:
     """Return the films of pads, maps from coarse to fine and then grids."""
     fine = PadMapFilm().resolution
     coarse, middle = replace(fine, cells=(48, 4), nodes=(6, 6, 24)), replace(fine, nodes=(9, 7, 64))
-    maps = [(f"map {' x '.join(map(str, r.nodes))}", r) for r in (coarse, middle, fine)]
-    grids = ((32, 4), (48, 8), (96, 8), (192, 16))
-    return (
-        *(ComparedPad(name=n, family=PadFamily.MAP, film=PadMapFilm(resolution=r)) for n, r in maps),
+    films: list[tuple[PadFamily, tuple[int, ...], PadFilm]] = [
+        *((PadFamily.MAP, r.nodes, PadMapFilm(resolution=r)) for r in (coarse, middle, fine)),
         *(
-            ComparedPad(name=f"grid {a} x {b}", family=PadFamily.GRID, film=PadGridFilm(cells=(a, b)))
-            for a, b in grids
+            (PadFamily.GRID, cells, PadGridFilm(cells=cells))
+            for cells in ((32, 4), (48, 8), (96, 8), (192, 16))
         ),
+    ]
+    return tuple(
+        StudyModel(name=f"{family} {' x '.join(map(str, size))}", family=family, law=film)
+        for family, size, film in films
     )
+
+
+PADS = Study(
+    name="pads",
+    solve=lambda model, case: [replace(one.bearing, film=model.law).force(*one.states) for one in case.at],
+    quantities=lambda model, case, forces: {
+        "family [-]": model.family,
+        "film [-]": model.name,
+        **spread(_errors(case.at, forces), "median", "90 %", "99 %"),
+    },
+    costs=film_times("force of a pad in a batch [s]", "force of a pad alone, prepare() [s]", counted=False),
+)
 
 
 def pad_accuracy(
@@ -146,11 +74,11 @@ def pad_accuracy(
     *,
     states: int = 100,
     seed: int = SEED,
-    rungs: Sequence[ComparedPad] | None = None,
+    rungs: Sequence[StudyModel] | None = None,
     cells: tuple[int, int] = CELLS,
     rounds: int = ROUNDS,
     report: Report = silent,
-) -> PadAccuracy:
+) -> StudyResult:
     """Measure error and cost of every film of pads in one run.
 
     Parameters
@@ -161,7 +89,7 @@ def pad_accuracy(
         Random states of each bearing.
     seed : int
         Of the random numbers.
-    rungs : sequence of ComparedPad, optional
+    rungs : sequence of StudyModel, optional
         `pad_rungs()` by default.
     cells : (int, int)
         Cells of the reference, multiples of 8 and at least (32, 8).
@@ -185,55 +113,37 @@ def pad_accuracy(
     for k, bearing in enumerate(compared.values()):
         report(0.5 * k / len(compared), f"reference {k + 1} of {len(compared)}")
         samples.append(pad_sample(bearing, states, seed + k, cells))
-    own = _errors(samples, PadGridFilm(cells=(cells[0] // 2, cells[1] // 2)))
-    measured = []
-    for done, rung in enumerate(chosen):
-        first, last = (0.5 + 0.5 * (done + k) / len(chosen) for k in (0, 1))
-        measured.append(_measured(rung, samples, rounds, part_of(report, first, last)))
-    return PadAccuracy(
-        slenderness=slenderness,
-        bearings=tuple(compared),
-        states=states,
-        seed=seed,
-        reference=f"two-dimensional film, {cells[0]} x {cells[1]} cells a pad, extrapolated",
-        reference_usual=float(np.quantile(own, 0.9)),
-        reference_high=float(np.quantile(own, 0.99)),
-        rungs=tuple(measured),
+    half = PadGridFilm(cells=(cells[0] // 2, cells[1] // 2))
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        # Near contact maps go on beyond their nodes.
+        own = _errors(samples, [replace(one.bearing, film=half).force(*one.states) for one in samples])
+    timed = samples[0].bearing  # films of pads cost alike
+    case = FilmCase(
+        models=chosen,
+        at=samples,
+        states=samples[0].states,
+        bearing=lambda film: replace(timed, film=film),
+        pads=len(timed.lobes),
+        rounds=rounds,
+    )
+    reference = f"two-dimensional film, {cells[0]} x {cells[1]} cells a pad, extrapolated"
+    conditions = {
+        "length/diameter [1]": slenderness,
+        "states of each bearing [1]": states,
+        "seed [-]": seed,
+        "bearings [-]": ", ".join(compared),
+        "reference [-]": reference,
+        "reference error, 90 % [1]": float(np.quantile(own, 0.9)),
+        "reference error, 99 % [1]": float(np.quantile(own, 0.99)),
+    }
+    return run_study(
+        PADS, [case], reference=reference, conditions=conditions, report=part_of(report, 0.5, 1.0)
     )
 
 
-def _errors(samples: Sequence[PadSample], film: PadFilm) -> Array:
-    """Return the errors of a film at all states."""
-    found = (replace(sample.bearing, film=film).force(*sample.states) for sample in samples)
-    # Near contact maps go on beyond their nodes.
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        return np.concatenate([one.errors(force) for one, force in zip(samples, found, strict=True)])
-
-
-def _measured(rung: ComparedPad, samples: Sequence[PadSample], rounds: int, report: Report) -> PadRung:
-    errors = _errors(samples, rung.film)
-    median, usual, high = np.quantile(errors, (0.5, 0.9, 0.99)).tolist()
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        costs = [
-            cost
-            for one in samples[:TIMED]
-            for cost in film_costs(
-                {rung.name: replace(one.bearing, film=rung.film)}, one.states, rounds=rounds, report=report
-            ).values()
-        ]
-    pads = sum(len(one.bearing.lobes) for one in samples[:TIMED])
-    return PadRung(
-        name=rung.name,
-        family=rung.family,
-        median_error=median,
-        usual_error=usual,
-        high_error=high,
-        cost=FilmCost(
-            force_time=sum(cost.force_time for cost in costs) / pads,
-            call_time=sum(cost.call_time for cost in costs) / pads,
-            batch=costs[0].batch,
-        ),
-    )
+def _errors(samples: Sequence[PadSample], forces: Sequence[Array]) -> Array:
+    """Return the errors of forces at all states."""
+    return np.concatenate([one.errors(force) for one, force in zip(samples, forces, strict=True)])
 
 
 # Random states of bearings of fixed pads, and the two-dimensional film of all pads there.

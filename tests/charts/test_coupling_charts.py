@@ -1,6 +1,6 @@
 import numpy as np
 
-from rotorfilm.charts import plot_coupling_cost, plot_coupling_limits, save
+from rotorfilm.charts import plot_coupling_limits, plot_study, save
 from rotorfilm.studies import coupling_cost, coupling_limits
 
 
@@ -19,7 +19,7 @@ def test_limits_are_drawn_and_tabulated(tmp_path):
 
 def test_cost_is_drawn_and_tabulated(tmp_path):
     cost = coupling_cost(macro_angles=(np.radians(5.0),))
-    left, right = plot_coupling_cost(cost)
+    left, right = plot_study(cost)
     assert [line.get_label() for line in left.lines][:2] == ["Gauss-Seidel 0", "Gauss-Seidel 1"]
     table = cost.columns()
     best = table["orbit_error [1]"][table["scheme"].index("SI-exp3")]
@@ -27,5 +27,5 @@ def test_cost_is_drawn_and_tabulated(tmp_path):
     refused = dict(zip(table["scheme"], table["refused"], strict=True))
     assert refused["Jacobi 2"]
     assert not refused["SI-exp3"]
-    assert right.get_xlabel().startswith("macro step")
+    assert right.get_xlabel().startswith("macro_angle")
     assert save(left, tmp_path / "cost.png").stat().st_size > 10_000

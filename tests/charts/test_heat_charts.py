@@ -7,21 +7,20 @@ from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import (
     BushRing,
     HeatedFilm,
-    HeatNumbers,
     JournalBearing,
     LayeredTemperature,
     MeanTemperature,
 )
 from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.charts import (
-    plot_heat_accuracy,
     plot_heated_film,
     plot_pressure_field,
+    plot_study,
     plot_temperature_across,
     plot_temperature_field,
 )
 from rotorfilm.core.errors import InputError
-from rotorfilm.studies import HEAT_CASES, HeatAccuracy, HeatAnswer, HeatLadder, HeatModel, HeatRung
+from rotorfilm.studies import HEAT_CASES, HeatModel, StudyResult, StudyRung
 
 
 def state_of(profile):
@@ -94,24 +93,25 @@ def test_the_whole_film_is_one_figure(layered):
 
 
 def test_ladder_has_a_panel_for_each_bearing():
-    def answer(power):
-        return HeatAnswer(
-            position=np.zeros(2), eccentricity_ratio=0.4, attitude_angle=0.7, power_loss=power,
-            temperature=330.0, load_stiffness=1e8,
-        )  # fmt: skip
-
     rungs = tuple(
-        HeatRung(model=model, answer=answer(1.0), position_error=0.5 / k, power_error=0.2 / k, cost=1e-3 * k)
+        StudyRung(
+            name=model,
+            family=model,
+            label=model.said,
+            case=case.name,
+            values={
+                "error of the position [1]": 0.5 / k,
+                "error of the power [1]": 0.2 / k,
+                "CPU time [s]": 1e-3 * k,
+            },
+        )
+        for case in HEAT_CASES
         for k, model in enumerate(HeatModel, 1)
     )
-    numbers, reference = HeatNumbers(2.0, 20.0, 3.0), answer(1.0)
-    ladders = [
-        HeatLadder(case=case, numbers=numbers, reference=reference, rungs=rungs) for case in HEAT_CASES
-    ]
-    shown = plot_heat_accuracy(HeatAccuracy(ladders=tuple(ladders), reference="finer"))
+    shown = plot_study(StudyResult(study="heat", reference="finer", rungs=rungs))
     assert len(shown) == len(HEAT_CASES)
     filled = [line for line in shown[0].get_lines() if line.get_markersize() == 7]
-    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], np.arange(1.0, 7.0))
+    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], 1e-3 * np.arange(1.0, 7.0))
     np.testing.assert_allclose([line.get_ydata()[0] for line in filled], 0.5 / np.arange(1.0, 7.0))
-    assert "E = 2, Pe = 20, Na = 3" in shown[0].get_title()
+    assert [axes.get_title() for axes in shown] == [case.name for case in HEAT_CASES]
     assert {text.get_text() for text in shown[0].texts} == {model.said for model in HeatModel}

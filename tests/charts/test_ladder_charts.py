@@ -3,37 +3,32 @@
 import numpy as np
 import pytest
 
-from rotorfilm.charts import (
-    new_axes,
-    plot_force_error,
-    plot_journal_accuracy,
-    plot_journal_stability,
-    plot_thresholds,
-)
+from rotorfilm.charts import new_axes, plot_journal_stability, plot_study, plot_thresholds
 from rotorfilm.charts.canvas import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, Label, place_labels
 from rotorfilm.charts.whirl_verdicts import verdicts
 from rotorfilm.studies import (
-    LARGE,
-    JournalAccuracy,
     JournalStability,
-    RungAccuracy,
     RungStability,
+    StudyResult,
+    StudyRung,
     journal_rungs,
 )
-from rotorfilm.studies.journal_accuracy import FilmCost
 
 
 def accuracy(family, time, error):
-    cost = FilmCost(force_time=time, call_time=10.0 * time, batch=128)
-    return RungAccuracy(
-        family=family, label="x", median_error=0.1 * error, high_error=error, worst_error=error,
-        tension_share=0.0, cost=cost,
-    )  # fmt: skip
+    values = {
+        "median error [1]": 0.1 * error,
+        "99 % error [1]": error,
+        "force in a batch [s]": time,
+        "force alone, prepare() [s]": 10.0 * time,
+    }
+    return StudyRung(name=family, family=family, label="x", case="", values=values)
 
 
 def stability(family, parameters, exact, *, rank_one=False, asymmetry=0.0, share=0.0):
     pairs = zip(parameters, exact, strict=True)
     return RungStability(
+        name=f"{family} x",
         family=family,
         label="x",
         speed_parameter=parameters,
@@ -102,17 +97,22 @@ def test_wider_curves_lie_below_and_the_working_point_is_marked(thresholds):
 
 def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
     rungs = (accuracy("short film", 1e-6, 1.0), accuracy("2-D", 3.5e-3, 1e-4), accuracy("map", 1e-7, 1e-5))
-    result = JournalAccuracy(
-        slenderness=0.5, ranges=LARGE, states=9, seed=1, squeeze_share=0.5, reference="2-D",
-        reference_median=1e-6, reference_high=1e-5, rungs=rungs,
-    )  # fmt: skip
-    batch, single = plot_journal_accuracy(result)
+    conditions = {
+        "length/diameter [1]": 0.5,
+        "states [1]": 9,
+        "seed [-]": 1,
+        "squeeze above wedge [1]": 0.5,
+        "reference error, median [1]": 1e-6,
+        "reference error, 99 % [1]": 1e-5,
+    }
+    result = StudyResult(study="journal", reference="2-D", conditions=conditions, rungs=rungs)
+    batch, single = plot_study(result)
     filled = [line for line in batch.get_lines() if line.get_marker() == "o" and line.get_markersize() == 7]
-    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1.0, 3500.0, 0.1])
+    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1e-6, 3.5e-3, 1e-7])
     np.testing.assert_allclose([line.get_ydata()[0] for line in filled], [1.0, 1e-4, 1e-5])
     assert "map 35 000 times cheaper" in [text.get_text() for text in batch.texts]
-    assert batch.get_ylim() == single.get_ylim() == plot_force_error(result).get_ylim()
-    assert "9 random states (seed 1)" in batch.get_figure().get_suptitle()
+    assert batch.get_ylim() == single.get_ylim() == plot_study(result, axes=new_axes("one"))[0].get_ylim()
+    assert "states: 9; seed: 1;" in batch.get_figure().get_suptitle()
 
 
 def test_labels_of_close_points_do_not_overlap():

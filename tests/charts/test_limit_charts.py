@@ -13,7 +13,7 @@ X = np.array([0.1, 1.0, 10.0])
 
 def panel(physics, title, **changes):
     reading = {"x_label": "size", "y_label": "error", "logarithmic": True, **changes}
-    return Panel(physics=physics, title=title, **reading)
+    return Panel(physics=physics, title=title, curves=lambda: iter(()), **reading)
 
 
 @pytest.fixture
@@ -29,8 +29,10 @@ def atlas():
         ("step", "any", [1e-3, 2e-3, 3e-3]),
         ("limit", "any", [5.0, 6.0, 7.0]),
     ]
-    limits = [Limit(panel=key, name=name, abscissa=X, ordinate=np.array(y)) for key, name, y in curves]
-    return LimitAtlas(panels=panels, limits=tuple(limits))
+    limits = [
+        Limit(panel=panels[key], name=name, abscissa=X, ordinate=np.array(y)) for key, name, y in curves
+    ]
+    return LimitAtlas(limits=tuple(limits))
 
 
 def test_each_physics_has_a_figure_whose_legends_lie_within_it(atlas):

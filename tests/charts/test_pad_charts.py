@@ -7,18 +7,17 @@ import pytest
 from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
 from rotorfilm import lobe_set
-from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_pad_accuracy
+from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_study
 from rotorfilm.studies import (
     BearingCoefficients,
     BearingThresholds,
-    PadAccuracy,
     PadFamily,
-    PadRung,
+    StudyResult,
+    StudyRung,
     TypeCoefficients,
     TypeThresholds,
     WhirlOutcome,
 )
-from rotorfilm.studies.journal_accuracy import FilmCost
 
 TURN = 2.0 * math.pi / 60.0
 
@@ -76,34 +75,36 @@ def test_bearings_that_never_whirl_lie_on_the_edge():
 
 def test_films_of_pads_are_drawn_over_their_cost():
     rungs = [
-        PadRung(
+        StudyRung(
             name=name,
             family=family,
-            median_error=1e-4,
-            usual_error=1e-3,
-            high_error=high,
-            cost=FilmCost(force_time=cost, call_time=10.0 * cost, batch=8),
+            label="",
+            case="",
+            values={
+                "median error [1]": 1e-4,
+                "99 % error [1]": high,
+                "force of a pad in a batch [s]": cost,
+                "force of a pad alone, prepare() [s]": 10.0 * cost,
+            },
         )
         for name, family, high, cost in (
             ("map", PadFamily.MAP, 4e-3, 1e-7),
             ("grid", PadFamily.GRID, 2e-3, 1e-5),
         )
     ]
-    result = PadAccuracy(
-        slenderness=0.5,
-        bearings=("elliptical",),
-        states=4,
-        seed=1,
-        reference="a film",
-        reference_usual=1e-5,
-        reference_high=1e-4,
-        rungs=tuple(rungs),
-    )
-    batch, alone = plot_pad_accuracy(result)
+    conditions = {
+        "length/diameter [1]": 0.5,
+        "bearings [-]": "elliptical",
+        "states of each bearing [1]": 4,
+        "seed [-]": 1,
+        "reference error, 99 % [1]": 1e-4,
+    }
+    result = StudyResult(study="pads", reference="a film", conditions=conditions, rungs=tuple(rungs))
+    batch, alone = plot_study(result)
     filled = [line.get_data() for line in batch.get_lines() if line.get_markersize() == 7]
-    assert np.ravel(filled) == pytest.approx([0.1, 4e-3, 10.0, 2e-3])
+    assert np.ravel(filled) == pytest.approx([1e-7, 4e-3, 1e-5, 2e-3])
     texts = {text.get_text() for text in alone.texts}
-    assert texts == {"map", "grid"}
+    assert texts == {"map", "grid", "gray: error of the reference "}
     assert "reference: a film" in batch.figure.get_suptitle()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import BallBearing, InputError, back_to_back, variable_compliance
-from rotorfilm.charts import plot_ball_accuracy, plot_ball_curves, plot_compliance
+from rotorfilm.charts import plot_ball_curves, plot_compliance, plot_study
 from rotorfilm.studies import ball_accuracy, ball_curves, usual_bearing
 
 CURVES = ball_curves(usual_bearing(), [0.0, 1500.0, 3000.0], thrust=500.0, load=300.0)
@@ -53,11 +53,12 @@ def test_the_spectrum_of_a_swing_is_its_picture():
 def test_models_beside_each_other():
     found = ball_accuracy(3, seed=4)
     by_name = {rung.name: rung for rung in found.rungs}
-    assert by_name["closed form"].states == 3
-    assert by_name["static balls"].states == by_name["running balls"].states == 6
-    assert by_name["closed form"].median_error > by_name["running balls"].median_error
-    assert 1e-4 < by_name["static balls"].median_error < 0.5
-    (axes,) = plot_ball_accuracy(found)
+    states = {name: rung["states [1]"] for name, rung in by_name.items()}
+    assert states == {"closed form": 3, "static balls": 6, "running balls": 6}
+    errors = {name: rung["median error of K [1]"] for name, rung in by_name.items()}
+    assert errors["closed form"] > errors["running balls"]
+    assert 1e-4 < errors["static balls"] < 0.5
+    (axes,) = plot_study(found)
     assert {text.get_text() for text in axes.texts} == set(by_name)
     assert {len(column) for column in found.columns().values()} == {3}
 

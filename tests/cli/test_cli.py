@@ -21,7 +21,7 @@ from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.studies.limits_atlas import PANELS
+from rotorfilm.studies.limits_atlas import heat_rise
 
 SCENE = """
 schema = 1
@@ -339,8 +339,9 @@ def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
     assert code == 0
     assert "done" in err
     result = json.loads(out)
-    assert (result["slenderness"], result["states"], result["seed"]) == (0.25, 6, 5)
-    assert result["ranges"]["squeeze"] == 0.05
+    told = [result["conditions"][name] for name in ("length/diameter [1]", "states [1]", "seed [-]")]
+    assert told == [0.25, 6, 5]
+    assert result["conditions"]["largest squeeze rate/speed [1]"] == 0.05
     assert (tmp_path / "chart_journal.png").read_bytes().startswith(b"\x89PNG")
     table = (tmp_path / "chart_journal.csv").read_text(encoding="utf-8").splitlines()
     assert len(table) == 1 + len(FEW)
@@ -361,14 +362,16 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     assert code == 0
     result = json.loads(out)
     assert result == json.loads((tmp_path / "chart_damper.json").read_text(encoding="utf-8"))
-    assert (result["slenderness"], result["permeability_number"], result["states"]) == (0.2, 0.01, 5)
-    rungs = {(rung["name"], rung["cavitated"]): rung for rung in result["rungs"]}
-    for cavitated in (True, False):
-        one, three = (rungs[f"series, {count}", cavitated]["series_error"] for count in (1, 3))
+    told = ("length/diameter [1]", "permeability number [1]", "states [1]")
+    assert [result["conditions"][name] for name in told] == [0.2, 0.01, 5]
+    rungs = {(rung["name"], rung["case"]): rung["values"] for rung in result["rungs"]}
+    short = "99 % error against the short film [1]"
+    for case in ("cavitated", "full film"):
+        one, three = (rungs[f"series, {count}", case][short] for count in (1, 3))
         assert one > 3.0 * three > 0.0
-        assert rungs["series, whole", cavitated]["series_error"] == 0.0
-        assert rungs["map", cavitated]["series_error"] < 1e-4
-    assert rungs["finite length", False]["high_error"] == 0.0
+        assert rungs["series, whole", case][short] == 0.0
+        assert rungs["map", case][short] < 1e-4
+    assert rungs["finite length", "full film"]["99 % error [1]"] == 0.0
     assert (tmp_path / "chart_damper.png").read_bytes().startswith(b"\x89PNG")
     table = (tmp_path / "chart_damper.csv").read_text(encoding="utf-8").splitlines()
     assert len(table) == 1 + len(rungs)
@@ -382,9 +385,8 @@ def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
     monkeypatch.setattr(ladders, "heat_accuracy", partial(ladders.heat_accuracy, **few))
     monkeypatch.setattr(models, "heated_film", partial(models.heated_film, cells=(32, 4), layers=4))
-    curve = ladders.Limit(panel="heat_rise", name="T0", abscissa=np.ones(2), ordinate=np.ones(2))
-    panels = {"heat_rise": PANELS["heat_rise"].panel}
-    atlas = ladders.LimitAtlas(panels=panels, limits=(curve,))
+    curve = ladders.Limit(panel=heat_rise, name="T0", abscissa=np.ones(2), ordinate=np.ones(2))
+    atlas = ladders.LimitAtlas(limits=(curve,))
     monkeypatch.setattr(ladders, "limits_atlas", lambda physics, report: atlas)
     code, out, _ = run("chart", "heat", "--out", tmp_path)
     assert code == 0

@@ -54,7 +54,8 @@ def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
     code, out, _ = run("chart", "pads", *options, "--json")
     assert code == 0
     result = json.loads(out)
-    assert (result["slenderness"], result["states"], result["seed"]) == (0.7, 3, 5)
+    told = ("length/diameter [1]", "states of each bearing [1]", "seed [-]")
+    assert [result["conditions"][name] for name in told] == [0.7, 3, 5]
     assert (tmp_path / "chart_pads.png").read_bytes().startswith(b"\x89PNG")
     table = (tmp_path / "chart_pads.csv").read_text(encoding="utf-8").splitlines()
     assert len(table) == 1 + len(grids)

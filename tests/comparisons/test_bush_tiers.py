@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.bush.melting import approximate_flux, exact_flux
-from rotorfilm.charts import plot_bush_tiers
+from rotorfilm.charts import plot_study
 from rotorfilm.cli import main as cli
 from rotorfilm.studies import bush_tiers
 
@@ -17,7 +17,7 @@ def tiers():
 
 
 def test_profiles_converge_and_the_published_stage_does_not(tiers):
-    errors = {tier.name: tier.error for tier in tiers.tiers}
+    errors = {tier.name: tier["angle error [1]"] for tier in tiers.rungs}
     assert errors["two moments"] < 1e-5
     assert errors["BushWear"] < 0.02
     assert errors["BushReaction, 33 nodes"] < 0.5 * errors["BushReaction, 17 nodes"] < 0.04
@@ -29,22 +29,23 @@ def test_profiles_converge_and_the_published_stage_does_not(tiers):
 @pytest.mark.literature
 def test_the_closed_form_of_the_shaft_is_high_everywhere(tiers):
     """The source says 3 % of its kernel."""
-    errors = np.array([row.error for row in tiers.shaft])
-    assert {row.stubbiness for row in tiers.shaft} == {0.1, 0.25, 0.5, 1.0}
-    assert (min(row.cooling for row in tiers.shaft), max(row.cooling for row in tiers.shaft)) == (0.02, 0.3)
+    shaft = tiers.notes["shaft"]
+    errors = np.array([row.error for row in shaft])
+    assert {row.stubbiness for row in shaft} == {0.1, 0.25, 0.5, 1.0}
+    assert (min(row.cooling for row in shaft), max(row.cooling for row in shaft)) == (0.02, 0.3)
     assert 0.006 < errors.min() < errors.max() < 0.03
-    row = tiers.shaft[7]
+    row = shaft[7]
     closed, exact = (flux(row.cooling, row.stubbiness) for flux in (approximate_flux, exact_flux))
     assert row.error == pytest.approx(closed / exact - 1.0, rel=1e-12)
 
 
 def test_the_chart_has_every_tier_and_every_line(tiers):
-    cost, angle, shaft = plot_bush_tiers(tiers)
+    cost, angle, shaft = plot_study(tiers)
     marks = sum(len(line.get_xdata()) for line in cost.lines)
-    assert marks == len(tiers.tiers)
-    assert len(angle.lines) == len({tier.family for tier in tiers.tiers}) + 1
+    assert marks == len(tiers.rungs)
+    assert len(angle.lines) == len({tier.family for tier in tiers.rungs}) + 1
     assert len(shaft.lines) == 4
-    assert len(tiers.columns()["tier"]) == len(tiers.tiers)
+    assert len(tiers.columns()["tier"]) == len(tiers.rungs)
 
 
 def test_the_command_writes_chart_and_tables(tiers, monkeypatch, tmp_path, capsys):
@@ -54,7 +55,7 @@ def test_the_command_writes_chart_and_tables(tiers, monkeypatch, tmp_path, capsy
             cli.main(["chart", "bush", "--out", str(tmp_path), *more])
         assert not exit_.value.code
         out = capsys.readouterr().out
-    assert json.loads(out)["tiers"][0]["name"] == "two moments"
+    assert json.loads(out)["rungs"][0]["name"] == "two moments"
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "chart_bush.csv",
         "chart_bush.png",

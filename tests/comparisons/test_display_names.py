@@ -9,7 +9,7 @@ import rotorfilm
 
 PACKAGE = Path(rotorfilm.__file__).parent
 MODULES = sorted(
-    path for part in ("comparisons", "charts", "sweeps", "cli") for path in PACKAGE.glob(f"{part}/**/*.py")
+    path for part in ("studies", "charts", "sweeps", "cli") for path in PACKAGE.glob(f"{part}/**/*.py")
 )
 
 PRINTED = {"name", "label", "title", "text", "x_label", "y_label"}

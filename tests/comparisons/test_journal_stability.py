@@ -12,7 +12,7 @@ from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsFil
 from rotorfilm.bearings.journal.splitting_film import second_approximation
 from rotorfilm.core.errors import InputError
 from rotorfilm.core.results import write_csv
-from rotorfilm.studies import ComparedFilm, journal_rungs, journal_stability
+from rotorfilm.studies import StudyModel, journal_rungs, journal_stability
 from rotorfilm.studies.journal_stability import AveragedFilm
 
 RATIOS = (0.1, 0.3, 0.5, 0.7, 0.85)
@@ -96,8 +96,11 @@ def test_converged_films_agree_with_another_method():
     arcs = {"fixed": FixedArc(), "rotating": RotatingArc(), "free": ComplementarityArc()}
     rungs = [rung for rung in journal_rungs() if rung.label == "converged"]
     rungs += [
-        ComparedFilm(
-            family=name, label="flux", film=SplittingFilm(order=(12, None), constant=True, rupture=arc)
+        StudyModel(
+            name=f"{name} flux",
+            family=name,
+            label="flux",
+            law=SplittingFilm(order=(12, None), constant=True, rupture=arc),
         )
         for name, arc in arcs.items()
     ]
@@ -214,7 +217,7 @@ def test_csv_round_trip(result, tmp_path):
         ({"eccentricity_ratio": [0.0]}, r"eccentricity_ratio must hold numbers within \(0, 1\), got \[0.0\]"),
         ({"eccentricity_ratio": [-0.5]}, r"eccentricity_ratio must hold numbers within .* got \[-0.5\]"),
         ({"eccentricity_ratio": []}, r"eccentricity_ratio must hold numbers within .* got \[\]"),
-        ({"rungs": []}, r"rungs must hold at least one Rung and nothing else, got \[\]"),
+        ({"rungs": []}, r"rungs must hold at least one StudyModel and nothing else, got \[\]"),
         (
             {"rungs": journal_rungs()[:1] * 2},
             "rungs must have different names, got .'short film', 'short film'",

@@ -19,8 +19,8 @@ from rotorfilm.core.errors import InputError
 from rotorfilm.core.results import write_csv
 from rotorfilm.studies import (
     BearingType,
-    ComparedPad,
     PadFamily,
+    StudyModel,
     WhirlOutcome,
     bearing_coefficients,
     bearing_thresholds,
@@ -107,10 +107,10 @@ def test_states_are_within_the_pads():
 
 def test_errors_of_grids_fall_with_their_cells(tmp_path):
     found = pad_accuracy(0.5, states=8, seed=3, rungs=GRIDS[:3], cells=(192, 16), rounds=1)
-    errors = [rung.usual_error for rung in found.rungs]
+    errors = [rung["90 % error [1]"] for rung in found.rungs]
     assert errors == sorted(errors, reverse=True)
     assert errors[0] > 4.0 * errors[2] > 0.0
-    assert all(rung.cost.force_time > 0.0 for rung in found.rungs)
+    assert all(rung["force of a pad in a batch [s]"] > 0.0 for rung in found.rungs)
     path = write_csv(tmp_path / "pads.csv", found.columns())
     with path.open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -119,10 +119,10 @@ def test_errors_of_grids_fall_with_their_cells(tmp_path):
 
 
 def test_reference_has_no_error_of_itself():
-    same = ComparedPad(name="same", family=PadFamily.GRID, film=PadGridFilm(cells=(64, 8)))
+    same = StudyModel(name="same", family=PadFamily.GRID, law=PadGridFilm(cells=(64, 8)))
     found = pad_accuracy(0.5, states=3, rungs=[same], cells=(64, 8), rounds=1)
-    assert found.rungs[0].high_error == 0.0
-    assert found.reference_high > 0.0
+    assert found.rungs[0]["99 % error [1]"] == 0.0
+    assert found.conditions["reference error, 99 % [1]"] > 0.0
 
 
 def test_bad_input_names_argument_rule_and_value():

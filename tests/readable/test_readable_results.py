@@ -26,7 +26,7 @@ pytest.importorskip("pandas")
 pytest.importorskip("xarray")
 
 NO_RESULTS = {
-    "what a chart is drawn from": {"HeatAccuracy", "HeatAnswer", "HeatLadder", "HeatModel"},
+    "what a chart is drawn from": {"HeatAnswer", "HeatModel", "StudyStyle"},
     "what a caller gives": {
         "OperatingPoint",
         "DamperGroups",
@@ -37,11 +37,12 @@ NO_RESULTS = {
         "PadResolution",
     },
     "a part of the machinery": {
-        *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "ComparedFilm"),
-        *("FilmField", "RungName", "BushRun", "RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
+        *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
+        *("FilmField", "StudyCase", "FilmCase", "Study", "BushRun"),
+        *("RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("RestingBalls", "BuiltDamperFilm"),
-        *("HeatCase", "HeatRung", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel", "ComparedPad"),
+        *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
         *("FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
         *(
             "RestingFilms",
@@ -50,7 +51,6 @@ NO_RESULTS = {
             "FilmRung",
             "Limit",
             "Panel",
-            "PanelCurves",
             "LimitAtlas",
         ),
     },
