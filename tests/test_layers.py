@@ -244,6 +244,8 @@ def test_core_needs_numpy_only(name):
         "enum",
         "html",
         "itertools",
+        "difflib",
+        "numbers",
     }
     assert outside <= allowed
 

@@ -69,7 +69,7 @@ if TYPE_CHECKING:
         hopf_point as hopf_point,
     )
     from .cracked_response import CrackedResponse as CrackedResponse, cracked_response as cracked_response
-    from .critical_speeds import critical_speed_map as critical_speed_map
+    from .critical import critical_speed_map as critical_speed_map
     from .equilibrium import equilibrium as equilibrium
     from .heated_equilibrium import (
         HeatedEquilibrium as HeatedEquilibrium,

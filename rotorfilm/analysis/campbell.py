@@ -16,7 +16,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Reaction
 from ..core.readable import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
-from .critical_speeds import Crossing, crossings
+from .critical import Crossing, crossings
 from .modal_reduction import COUNTS, CountedTuple, counted
 from .rotor_modes import (
     RotorModes,

@@ -187,9 +187,17 @@ def _run(start: ShapedStart, parts: Parts, wanted: Wanted) -> Trajectory:
         kept.extend(run.states(grid))
     except (ContactError, ConvergenceError) as failure:
         kept.append(failure.partial)
-        raise type(failure)(str(failure), _trajectory(mounted, grid, kept, run)) from failure
+        raise type(failure)(str(failure), _kept_trajectory(mounted, grid, kept, run)) from failure
     run.warn()
     return _trajectory(mounted, grid, kept, run)
+
+
+def _kept_trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
+    """Return the trajectory of a failed run, without its last state where a film has no force there."""
+    try:
+        return _trajectory(mounted, grid, kept, run)
+    except InputError:
+        return _trajectory(mounted, grid, [np.concatenate(kept)[:-1]], run)
 
 
 def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:

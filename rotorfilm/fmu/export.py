@@ -66,7 +66,7 @@ def export_fmu(
     *,
     platforms: str = "host",
     component: str | None = None,
-    start: Mapping[str, float] | None = None,
+    start: Mapping[str, float | str] | None = None,
     stop_time: float = 0.1,
     step_size: float = 1e-4,
     author: str = "",

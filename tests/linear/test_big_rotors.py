@@ -12,9 +12,9 @@ from scipy import sparse
 from rotorfilm import ConvergenceError, InputError
 from rotorfilm.analysis import (
     campbell,
+    critical as crossings,
     critical_speed_map,
     critical_speeds,
-    critical_speeds as crossings,
     modal_reduction as banded,
     rotor_equilibrium,
     rotor_modes,

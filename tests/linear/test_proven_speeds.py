@@ -13,9 +13,9 @@ from scipy.linalg import eigh
 from rotorfilm import ConvergenceError, TiltingPadBearing, UnloadedPadWarning, even_pivots
 from rotorfilm.analysis import (
     base_system,
+    critical as searching,
     critical_speed_map,
     critical_speeds,
-    critical_speeds as searching,
     rotor_equilibrium,
     rotor_modes,
     rotor_system,
@@ -23,7 +23,7 @@ from rotorfilm.analysis import (
     stability_changes,
     unbalance_response,
 )
-from rotorfilm.analysis.critical_speeds import Changing, branches_on_line, require_all_undamped
+from rotorfilm.analysis.critical import Changing, branches_on_line, require_all_undamped
 from rotorfilm.analysis.modal_reduction import models, negative_count
 from rotorfilm.analysis.rotor_equilibrium import rest
 from rotorfilm.analysis.rotor_matrices import small_motion

@@ -16,7 +16,7 @@ SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
     "rotorfilm": 74_000,
-    "rotorfilm_states": 90_000,
+    "rotorfilm_states": 105_000,
     "rotorfilm_systems": 90_000,
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 92_000,
@@ -24,8 +24,8 @@ LARGEST = {
     "rotorfilm_heat": 82_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_oil": 98_000,
-    "rotorfilm_loops": 250_000,
-    "rotorfilm_master": 264_000,
+    "rotorfilm_loops": 265_000,
+    "rotorfilm_master": 280_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

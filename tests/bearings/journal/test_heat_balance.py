@@ -280,5 +280,5 @@ def test_numbers_of_heat_are_their_definitions():
     assert found.nahme == pytest.approx(thinning * OIL.viscosity(T) * (speed * 0.05) ** 2 / 0.13, rel=1e-12)
     with pytest.raises(InputError, match=r"^position must be off the center, .*, got \(0.0, 0.0\)"):
         heat_numbers(bearing, (0.0, 0.0), speed)
-    with pytest.raises(InputError, match=r"^bearing must be a Cooled, got 'film' without"):
+    with pytest.raises(InputError, match=r"^bearing must be a Cooled, with .*, got 'film'"):
         heat_numbers("film", position, speed)
