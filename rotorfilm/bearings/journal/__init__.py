@@ -47,7 +47,7 @@ if TYPE_CHECKING:
         ShortFilm as ShortFilm,
     )
     from .rupture import FixedArc as FixedArc, ReynoldsArc as ReynoldsArc, RotatingArc as RotatingArc, Rupture
-    from .rupture.slit_arc import SlitArc as SlitArc
+    from .slit_arc import SlitArc as SlitArc
     from .splitting_film import SpectralArcFilm as SpectralArcFilm, SplittingFilm as SplittingFilm
 else:
     show(__name__)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....core.errors import InputError, require_number
-from ....core.inputs import quantities
-from ....core.model import Array
-from . import SHORTEST_ARC, Basis, FilmArc, FixedArc, ReynoldsArc, ruptured_arc
+from ...core.errors import InputError, require_number
+from ...core.inputs import quantities
+from ...core.model import Array
+from .rupture import SHORTEST_ARC, Basis, FilmArc, FixedArc, ReynoldsArc, ruptured_arc
 
 
 @quantities

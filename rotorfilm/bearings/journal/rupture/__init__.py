@@ -1,1 +1,0 @@
-"""Where the film of a splitting law begins and ends."""
