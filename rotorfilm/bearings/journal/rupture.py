@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipj, ellipkinc
 
-from ....core.errors import ConvergenceError, InputError, require_finite, require_number
-from ....core.inputs import quantities
-from ....core.model import Array
-from ...films.law import PolarFrame
+from ...core.errors import ConvergenceError, InputError, require_finite, require_number
+from ...core.inputs import quantities
+from ...core.model import Array
+from ..films.law import PolarFrame
 
 SHORTEST_ARC = 1e-3
 """Extent [rad] below which arc integrals lose their digits."""
