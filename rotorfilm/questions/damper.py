@@ -77,7 +77,7 @@ from ..scenes.excitation_table import BladeLossTable, RunUpTable
 from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
 from .coupling import coupling_ladder
-from .journal_orbits import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
