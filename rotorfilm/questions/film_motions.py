@@ -206,7 +206,7 @@ def require_one_unbalance(rotor: RigidRotor) -> None:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Motion:
+class FilmMotion:
     """What rungs of one motion have in common.
 
     Attributes
@@ -298,7 +298,7 @@ def orbit_ladder(
         each = 1.0 if one.film.makes_map else 2.0 ** known.index(one.film)
         return MAKING * one.film.making + each * (6 if one.samples == 0 else 5 * one.samples)
 
-    motion = Motion(
+    motion = FilmMotion(
         make=lambda film, samples: rung(film=film, quantity=quantity, rotor=rotor, samples=samples),
         counts=(0, *SAMPLES),
         unit=ORBIT_UNITS[quantity],
@@ -543,7 +543,7 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
         return rung.film.time(calls if rung.steps else LINEAR_CALLS)
 
     made = any(film.makes_map for film in known[:-1])
-    motion = Motion(
+    motion = FilmMotion(
         make=make, counts=(0, *STEPS), unit="m", distance=relative, effort=effort if made else None
     )
     return motion.ladder(scene, known)

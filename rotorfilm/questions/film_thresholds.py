@@ -198,6 +198,7 @@ class WhirlQuestion:
 
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
     rests: ClassVar[int] = SPEEDS
+    field_rests: ClassVar[float] = 4.0
 
     def uniform(self, level: HeatLevel, film: FilmCandidate, before: Found | None) -> UniformSolution:
         """Return the threshold by one film, of T0 that of fresh oil at all speeds."""
@@ -225,8 +226,8 @@ class WhirlQuestion:
 
     def judged(self, solved: UniformSolution) -> Growth:
         """Return what judges rests at the threshold."""
-        rung, speed = self.make(solved.rung.film), solved.found.value
-        return Growth(rung, speed, rung.slope(speed))
+        speed = float(solved.found.value)
+        return Growth(solved.rung, speed, solved.rung.slope(speed))
 
     def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
         """Return a call that takes another bearing and returns how far its threshold by T1 is off."""

@@ -70,7 +70,8 @@ class RestQuestion(JudgedRest):
 
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS
     rests: ClassVar[int] = 1
-    """Rests that an answer takes about."""
+    field_rests: ClassVar[float] = 1.0
+    """Rests that an answer takes about, on films of one temperature and on those with a field."""
 
     def uniform(self, level: HeatLevel, film: FilmCandidate, before: Found | None) -> UniformSolution:
         """Return the answer on a film at the temperature that it has with the journal at rest."""
@@ -135,7 +136,7 @@ class FieldRung(BaseRung):
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        seconds = (1.0 if self.question.rests == 1 else 4.0) * self.level.seconds
+        seconds = self.question.field_rests * self.level.seconds
         return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
 
     def answer(self, before: Found | None) -> Found:
