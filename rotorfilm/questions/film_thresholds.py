@@ -189,6 +189,10 @@ class WhirlQuestion:
         From whose threshold those on temperature fields start.
     moves : bool
         Whether it takes more than rests.
+    levels : tuple of FieldLevel
+        Those with a temperature field.
+    rests, field_rests : float
+        Rests that an answer takes about, on films of one temperature and on those with a field.
     """
 
     load: tuple[float, float]

@@ -59,6 +59,10 @@ class RestQuestion(JudgedRest):
         Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
     moves : bool
         Whether the quantity is one of a motion, which takes more than a rest.
+    levels : tuple of FieldLevel
+        Those with a temperature field.
+    rests, field_rests : float
+        Rests that an answer takes about, on films of one temperature and on those with a field.
     """
 
     load: tuple[float, float]
@@ -71,7 +75,6 @@ class RestQuestion(JudgedRest):
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS
     rests: ClassVar[int] = 1
     field_rests: ClassVar[float] = 1.0
-    """Rests that an answer takes about, on films of one temperature and on those with a field."""
 
     def uniform(self, level: HeatLevel, film: FilmCandidate, before: Found | None) -> UniformSolution:
         """Return the answer on a film at the temperature that it has with the journal at rest."""
