@@ -19,24 +19,13 @@ import numpy as np
 from rotorfilm.bearings.journal import HeatedFilm, LayeredTemperature, ReynoldsFilm, fitted_bearing
 from rotorfilm.core.errors import RotorfilmError
 from rotorfilm.core.units import CELSIUS
-from rotorfilm.questions.journal_statics import TEMPERATURES, rest_value
+from rotorfilm.questions.quantities import QUANTITIES, TEMPERATURES
 from rotorfilm.scenes import Scene, read_scene
 from rotorfilm.scenes.film_heat import WarmRest, bush_of, field_rest, uniform_rest
 
 from .drawn import Drawn, Truth, log_uniform
 
 GRADES = (22, 32, 46, 68, 100, 150, 220)
-QUANTITIES = (
-    "eccentricity_ratio",
-    "minimum_film",
-    "attitude_angle",
-    "stiffness",
-    "damping",
-    "power_loss",
-    "side_flow",
-    "temperature",
-    "maximum_temperature",
-)
 FINE, COARSE = (160, 16), (80, 8)
 MANY, FEW = 24, 12
 """Cells and layers of the reference: it is extrapolated from fine and coarse, and from many and few."""
@@ -75,7 +64,7 @@ def _data(random: np.random.Generator) -> dict[str, Any]:
     }
     speed = log_uniform(random, 1.0, 40.0) / radius * float(random.choice([-1.0, 1.0]))
     load = log_uniform(random, 1e5, 4e6) * 2.0 * radius * length
-    question = {"quantity": str(random.choice(QUANTITIES)), "tolerance": log_uniform(random, 0.01, 0.3)}
+    question = {"quantity": str(random.choice(list(QUANTITIES))), "tolerance": log_uniform(random, 0.01, 0.3)}
     operation = {"speed": speed, "load": load}
     return {
         "schema": 1,
@@ -106,7 +95,7 @@ def by_layers(scene: Scene) -> Truth:
     """
     assert scene.question is not None
     quantity = scene.question.quantity
-    fine, coarse, many = (np.asarray(rest_value(quantity, rest)) for rest in _rests(scene))
+    fine, coarse, many = (np.asarray(QUANTITIES[quantity].value(rest)) for rest in _rests(scene))
     by_cells, by_layer = fine - coarse, 4.0 / 3.0 * (many - coarse)
     truth = fine + by_cells + by_layer
     zero = scene.bearing.cooled[1].supply_temperature if quantity in TEMPERATURES else 0.0

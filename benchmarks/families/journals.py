@@ -10,8 +10,8 @@ import numpy as np
 
 from rotorfilm.analysis import equilibrium, whirl_threshold
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
-from rotorfilm.questions.journal_orbits import OrbitRung, blade_loss_ladder, rotor_of
-from rotorfilm.questions.journal_statics import StaticRung
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.film_motions import OrbitRung, rotor_of
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.film_rungs import FilmRung, extrapolated, tangent
 
@@ -175,10 +175,8 @@ def static_truth(scene: Scene, film: MapFilm | None, floor: float, slope_floor: 
     if quantity in SLOPES:
         slopes = tangent(bearing, at.position, scene.speed, smooth=True)[1]
         return Truth(-slopes[:, :2] if quantity == "stiffness" else -slopes[:, 2:], slope_floor)
-    rung = FilmRung(name="", reaction=bearing, rich=bearing, rich_name="", position_prior=0.0, prior=0.0)
-    made = StaticRung(film=rung, quantity=quantity, load=scene.static_load, speed=scene.speed)
     gap = at.minimum_film / bearing.clearance
-    return Truth(made.scalar(at.position, bearing), floor / (gap if quantity == "minimum_film" else 1.0))
+    return Truth(getattr(at, quantity), floor / (gap if quantity == "minimum_film" else 1.0))
 
 
 def whirl_by_map(scene: Scene) -> Truth:
@@ -202,5 +200,5 @@ def blade_by_map(scene: Scene) -> Truth:
     """Return the peak by the map in 3072 steps over a turn."""
     assert scene.journal is not None
     by_map = replace(scene, journal=replace(scene.journal, film=None))
-    rung = blade_loss_ladder(by_map, "blade_loss_peak").rungs[0]
+    rung = ladder_of(by_map).rungs[0]
     return Truth(replace(rung, steps=3072).answer(None).value, 1e-6)

@@ -78,7 +78,7 @@ from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
 from ..scenes.solve_damper import answer_damper
 from .coupling import coupling_ladder
-from .journal_orbits import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

@@ -5,133 +5,94 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..bearings.journal import JFOFilm, film_name, has_losses
+from ..analysis import whirl_threshold
+from ..bearings.journal import JFOFilm
 from ..core.answers import ErrorEstimate, Found, Ladder, Rung
-from ..core.errors import InputError, RotorfilmError
-from ..core.model import Array
+from ..core.errors import RotorfilmError
 from ..scenes.export_scene import film_models
 from ..scenes.families import Family
 from ..scenes.film_heat import HeatSteps, uniform_rest
-from ..scenes.film_rungs import FilmRung, point_films
+from ..scenes.film_rungs import FilmRung, point_films, turn_films
 from ..scenes.schema import JournalTable
-from .coupling import coupling_ladder
-from .journal_heat import HeatedQuestion, field_rungs, thermal_ladder
-from .journal_orbits import ORBIT_UNITS as ORBITS, blade_loss_ladder, orbit_ladder
-from .journal_rupture import (
+from ..scenes.solve_journal import conserved_threshold
+from .conserved_oil import (
     UNFED,
     Change,
     ConservedRung,
-    RestedFilm,
     RuptureChange,
     conserved_films,
+    conserved_ladder,
     rest_on,
-    rest_slopes,
     with_rupture,
-    within_of,
 )
-from .journal_statics import (
-    ANGLE,
-    LOSSES,
-    MATRIX,
-    STATIC_UNITS,
-    STATIC_UNITS as STATICS,
-    TEMPERATURES,
-    StaticRung,
-    attitude,
-    cold_static_ladder,
-    relative_distance,
-    rest_value,
-)
-from .journal_whirl import journal_whirl_ladder
+from .coupling import coupling_ladder
+from .film_motions import ORBIT_UNITS as ORBITS, blade_loss_ladder, orbit_ladder
+from .film_statics import Films, static_ladder, static_question
+from .film_thresholds import AROUND, required_rotor, whirl_ladder
+from .heat_levels import RestQuestion, field_rungs
+from .quantities import QUANTITIES, relative
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
-# Ladders of static questions about a journal bearing: one viscosity or an oil, conserved or not.
+
+def journal_points(scene: Scene) -> tuple[FilmRung, ...]:
+    """Return the films of a journal bearing for some equilibria."""
+    return point_films(scene.journal_bearing, fixed=scene.film_is_given)
 
 
-RELATIVE = ("eccentricity_ratio", "minimum_film", *LOSSES)
-"""Those that grids change by about the same share, coarse ones or fine."""
+def journal_turns(quantity: str, scene: Scene) -> tuple[FilmRung, ...]:
+    """Return those for states all round a turn: the map where there is one, else short film, grids, map."""
+    assert scene.journal is not None  # whose question it is
+    scene.journal.require_law(quantity)
+    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
-def static_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a static quantity of a journal bearing; on an oil with the rungs of its heat.
+def on_turns(ladder: Callable[[Films, Scene, str], Ladder]) -> Callable[[Scene, str], Ladder]:
+    """Return a ladder of a motion in a journal bearing."""
+    return lambda scene, quantity: ladder(partial(journal_turns, quantity), scene, quantity)
 
-    Raises
-    ------
-    InputError
-        If the film has no losses, where they are asked for or heat the oil; if a temperature is asked for and
-        there is no oil.
-    """
-    if quantity in TEMPERATURES and not scene.journal_bearing.is_warming:
-        raise InputError(
-            f"lubricant must give the oil of the journal for {quantity}, as a grade, got journal.viscosity "
-            f"{scene.journal_bearing.film_viscosity:g} Pa s"
-        )
-    if required_journal(scene).conserves:
-        return conserved_ladder(scene, quantity)
-    ladder = ruptured_ladder(scene, quantity)
-    plain = scene.journal_bearing.geometry.plain
-    if plain and quantity == "side_flow":
+
+def conserving_static_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a static quantity of a journal bearing, with what conserves its oil."""
+    question, asked, table = static_question(scene, quantity), QUANTITIES[quantity], scene.journal
+    assert table is not None  # whose question it is
+    if table.conserves:
+        return conserved_ladder(scene, _conserved_rungs(scene, question), asked.unit, question.distance)
+    ladder = static_ladder(journal_points, scene, quantity)
+    if quantity == "side_flow" and scene.journal_bearing.geometry.plain:
         ladder = replace(ladder, remarks=(*ladder.remarks, UNFED))
     rupture = RuptureChange(scene.journal_bearing, scene.static_load, scene.speed)
 
     def change(found: Found) -> Change:
-        return rupture.change(
-            lambda rest: conserved_value(quantity, rest, scene), relative=quantity in RELATIVE
-        )
+        return rupture.change(asked.value, relative=asked.scaled)
 
-    return with_rupture(
-        scene, ladder, change, distance_of(scene, quantity), lambda: above_rupture(scene, quantity)
-    )
+    return with_rupture(scene, ladder, change, question.distance, partial(_conserved_rungs, scene, question))
 
 
-def ruptured_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a static quantity by Reynolds rupture."""
-    films = point_films(scene.journal_bearing, fixed=scene.film_is_given)
-    if scene.journal_bearing.is_warming:
-        return warm_static_ladder(scene, quantity, films)
-    if quantity in LOSSES:
-        films = tuple(film for film in films if has_losses(film.reaction))
-        if not films:
-            name = film_name(scene.journal_bearing.fitted_film)
-            raise InputError(f"film must be a law with losses for {quantity}, as map or reynolds, got {name}")
-    return cold_static_ladder(scene, quantity, films)
-
-
-def conserved_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a static quantity of a bearing whose film conserves its oil."""
-    return Ladder(
-        rungs=above_rupture(scene, quantity),
-        unit=STATIC_UNITS[quantity],
-        remarks=scene.film_remarks,
-        within=within_of(scene),
-        distance=distance_of(scene, quantity),
-    )
-
-
-def above_rupture(scene: Scene, quantity: str) -> tuple[Rung, ...]:
+def _conserved_rungs(scene: Scene, question: RestQuestion) -> tuple[Rung, ...]:
     """Return the rungs of a static quantity that conserve their oil, on an oil with those of its heat."""
-
-    def value(film: JFOFilm, before: Found | None) -> Array | float:
-        return conserved_value(quantity, rest_on(film, scene.static_load, scene.speed), scene)
-
     films, warm = conserved_films(scene), scene.journal_bearing.is_warming
-    heat = heat_of_balance(scene, quantity) if warm else None
-    distance = distance_of(scene, quantity)
-    uniform = tuple(ConservedRung(film=film, value=value, distance=distance, heat=heat) for film in films)
-    return (*uniform, *field_rungs(films[0], heated_question(scene, quantity))) if warm else uniform
+
+    def value(film: JFOFilm, before: Found | None) -> Any:
+        return question.value(rest_on(film, question.load, question.speed))
+
+    heat = _heat_of_balance(question, films[0]) if warm else None
+    uniform = tuple(
+        ConservedRung(film=film, value=value, distance=question.distance, heat=heat) for film in films
+    )
+    return (*uniform, *field_rungs(films[0], question)) if warm else uniform
 
 
-def heat_of_balance(scene: Scene, quantity: str) -> Callable[[float], ErrorEstimate]:
+def _heat_of_balance(question: RestQuestion, film: JFOFilm) -> Callable[[float], ErrorEstimate]:
     """Return a call for the error by heat of a film of one temperature that conserves its oil."""
-    question, film = heated_question(scene, quantity), conserved_films(scene)[0]
 
     def heat(tolerance: float) -> ErrorEstimate:
         try:
-            own = uniform_rest(film, scene.static_load, scene.speed)
+            own = uniform_rest(film, question.load, question.speed)
             steps = HeatSteps(film, own)
             found = question.error(own, steps)
         except RotorfilmError as error:
@@ -141,68 +102,52 @@ def heat_of_balance(scene: Scene, quantity: str) -> Callable[[float], ErrorEstim
     return heat
 
 
-def conserved_value(quantity: str, rest: RestedFilm, scene: Scene) -> Array | float:
-    """Return a static quantity of a rest; K and C of a film that remembers at the frequency of the shaft."""
-    at = rest.at
-    if quantity in MATRIX:
-        return rest_slopes(rest)[MATRIX[quantity] // 2]
-    if quantity in LOSSES:
-        return float(getattr(at.losses, quantity))
-    if quantity in TEMPERATURES:
-        assert at.temperature is not None  # of a bearing on an oil
-        return at.temperature
-    if quantity == ANGLE:
-        return attitude(at.position, scene.static_load, scene.speed)
-    return float(getattr(at, quantity))
+def conserving_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the whirl threshold, with what conserves its oil at the frequency of the whirl.
 
+    Raises
+    ------
+    InputError
+        If the scene has no rigid rotor.
+    """
+    mass, load = required_rotor(scene, quantity).mass, scene.static_load
+    bearing, table = scene.journal_bearing, scene.journal
+    assert table is not None  # whose question it is
 
-def distance_of(scene: Scene, quantity: str) -> Callable[[Any, Any], float]:
-    """Return how far a value is from a better one, in the unit of the tolerance."""
-    bearing = scene.journal_bearing
-    supply = bearing.cooled[1].supply_temperature if bearing.is_warming else 0.0
-    return lambda value, better: relative_distance(quantity, value, better, supply)
+    def start(before: Found | None) -> float:
+        if before is not None:
+            return float(before.value)
+        found = whirl_threshold(RuptureChange(bearing, load, scene.speed).films[-1][0], load, mass).speed
+        return scene.speed if found is None else found
 
+    def above() -> tuple[ConservedRung, ...]:
+        def value(film: JFOFilm, before: Found | None) -> float:
+            return conserved_threshold(film, load, mass, start(before))
 
-def required_journal(scene: Scene) -> JournalTable:
-    """Return the table of the journal bearing; raises InputError if the scene has none."""
-    if scene.journal is None:
-        raise InputError("journal is required, got no such table")
-    return scene.journal
+        return tuple(
+            ConservedRung(film=film, value=value, distance=relative) for film in conserved_films(scene)
+        )
 
+    def change(found: Found) -> Change:
+        reynolds, conserved = RuptureChange(bearing, load, found.value).films[-1]
+        around = found.value / AROUND, found.value * AROUND
+        own = whirl_threshold(reynolds, load, mass, around).speed or found.value
+        return Change(own, conserved_threshold(conserved, load, mass, own), relative=True)
 
-def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...]) -> Ladder:
-    """Return the ladder of a static quantity of a journal bearing on an oil."""
-    question = heated_question(scene, quantity)
-    return thermal_ladder(
-        scene, films, (question,), STATIC_UNITS[quantity], fresh=quantity not in TEMPERATURES
-    )
-
-
-def heated_question(scene: Scene, quantity: str) -> HeatedQuestion:
-    """Return a static question as it is asked of a film in the balance of its heat."""
-
-    def make(film: FilmRung) -> StaticRung:
-        return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
-
-    return HeatedQuestion(
-        load=scene.static_load,
-        speed=scene.speed,
-        make=make,
-        value=lambda own: rest_value(quantity, own),
-        distance=distance_of(scene, quantity),
-    )
-
-
-# What journal bearings bring to scenes and questions.
+    if table.conserves:
+        return conserved_ladder(scene, above(), "rad/s")
+    ladder = whirl_ladder(journal_points, scene, quantity)
+    # On an oil the error by heat of a threshold by conserved oil is not known yet.
+    return with_rupture(scene, ladder, change, relative, None if bearing.is_warming else above)
 
 
 FAMILY = Family(
     table=JournalTable,
     ladders={
-        **dict.fromkeys(STATICS, static_ladder),
-        **dict.fromkeys(ORBITS, orbit_ladder),
-        "whirl_threshold": journal_whirl_ladder,
-        "blade_loss_peak": blade_loss_ladder,
+        **dict.fromkeys(QUANTITIES, conserving_static_ladder),
+        **dict.fromkeys(ORBITS, on_turns(orbit_ladder)),
+        "whirl_threshold": conserving_whirl_ladder,
+        "blade_loss_peak": on_turns(blade_loss_ladder),
         "cosimulation_error": coupling_ladder,
     },
     models=film_models,

@@ -47,8 +47,8 @@ from ..scenes.excitation_table import oil_remarks
 from ..scenes.families import Family
 from ..scenes.shaft_table import ShaftTable
 from ..scenes.solve_shaft import shaft_remarks, solve_rotor
-from .journal_orbits import ORBIT_UNITS as ORBITS
-from .journal_whirl import moving_heat
+from .film_motions import ORBIT_UNITS as ORBITS
+from .film_thresholds import moving_heat
 from .shaft_films import (
     ShaftFilms,
     at_supply,

@@ -32,7 +32,7 @@ from ..scenes.film_heat import (
 from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
 from ..scenes.solve_shaft import shaft_physics
-from .journal_heat import BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat
+from .heat_levels import BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat
 
 if TYPE_CHECKING:
     from ..scenes.schema import JournalTable

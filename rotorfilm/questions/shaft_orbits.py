@@ -30,7 +30,7 @@ from ..scenes.excitation_table import (
 )
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
-from .journal_orbits import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
+from .film_motions import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
 from .shaft_films import (
     ShaftFilms,
     at_supply,

@@ -305,16 +305,16 @@ def ladder_of(scene: Scene) -> Ladder:
     if scene.question is None:
         raise InputError("question is required for a ladder, got no such table")
     quantity = scene.question.quantity
-    tables = sorted(name for name in FAMILIES if quantity in family_of(name).ladders)
-    given = [table for table in tables if scene.table(table) is not None]
+    present = {name: family_of(name).ladders for name in FAMILIES if scene.table(name) is not None}
+    given = sorted(name for name, ladders in present.items() if quantity in ladders)
     if len(given) > 1:
         raise InputError(
             f"question.quantity must be of one table, got {quantity!r} of [{'] and ['.join(given)}]"
         )
     if given:
-        return family_of(given[0]).ladders[quantity](scene, quantity)
-    there = (family_of(name).ladders for name in FAMILIES if scene.table(name) is not None)
-    known = sorted({name for ladders in there for name in ladders})
+        return present[given[0]][quantity](scene, quantity)
+    known = sorted({name for ladders in present.values() for name in ladders})
+    tables = sorted(name for name in FAMILIES if quantity in family_of(name).ladders)
     needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
     raise InputError(
         f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}{needs}"

@@ -34,13 +34,14 @@ from ..core.errors import RotorfilmError
 from ..core.model import Reaction
 from ..core.results import Coefficients, Equilibrium
 from ..core.units import CELSIUS
+from .film_rungs import RestedJournal
 
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class WarmRest:
+class WarmRest(RestedJournal):
     """A journal at rest on a film that warms, by one of the rungs.
 
     Attributes
@@ -66,6 +67,16 @@ class WarmRest:
     maximum_temperature: float
     supply_temperature: float
     field: ArrayLike | None = None
+
+    @property
+    def at(self) -> Equilibrium:  # type: ignore[override]
+        """The rest."""
+        return self.rest
+
+    @property
+    def losses(self) -> WarmRest:
+        """Power loss and flow of oil."""
+        return self
 
     @property
     def coefficients(self) -> Coefficients:

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..analysis import coefficients
 from ..analysis.equilibrium import MAXIMUM_ECCENTRICITY
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import (
@@ -24,6 +25,7 @@ from ..bearings.journal import (
     SplittingFilm,
     film_name,
     fitted_bearing,
+    has_losses,
     is_mappable,
 )
 from ..bearings.reaction import InertialModel, WalledReaction, minimum_film, relative_film
@@ -317,6 +319,71 @@ class FilmCandidate:
         name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
         return WorkUnit(name, ("defects", smooth, self.rich))
 
+    @property
+    def has_losses(self) -> bool:
+        """Whether power loss and flow of oil are known."""
+        return True
+
+    def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
+        """Return calls that do one unit of its work, at half the clearance."""
+        own = self.reaction
+        x, y = 0.3 * room(own), 0.4 * room(own)
+        defects = {self.defects(smooth=k): one_defect(self, speed, smooth=k) for k in (False, True)}
+        return {self.tangents: lambda: prepared_tangent(own)(x, y, 0.0, 0.0, speed), **defects}
+
+    def batch_units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
+        """Return the same for states all round a turn."""
+        position, still = np.array([0.3, 0.4]) * room(self.reaction), np.zeros(2)
+
+        def sampled(reaction: Reaction) -> Callable[[], object]:
+            return lambda: (
+                reaction.force(position, still, speed),
+                reaction.jacobian(position, still, speed),
+            )
+
+        return {self.tangents: sampled(self.reaction), self.defects(smooth=False): sampled(self.rich)}
+
+    def asked(self, equilibria: int = 1) -> tuple[Any, Callable[[], dict[WorkUnit, int]]]:
+        """Return the bearing to solve with, and a call for the work of that; of about so many equilibria."""
+        made, counted = self.prepare(), counted_calls(self.reaction)
+        return counted, lambda: {self.tangents: counted.tangents, **made}
+
+    def judged(self, *, smooth: bool, defects: int, tangents: int = 2) -> dict[WorkUnit, int]:
+        """Return the work of an estimate by so many defects and tangents."""
+        return {self.defects(smooth=smooth): defects, self.tangents: tangents}
+
+    @property
+    def speed_prior(self) -> float:
+        """Order of magnitude of the error of a threshold."""
+        return 0.3 * self.prior
+
+    @property
+    def is_close(self) -> bool:
+        """Whether it is close enough to say that something does not exist."""
+        return self.bounded or self.on_grid(self.reaction)
+
+    def growth(self, at: Equilibrium, mass: float) -> float:
+        """Return the growth rate [1/s] of the least stable whirl of a rigid rotor [kg] at an equilibrium."""
+        return whirl_growth(coefficients(self.reaction, at.position, at.speed), mass)
+
+    def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:
+        """Return that by the richer film at its own equilibrium, and why not to trust it."""
+        moved = self.corrected(at, smooth=True)
+        own = whirl_matrix(coefficients(self.reaction, at.position, at.speed), mass)
+        first_order, exact = growths(own, whirl_matrix(moved, mass))
+        if abs(first_order - exact) > DISAGREEMENT * abs(exact):
+            doubt = "the perturbed eigenvalue disagrees with the exact one: not linear"
+            return exact, moved.doubt or doubt
+        return exact, moved.doubt
+
+    def corrected(self, at: Equilibrium, *, smooth: bool) -> Corrected:
+        """Return the equilibrium of the richer film as far as its defect tells."""
+        return corrected(self, at, np.array(at.load), smooth=smooth)
+
+    def least_film(self, bearing: Any, position: Array, speed: float) -> float:
+        """Return the least film [m] in one of both bearings."""
+        return float(minimum_film(bearing, position))
+
     def on_grid(self, bearing: Any) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
         raise NotImplementedError
@@ -349,6 +416,130 @@ class FilmCandidate:
         """Of the fresh oil [K]; 0 without one."""
         cooling = getattr(self.reaction, "cooling", None)
         return 0.0 if cooling is None else float(cooling.supply_temperature)
+
+
+# The whirl of a rigid rotor on K and C.
+
+
+def whirl_matrix(found: Any, mass: float) -> Array:
+    """Return the matrix (4, 4) of a rigid rotor [kg] on coefficients, of positions and velocities."""
+    zero, one = np.zeros((2, 2)), np.eye(2)
+    return np.block([[zero, one], [-found.stiffness / mass, -found.damping / mass]])
+
+
+def whirl_growth(found: Any, mass: float) -> float:
+    """Return the growth rate of the least stable whirl on coefficients [1/s]."""
+    return float(np.max(np.linalg.eigvals(whirl_matrix(found, mass)).real))
+
+
+def least_stable(matrix: Array) -> tuple[complex, Array, Array]:
+    """Return the eigenvalue with the largest real part, its left and its right vector, left right = 1."""
+    values, right = np.linalg.eig(matrix)
+    k = int(np.argmax(values.real + 1e-12 * np.abs(values.imag)))
+    return complex(values[k]), np.linalg.inv(right)[k], right[:, k]
+
+
+def growths(own: Array, other: Array) -> tuple[float, float]:
+    """Return the growth rate [1/s] that the least stable mode of `own` has in `other`: first order, exact.
+
+    With the right and left eigenvectors r, l of a mode the first order of its change is l (other - own) r.
+    """
+    value, left, right = least_stable(own)
+    shifted = value + left @ (other - own) @ right
+    exact = np.linalg.eigvals(other)
+    return float(shifted.real), float(exact[np.argmin(np.abs(exact - shifted))].real)
+
+
+# A journal at rest, of which quantities are functions.
+
+
+class RestedJournal:
+    """A journal at rest on a film, of which quantities are functions.
+
+    It adds its equilibrium `at`, K and C, losses and temperatures.
+    """
+
+    at: Equilibrium
+
+    @property
+    def eccentricity_ratio(self) -> float:
+        """Distance from the center of the bearing / clearance."""
+        return self.at.eccentricity_ratio
+
+    @property
+    def attitude_angle(self) -> float:
+        """Angle from the load [rad], in the sense of rotation."""
+        return self.at.attitude_angle
+
+    @property
+    def minimum_film(self) -> float:
+        """Least film [m]."""
+        return self.at.minimum_film
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FilmRest(RestedJournal):
+    """A journal at or near its equilibrium on a film that may answer, or on the richer one.
+
+    Attributes
+    ----------
+    at : Equilibrium
+        Of the film that may answer.
+    film : FilmCandidate
+    bearing : Reaction
+        With one of both films.
+    position : ndarray, shape (2,) [m]
+    matrices : callable
+        Returns K and C there.
+    """
+
+    at: Equilibrium
+    film: FilmCandidate
+    bearing: Any
+    position: Array
+    matrices: Callable[[], Any]
+
+    @property
+    def coefficients(self) -> Any:
+        """K and C."""
+        return self.matrices()
+
+    @property
+    def eccentricity_ratio(self) -> float:
+        """Distance from the center of the bearing / clearance."""
+        return float(np.hypot(*self.position)) / float(self.bearing.clearance)
+
+    @property
+    def attitude_angle(self) -> float:
+        """Angle from the load [rad], in the sense of rotation."""
+        return attitude(self.position, self.at.load, self.at.speed)
+
+    @property
+    def minimum_film(self) -> float:
+        """Least film [m]."""
+        return self.film.least_film(self.bearing, self.position, self.at.speed)
+
+    @property
+    def losses(self) -> Any:
+        """Power loss and flow of oil."""
+        return self.bearing.losses(self.position, np.zeros(2), self.at.speed)
+
+    @property
+    def temperature(self) -> float:
+        """At which the heat of the film balances [K]."""
+        return float(self.bearing.balanced_temperature(self.position, np.zeros(2), self.at.speed))
+
+    @property
+    def maximum_temperature(self) -> float:
+        """That of a film of one temperature [K]."""
+        return self.temperature
+
+
+def attitude(position: Array, load: Array, speed: float) -> float:
+    """Return the angle [rad] from a load [N] to a position (2,) [m], in the sense of rotation."""
+    (x, y), (load_x, load_y) = position, load
+    turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
+    return math.copysign(1.0, speed) * turned
 
 
 def room(bearing: JournalForce) -> float:
@@ -390,9 +581,14 @@ class FilmRung(FilmCandidate):
         grid = law.film if isinstance(law, ExtrapolatedFilm) else law
         return CELL_TIME * math.prod(grid.cells) if isinstance(grid, ReynoldsFilm) else CALL_TIME
 
+    @property
+    def has_losses(self) -> bool:
+        """Whether its law knows power loss and flow of oil."""
+        return has_losses(self.reaction)
+
     def on_grid(self, bearing: JournalBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
-        return is_grid(bearing)
+        return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
@@ -413,11 +609,6 @@ class FilmRung(FilmCandidate):
     def motion_bound(self, reach: float) -> float:
         """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
         return MAP_BOUNDS[0][2] if self.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
-
-
-def is_grid(bearing: JournalBearing) -> bool:
-    """Return whether the film of a bearing lives on a grid in two dimensions."""
-    return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
 
 
 # What the richer film of a candidate makes of an equilibrium: its tangent there, and a few linear steps.
@@ -483,6 +674,16 @@ class Corrected:
     position: Array
     slopes: Array
     doubt: str
+
+    @property
+    def stiffness(self) -> Array:
+        """Stiffness [N/m]."""
+        return -self.slopes[:, :2]
+
+    @property
+    def damping(self) -> Array:
+        """Damping [N s/m]."""
+        return -self.slopes[:, 2:]
 
 
 def corrected(film: FilmCandidate, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:

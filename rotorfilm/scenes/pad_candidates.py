@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -22,9 +23,10 @@ from ..bearings.pads import (
     differenced_slopes,
     is_pad_mappable,
 )
-from ..core.model import Array
-from ..core.results import Coefficients, Equilibrium
-from .film_rungs import CALL_TIME, CELL_TIME, STEP, FilmCandidate
+from ..core.answers import WorkUnit
+from ..core.model import Array, settled
+from ..core.results import Equilibrium
+from .film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
 from .pad_tables import dam_film_name, pad_film_name
 
 COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
@@ -246,8 +248,8 @@ TILTING_GRIDS = (((48, 4), 1e-4, 1e-3), ((96, 8), 1e-5, 2e-4), ((192, 16), 1e-6,
 MAP_CALL = 2e-4
 """About what the force of pads at rest takes by a map [s]: each is looked for in all its tilts."""
 
-LOOKS = 60
-"""Films of one pad in the search for its tilt at rest."""
+LOOKS, CALLS = 60, 8
+"""Films of one pad in the search for its tilt at rest, and forces with derivatives of an equilibrium."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -273,14 +275,56 @@ class TiltingCandidate(FilmCandidate):
             return MAP_CALL
         return LOOKS * len(self.reaction.pivots) * CELL_TIME * math.prod(film.cells)
 
-    def coefficients(self, position: Array, speed: float) -> Coefficients:
-        """Return what the journal feels of the richer film once a turn, its slopes smooth."""
-        return self.rich.at_rest().matrices(position, speed, smooth_slopes).reduced(abs(speed))
+    @property
+    def tangents(self) -> WorkUnit:
+        """One answer."""
+        return WorkUnit(f"answers of {self.name}", ("answers", self), nominal=self.time(CALLS))
+
+    def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
+        """Return none: work is timed while it is done."""
+        return {}
+
+    batch_units = units
+
+    def asked(self, equilibria: int = 1) -> tuple[Any, Callable[[], dict[WorkUnit, int]]]:
+        """Return the bearing to solve with, and a call for the work of so many equilibria."""
+        return self.reaction, lambda: {self.tangents: equilibria}
+
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
+        """Return one answer."""
+        return {self.tangents: 1}
+
+    def judged(self, *, smooth: bool, defects: int, tangents: int = 2) -> dict[WorkUnit, int]:
+        """Return one estimate."""
+        return {WorkUnit(f"estimates by {self.rich_name}", ("estimates", self)): 1}
 
     @property
-    def resting(self) -> FilmCandidate:
-        """The forces of both on a journal at rest, each pad in its tilt."""
-        return FilmCandidate(
+    def speed_prior(self) -> float:
+        """Order of magnitude of the error of a threshold."""
+        return self.prior
+
+    @property
+    def is_close(self) -> bool:
+        """Return that all films of tilting pads are close enough to say that something does not exist."""
+        return True
+
+    def growth(self, at: Equilibrium, mass: float) -> float:
+        """Return the growth rate [1/s] of the least stable mode of a rigid rotor [kg] with the pads."""
+        film = settled(self.reaction, at.position, at.speed)
+        return float(film.at_rest().modes(at.position, at.speed, mass)[0].real)
+
+    def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:
+        """Return that by the richer film at its own equilibrium, and why not to trust it."""
+        moved = self.corrected(at, smooth=False)
+        return float(self.rich.at_rest().modes(moved.position, at.speed, mass)[0].real), moved.doubt
+
+    def least_film(self, bearing: TiltingPadBearing, position: Array, speed: float) -> float:
+        """Return the least film [m] over all pads, each in its tilt."""
+        return float(bearing.at_rest().pad_states(position, speed).film_thickness.min())
+
+    def corrected(self, at: Equilibrium, *, smooth: bool) -> Corrected:
+        """Return the equilibrium of the richer film; smooth slopes are those once a turn."""
+        resting = FilmCandidate(
             name=self.name,
             reaction=self.reaction.at_rest(),
             rich=self.rich.at_rest(),
@@ -288,6 +332,11 @@ class TiltingCandidate(FilmCandidate):
             position_prior=self.position_prior,
             prior=self.prior,
         )
+        found = corrected(resting, at, np.array(at.load), smooth=False)
+        if not smooth:
+            return found
+        pads = self.rich.at_rest().matrices(found.position, at.speed, smooth_slopes).reduced(abs(at.speed))
+        return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
 def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:

@@ -57,7 +57,9 @@ def test_page_has_every_chart_and_table_and_needs_no_other_file(folder):
 
 def test_every_chart_of_the_commands_is_explained(folder):
     source = Path(chart_commands.__file__).read_text()
-    written = {f"chart_{name}" for name in re.findall(r'write_(?:chart|picture)\(\s*out, "([a-z_]+)"', source)}
+    written = {
+        f"chart_{name}" for name in re.findall(r'write_(?:chart|picture)\(\s*out, "([a-z_]+)"', source)
+    }
     assert len(written) > 8
     assert written - set(EXPLAINED) == {"chart_heat_limits"}
     for name in ("chart_journal", "chart_heat_limits", "chart_limits_damper"):

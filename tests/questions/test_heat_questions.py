@@ -20,8 +20,8 @@ from rotorfilm import (
 from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.journal_statics import relative_distance, rest_value
-from rotorfilm.questions.journal_whirl import moving_heat
+from rotorfilm.questions.film_thresholds import moving_heat
+from rotorfilm.questions.quantities import QUANTITIES
 from rotorfilm.scenes.film_heat import HeatSteps, bush_of, field_rest, heat_error, uniform_rest
 from rotorfilm.scenes.scene import parse_scene
 
@@ -146,16 +146,16 @@ def test_estimates_are_within_a_factor_of_two_of_the_true_step(name):
     for quantity in ("eccentricity_ratio", "attitude_angle", "power_loss", "maximum_temperature"):
 
         def distance(value, better, quantity=quantity):
-            return relative_distance(quantity, value, better, film.cooling.supply_temperature)
+            return QUANTITIES[quantity].distance(value, better, film.cooling.supply_temperature)
 
-        values = [rest_value(quantity, one) for one in (fresh, balanced, first, second, third)]
+        values = [QUANTITIES[quantity].value(one) for one in (fresh, balanced, first, second, third)]
         if quantity != "maximum_temperature":  # of fresh oil there is none
             assert 0.5 < distance(values[0], values[1]) / distance(values[0], values[2]) < 2.0
         for own, value in ((first, values[2]), (second, values[3])):
             steps = HeatSteps(film, own)
             assert not steps.doubt
             about = heat_error(
-                value, value, tuple(rest_value(quantity, one) for one in steps.sample), distance
+                value, value, tuple(QUANTITIES[quantity].value(one) for one in steps.sample), distance
             )
             true = distance(value, values[4])
             if about.bound:

@@ -2,6 +2,8 @@
 
 import csv
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 from rotorfilm.questions.walk import whole_ladder
@@ -30,3 +32,15 @@ def test_chart_of_a_scene_has_picture_table_and_json(run, tmp_path):
     with (tmp_path / "chart_question.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [row["model"] for row in rows] == [row["name"] for row in found["rungs"]]
+
+
+def test_a_question_loads_no_family_that_the_scene_does_not_name():
+    code = (
+        "import sys; from rotorfilm.questions import ladder_of; from rotorfilm.scenes import Scene; "
+        f"ladder_of(Scene.load({str(QUESTION)!r})); "
+        "print(*(name for name in sys.modules if name.startswith('rotorfilm.questions.')))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = {name.rpartition(".")[2] for name in done.stdout.split()}
+    assert "journal" in loaded
+    assert not loaded & {"pads", "damper", "bush", "contact", "shaft", "rolling"}

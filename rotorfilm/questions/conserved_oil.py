@@ -12,15 +12,23 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from ..analysis import equilibrium
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import HEATED, ISOTHERMAL, BaseRung, ErrorEstimate, Found, Ladder, Rung, WorkUnit
+from ..core.answers import (
+    HEATED,
+    ISOTHERMAL,
+    BaseRung,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    Rung,
+    WorkUnit,
+    relative_change,
+)
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import settled
 from ..core.results import Equilibrium
-from ..scenes.film_rungs import FilmCandidate, tangent
+from ..scenes.film_rungs import Corrected, FilmCandidate, RestedJournal, tangent
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -30,8 +38,15 @@ CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
 
 
-class RestedFilm(NamedTuple):
-    """A journal at rest, and the film at its temperature there."""
+@dataclass(frozen=True, eq=False)
+class RestedFilm(RestedJournal):
+    """A journal at rest, and the film at its temperature there.
+
+    Attributes
+    ----------
+    at : Equilibrium
+    film : JournalBearing or JFOFilm
+    """
 
     at: Equilibrium
     film: Any
@@ -40,6 +55,25 @@ class RestedFilm(NamedTuple):
     def frozen(self) -> FilmCandidate:
         """The film as a candidate, for rungs of motions; there is no richer one."""
         return candidate("", self.film)
+
+    @property
+    def coefficients(self) -> Any:
+        """K and C: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
+        film, at = self.film, self.at
+        if isinstance(film, JFOFilm):
+            return film.coefficients(at.position, at.speed)
+        slopes = tangent(film, at.position, at.speed, smooth=True)[1]
+        return Corrected(position=at.position, slopes=slopes, doubt="")
+
+    @property
+    def losses(self) -> Any:
+        """Power loss and flow of oil."""
+        return self.at.losses
+
+    @property
+    def temperature(self) -> Any:
+        """Of the film [K]; None of one that does not warm."""
+        return self.at.temperature
 
 
 def candidate(name: str, film: Any) -> FilmCandidate:
@@ -87,16 +121,6 @@ def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
     """Return where a journal rests on a film, which may be on an oil."""
     at = equilibrium(film, load, speed)
     return RestedFilm(at, settled(film, at.position, speed))
-
-
-def rest_slopes(rest: RestedFilm) -> tuple[np.ndarray, np.ndarray]:
-    """Return K and C of a rest: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
-    film, at = rest.film, rest.at
-    if isinstance(film, JFOFilm):
-        found = film.coefficients(at.position, at.speed)
-        return found.stiffness, found.damping
-    slopes = tangent(film, at.position, at.speed, smooth=True)[1]
-    return -slopes[:, :2], -slopes[:, 2:]
 
 
 class Change(NamedTuple):
@@ -201,11 +225,6 @@ class RupturedRung(BaseRung):
         return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
 
 
-def within_of(scene: Scene) -> str:
-    """Return the physics in which the tolerance of a film that conserves its oil is meant."""
-    return HEATED if scene.journal_bearing.is_warming else ISOTHERMAL
-
-
 def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
     """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
     if bearing.geometry.plain:
@@ -263,6 +282,43 @@ def with_rupture(
         return replace(ladder, rungs=(*rungs, *above()))
     remarks = ladder.remarks if above is not None else (*ladder.remarks, NO_RUNG)
     return replace(ladder, rungs=rungs, remarks=remarks)
+
+
+def with_moved_rupture(
+    scene: Scene,
+    ladder: Ladder,
+    linear: Callable[[Any], float],
+    distance: Callable[[float, float], float],
+    *,
+    scaled: bool,
+) -> Ladder:
+    """Return the ladder of a motion with what the conservation of oil changes in the linear one.
+
+    Parameters
+    ----------
+    scene : Scene
+    ladder : Ladder
+    linear : callable
+        Takes a film as a candidate, and returns the quantity in linear motion about its rest.
+    distance : callable
+        As of `RupturedRung`.
+    scaled : bool
+        Whether the share counts, rather than the difference.
+    """
+    rupture = RuptureChange(scene.journal_bearing, scene.static_load, scene.speed)
+
+    def change(found: Found) -> Change:
+        return rupture.change(lambda rest: linear(rest.frozen), relative=scaled)
+
+    return with_rupture(scene, ladder, change, distance)
+
+
+def conserved_ladder(
+    scene: Scene, rungs: tuple[Rung, ...], unit: str, distance: Callable[[Any, Any], float] = relative_change
+) -> Ladder:
+    """Return the ladder of a scene whose film conserves its oil."""
+    within = HEATED if scene.journal_bearing.is_warming else ISOTHERMAL
+    return Ladder(rungs=rungs, unit=unit, remarks=scene.film_remarks, within=within, distance=distance)
 
 
 # Rungs above Reynolds rupture: films that conserve their oil, each judged by coarser cells.

@@ -1,4 +1,4 @@
-"""Thermal rungs of a question about a journal on an oil: T0, T1, T2 and T3.
+"""The effect of heat on a question about a bearing with a film: T0, T1, T2 and T3.
 
 T0 has the viscosity of fresh oil, T1 one temperature in the balance of the heat, both on every film of the
 question; T2 has a temperature over the film, T3 over and across it. The error of T1 and T2 by heat is what a
@@ -9,14 +9,14 @@ where that is little the steps from there. It is added to the error of the film.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..bearings.journal import JFOFilm, JournalBearing, film_name, has_losses
+from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import HEATED, SAFETY, BaseRung, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
 from ..core.errors import InputError, RotorfilmError
 from ..scenes.film_heat import (
@@ -44,8 +44,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HeatedQuestion(JudgedRest):
-    """A question about a journal in the balance of its heat.
+class RestQuestion(JudgedRest):
+    """A question about a journal in the balance of its heat, asked where it rests at one speed.
 
     Attributes
     ----------
@@ -59,21 +59,59 @@ class HeatedQuestion(JudgedRest):
         Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
     moves : bool
         Whether the quantity is one of a motion, which takes more than a rest.
+    levels : tuple of FieldLevel
+        Those with a temperature field.
+    rests, field_rests : float
+        Rests that an answer takes about, on films of one temperature and on those with a field.
     """
 
     load: tuple[float, float]
     speed: float
     make: Callable[[Any], Rung]
-    value: Callable[[WarmRest], Any]
+    value: Callable[[Any], Any]
     distance: Callable[[Any, Any], float]
     moves: bool = False
 
+    levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS
+    rests: ClassVar[int] = 1
+    field_rests: ClassVar[float] = 1.0
+
+    def uniform(self, level: HeatLevel, film: FilmCandidate, before: Found | None) -> UniformSolution:
+        """Return the answer on a film at the temperature that it has with the journal at rest."""
+        own = uniform_rest(film.reaction, self.load, self.speed, level.temperature(film.reaction))
+        rung = self.make(film.at_temperature(own.temperature))
+        return UniformSolution(level, rung.answer(level.lower(before)), rung, own)
+
+    def lower(self, level: HeatLevel, before: Found | None) -> Found | None:
+        """Return the answer of a lower rung of the same level."""
+        return level.lower(before)
+
+    def on_field(self, level: FieldLevel, bearing: Any, before: Found | None) -> FieldSolution:
+        """Return the answer on a film with a temperature field."""
+        own = level.rest(bearing, self.load, self.speed)
+        return FieldSolution(level, self.value(own), own, self)
+
+    def judged(self, solved: UniformSolution) -> RestQuestion:
+        """Return the question, which judges rests at its speed."""
+        return self
+
+    def moving(self, bearing: Any) -> float:
+        """Return the error by heat that moves with the journal, which is at rest."""
+        return 0.0
+
+    def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
+        """Return a call that takes another bearing and returns how far its answer by T1 is off."""
+        own = uniform_rest(film.reaction, self.load, self.speed)
+        return lambda other: self.apart(own, uniform_rest(other, self.load, self.speed))
+
 
 class FieldSolution(NamedTuple):
-    """A rest on a film with a temperature field, and the rung that found it."""
+    """An answer on a film with a temperature field, the rest there and what judges that."""
 
-    rung: FieldRung
+    level: FieldLevel
+    value: Any
     own: WarmRest
+    judge: Any
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,12 +124,12 @@ class FieldRung(BaseRung):
         T2 or T3.
     bearing : JournalBearing or JFOFilm
         On its oil.
-    question : HeatedQuestion
+    question : RestQuestion or WhirlQuestion
     """
 
     level: FieldLevel
     bearing: JournalBearing | JFOFilm
-    question: HeatedQuestion
+    question: Any
 
     @property
     def name(self) -> str:
@@ -101,36 +139,47 @@ class FieldRung(BaseRung):
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=self.level.seconds)
+        seconds = self.question.field_rests * self.level.seconds
+        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the rest on this film."""
-        own = self.level.rest(self.bearing, self.question.load, self.question.speed)
-        return Found(self.question.value(own), {self.unit: 1}, FieldSolution(self, own))
+        solved = self.question.on_field(self.level, self.bearing, before)
+        return Found(solved.value, {self.unit: 1}, solved)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return of T2 what steps towards T3 change, of T3 what coarser grids do; see `grid_error`."""
-        own, question = found.solution.own, self.question
+        own, judge = found.solution.own, found.solution.judge
         done = {WorkUnit(f"estimates of {self.name}"): 1}
-        if not self.level.layers:
+        if self.level.layers:
+            grid = grid_error(self.level, own, partial(self._rest, before, judge), judge.apart)
+            heat, method, doubt = HeatError(grid, True), "cells twice as long, half the layers", ""
+        else:
             steps = HeatSteps(self.bearing, own)
-            heat = question.error(own, steps)
-            return ErrorEstimate(heat.error, "steps towards T3", done, bound=heat.bound, doubt=steps.doubt)
-        error = grid_error(self.level, own, partial(self._rest, before), question.apart)
-        return ErrorEstimate(error, "cells twice as long, half the layers", done, bound=True)
+            heat, method, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
+        heat, method = with_moving(judge, self.bearing, heat, method)
+        return ErrorEstimate(heat.error, method, done, bound=heat.bound, doubt=doubt)
 
-    def _rest(self, before: Found | None, level: FieldLevel) -> WarmRest:
+    def _rest(self, before: Found | None, judge: Any, level: FieldLevel) -> WarmRest:
         """Return the rest by another level; that of a lower rung is known."""
-        rung = replace(self, level=level)
-        if before is not None and isinstance(before.solution, FieldSolution) and before.solution.rung == rung:
-            return before.solution.own
-        own: WarmRest = rung.answer(None).solution.own
-        return own
+        solved = None if before is None else before.solution
+        if isinstance(solved, FieldSolution) and solved.level == level and solved.judge is judge:
+            return solved.own
+        return level.rest(self.bearing, judge.load, judge.speed)
 
 
-def field_rungs(bearing: JournalBearing | JFOFilm, question: HeatedQuestion) -> tuple[Rung, ...]:
+def with_moving(judge: Any, bearing: Any, heat: HeatError, method: str) -> tuple[HeatError, str]:
+    """Return an error by heat and how it is known, with that by heat which moves with the journal."""
+    moving = judge.moving(bearing)
+    if not moving:
+        return heat, method
+    bound = heat.bound or moving > heat.error
+    return HeatError(heat.error + moving, bound), f"{method}, moving heat {moving:.2g} lower"
+
+
+def field_rungs(bearing: JournalBearing | JFOFilm, question: Any) -> tuple[Rung, ...]:
     """Return T2 and T3, the latter on two grids."""
-    return tuple(FieldRung(level=level, bearing=bearing, question=question) for level in FIELD_LEVELS)
+    return tuple(FieldRung(level=level, bearing=bearing, question=question) for level in question.levels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,11 +229,11 @@ class FrozenRung(BaseRung):
     Attributes
     ----------
     films : FieldFilms
-    question : HeatedQuestion
+    question : RestQuestion or WhirlQuestion
     """
 
     films: FieldFilms
-    question: HeatedQuestion
+    question: Any
 
     @property
     def name(self) -> str:
@@ -218,7 +267,7 @@ class FrozenRung(BaseRung):
         return ErrorEstimate(about.error + grid, method, work, bound=bound, doubt=about.doubt)
 
 
-def motion_rungs(film: FilmRung, questions: tuple[HeatedQuestion, ...]) -> tuple[Rung, ...]:
+def motion_rungs(film: FilmRung, questions: tuple[Any, ...]) -> tuple[Rung, ...]:
     """Return the rungs of motions on the film of T3, for questions that differ in their rungs."""
     films = FieldFilms(film, questions[0].load, questions[0].speed)
     return tuple(FrozenRung(films=films, question=question) for question in questions)
@@ -226,6 +275,9 @@ def motion_rungs(film: FilmRung, questions: tuple[HeatedQuestion, ...]) -> tuple
 
 # Thermal rungs of a question about a journal on an oil: T0, T1, T2 and T3.
 
+
+ONE_TEMPERATURE = "laminar films, all at one temperature in the balance of their heat"
+"""`within` of films of pads on an oil, over which no temperature field is known."""
 
 BALANCE = "its balance"
 """How the error by heat of fresh oil is known."""
@@ -245,14 +297,29 @@ class HeatLevel:
 
     name: str
 
+    def temperature(self, bearing: Any) -> float | None:
+        """Return the temperature [K] that fresh oil has, or None for that of the balance."""
+        return bearing.cooled[1].supply_temperature if self is FRESH else None
+
+    def lower(self, before: Found | None) -> Found | None:
+        """Return the answer of a lower rung on its film, if it is of the same level."""
+        solved = None if before is None else before.solution
+        return solved.found if isinstance(solved, UniformSolution) and solved.level is self else None
+
+
+FRESH, BALANCED = HeatLevel("T0"), HeatLevel("T1")
+
 
 class UniformSolution(NamedTuple):
-    """An answer at one temperature, as its estimate and the next rung of the level start from it."""
+    """An answer at one temperature, as its estimate and the next rung of the level start from it.
+
+    `own` is the rest there, None where that is not known yet.
+    """
 
     level: HeatLevel
     found: Found
-    own: WarmRest
-    rung: Rung
+    rung: Any
+    own: WarmRest | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -264,12 +331,12 @@ class UniformRung(BaseRung):
     level : HeatLevel
     film : FilmCandidate
         Of the bearing on its oil.
-    question : HeatedQuestion
+    question : RestQuestion or WhirlQuestion
     """
 
     level: HeatLevel
     film: FilmCandidate
-    question: HeatedQuestion
+    question: Any
 
     @property
     def name(self) -> str:
@@ -295,51 +362,36 @@ class UniformRung(BaseRung):
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        return WorkUnit(f"answers of {self.name}", (self.level, self.name), nominal=self.film.time(BALANCES))
+        nominal = self.film.time(self.question.rests * BALANCES)
+        return WorkUnit(f"answers of {self.name}", (self.level, self.name), nominal=nominal)
 
     def answer(self, before: Found | None) -> Found:
-        """Return the answer on the film at the temperature that it has with the journal at rest."""
-        question, bearing = self.question, self.film.reaction
-        fresh = bearing.cooled[1].supply_temperature if self.level is FRESH else None
-        own = uniform_rest(bearing, question.load, question.speed, fresh)
-        rung = question.make(self.film.at_temperature(own.temperature))
-        found = rung.answer(self._lower(before))
-        return Found(found.value, {self.unit: 1}, UniformSolution(self.level, found, own, rung))
-
-    def _lower(self, before: Found | None) -> Found | None:
-        solved = None if before is None else before.solution
-        same = isinstance(solved, UniformSolution) and solved.level is self.level
-        return solved.found if same else None  # type: ignore[union-attr]
+        """Return the answer on the film."""
+        solved = self.question.uniform(self.level, self.film, before)
+        return Found(solved.found.value, {self.unit: 1}, solved)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the film, and what the heat of the richer level would change."""
         solved: UniformSolution = found.solution
-        about = solved.rung.estimate(solved.found, self._lower(before), tolerance)
-        return with_heat(about, lambda: self.heat(solved.own, tolerance), f"estimates of {self.name}")
+        about = solved.rung.estimate(solved.found, self.question.lower(self.level, before), tolerance)
+        return with_heat(about, lambda: self.heat(solved, tolerance), f"estimates of {self.name}")
 
-    def balanced(self, own: WarmRest) -> WarmRest:
-        """Return the rest on the film in the balance of its heat, of T1 its own."""
-        if self.level is BALANCED:
-            return own
-        bearing, question = self.film.reaction, self.question
-        return uniform_rest(bearing, question.load, question.speed, balance_at(bearing, own))
-
-    def heat(self, own: WarmRest, tolerance: float) -> tuple[HeatError, str, str]:
+    def heat(self, solved: UniformSolution, tolerance: float) -> tuple[HeatError, str, str]:
         """Return the error by heat, how that is known, and why to doubt it."""
-        bearing, question = self.film.reaction, self.question
-        start = self.balanced(own)
-        error = question.apart(own, start)
-        if error * SAFETY >= tolerance:
-            return HeatError(error, False), BALANCE, ""
-        steps = HeatSteps(bearing, start)
-        return question.error(own, steps), "steps towards T3", steps.doubt
+        bearing, judge = self.film.reaction, self.question.judged(solved)
+        load, speed, level = judge.load, judge.speed, self.level
+        own = start = solved.own or uniform_rest(bearing, load, speed, level.temperature(bearing))
+        if level is FRESH:
+            start = uniform_rest(bearing, load, speed, balance_at(bearing, own))
+        heat, how, doubt = HeatError(judge.apart(own, start), False), BALANCE, ""
+        if heat.error * SAFETY < tolerance and has_field(bearing):
+            steps = HeatSteps(bearing, start)
+            heat, how, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
+        return *with_moving(judge, bearing, heat, how), doubt
 
     def expected(self, done: Work) -> Work:
         """Return one answer."""
         return {self.unit: 1}
-
-
-FRESH, BALANCED = HeatLevel("T0"), HeatLevel("T1")
 
 
 def balance_at(bearing: JournalBearing, own: WarmRest) -> float:
@@ -366,31 +418,50 @@ def with_heat(
     return ErrorEstimate(total, method, {WorkUnit(work): 1}, bound=bound, doubt=doubt, shared=heat.error)
 
 
-def known_films(films: tuple[FilmRung, ...]) -> tuple[FilmRung, ...]:
-    """Return the films whose losses, which heat the oil, are known; InputError where there is none."""
-    known = tuple(film for film in films if has_losses(film.reaction))
+def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[FilmCandidate, ...]:
+    """Return the films whose losses are known; InputError where there is none, as they are wanted."""
+    known = tuple(film for film in films if film.has_losses)
     if known:
         return known
-    name = film_name(films[0].reaction.fitted_film)
-    raise InputError(f"film must be a law with losses for an oil that warms, as map or reynolds, got {name}")
+    raise InputError(f"film must be a law with losses for {wanted}, as map or reynolds, got {films[0].name}")
+
+
+def known_films(films: Sequence[FilmCandidate]) -> tuple[Any, ...]:
+    """Return the films whose losses, which heat the oil, are known; InputError where there is none."""
+    return with_losses(films, "an oil that warms")
+
+
+def has_field(bearing: Any) -> bool:
+    """Return whether a temperature over the film of a bearing is known: not of films of pads."""
+    return isinstance(bearing, JournalBearing | JFOFilm)
+
+
+def within_heat(bearing: Any) -> str:
+    """Return the physics in which the tolerance of an answer on an oil is meant."""
+    return HEATED if has_field(bearing) else ONE_TEMPERATURE
+
+
+def any_bearing(scene: Scene) -> Any:
+    """Return the bearing with a film of a scene, on its oil; of a journal by Reynolds rupture."""
+    return scene.film_table.build() if scene.journal is None else scene.journal_bearing
 
 
 def thermal_ladder(
     scene: Scene,
-    films: tuple[FilmRung, ...],
-    questions: tuple[HeatedQuestion, ...],
+    films: Sequence[FilmCandidate],
+    questions: tuple[Any, ...],
     unit: str,
     *,
     fresh: bool = True,
 ) -> Ladder:
-    """Return the ladder of a question about a journal on an oil.
+    """Return the ladder of a question about a bearing on an oil.
 
     Parameters
     ----------
     scene : Scene
-    films : tuple of FilmRung
+    films : sequence of FilmCandidate
         Those of the question, the cheapest first.
-    questions : tuple of HeatedQuestion
+    questions : tuple of RestQuestion or WhirlQuestion
         The question, and as it is asked of the further rungs of each film.
     unit : str
     fresh : bool
@@ -411,22 +482,17 @@ def thermal_ladder(
         for one in questions
     )
     fields: tuple[Rung, ...] = ()  # beside openings within the length only conserved oil is known
-    if not ends_within(quick):
+    if has_field(quick) and not ends_within(quick):
         fields = motion_rungs(known[0], questions[:2]) if question.moves else field_rungs(quick, question)
 
     def assumptions() -> tuple[str, ...]:
-        own = uniform_rest(quick, question.load, question.speed)
-
-        def moved(other: JournalBearing) -> float:
-            return question.apart(own, uniform_rest(other, question.load, question.speed))
-
-        return assumed_figures(quick, moved, fields=True)
+        return assumed_figures(quick, question.moved(known[0]), fields=has_field(quick))
 
     return Ladder(
         rungs=(*uniform, *fields),
         unit=unit,
         remarks=scene.film_remarks,
-        within=HEATED,
+        within=within_heat(quick),
         assumptions=assumptions,
         distance=question.distance,
     )

@@ -1,4 +1,4 @@
-"""Questions about the orbit that an unbalance makes: amplitude, phase, force; linear and nonlinear rungs."""
+"""Questions about motions on the film of any bearing: orbits of an unbalance, peaks after a lost blade."""
 
 from __future__ import annotations
 
@@ -32,7 +32,6 @@ from ..analysis.periodic_orbit import (
 from ..bearings.reaction import reach
 from ..core.answers import (
     DISAGREEMENT,
-    ISOTHERMAL,
     SAFETY,
     C,
     CandidateRung,
@@ -42,17 +41,17 @@ from ..core.answers import (
     Work,
     WorkUnit,
     beside_bound,
-    relative_change,
 )
 from ..core.errors import InputError
 from ..core.model import Array, Reaction
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
-from ..scenes.film_heat import WarmRest
-from ..scenes.film_rungs import FilmCandidate, FilmRung, room, turn_films
-from .journal_heat import HeatedQuestion, thermal_ladder
-from .journal_whirl import with_moved_rupture
+from ..scenes.film_rungs import FilmCandidate
+from .conserved_oil import with_moved_rupture
+from .film_statics import Films, isothermal_ladder
+from .heat_levels import RestQuestion, thermal_ladder
+from .quantities import relative
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -203,103 +202,111 @@ def require_one_unbalance(rotor: RigidRotor) -> None:
         )
 
 
-def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
-    rotor = rotor_of(scene)
-    assert scene.journal is not None  # whose question it is
-    scene.journal.require_law(quantity)
-    films = orbit_films(scene)
-    warm = scene.journal_bearing.is_warming
-    ladder = (
-        warm_orbit_ladder(scene, quantity, rotor, films)
-        if warm
-        else cold_orbit_ladder(scene, quantity, films)
-    )
-
-    def linear(film: FilmCandidate) -> float:
-        rung = OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0)
-        return float(rung.answer(None).value)
-
-    place = OrbitRung(film=films[0], quantity=quantity, rotor=rotor, samples=0).place
-    return with_moved_rupture(scene, ladder, linear, place.change, scaled=quantity != PHASE)
+# Ladders of motions on the films of any bearing.
 
 
-def cold_orbit_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:
-    """Return the ladder of an orbit by films of one viscosity: linear, then nonlinear, on each."""
-    rotor = rotor_of(scene)
-    rungs = [OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0) for film in films]
-    rungs += [
-        OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=n) for film in films for n in SAMPLES
-    ]
-    rungs.sort(key=lambda rung: _effort(rung, films))
-    return Ladder(
-        rungs=tuple(rungs),
-        unit=ORBIT_UNITS[quantity],
-        units=film_batch_units(films, scene.speed),
-        remarks=scene.film_remarks,
-        within=ISOTHERMAL,
-        distance=rungs[0].place.change,
-    )
+@dataclass(frozen=True, kw_only=True)
+class FilmMotion:
+    """What rungs of one motion have in common.
 
-
-def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tuple[FilmRung, ...]) -> Ladder:
-    """Return the ladder of an orbit on an oil, which keeps the temperature that it has at rest.
-
-    What a richer level of heat would change is taken of the linear orbit.
+    Attributes
+    ----------
+    make : callable
+        Takes a film and a number of samples or steps over a turn, 0 if linear, and returns the rung.
+    counts : tuple of int
+        Samples or steps of the rungs on each film.
+    unit : str
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    effort : callable, optional
+        Of a rung, by which those on films of one viscosity are ordered.
+    scaled : bool
+        Whether the share counts by which the conservation of oil changes the quantity, not the difference.
     """
 
-    def rung(film: FilmRung, samples: int = 0) -> OrbitRung:
-        return OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=samples)
+    make: Callable[[Any, int], Any]
+    counts: tuple[int, ...]
+    unit: str
+    distance: Callable[[Any, Any], float]
+    effort: Callable[[Any], float] | None = None
+    scaled: bool = True
 
-    def value(own: WarmRest) -> float:
-        found: float = rung(films[0].frozen(own.reaction)).answer(None).value
-        return found
+    def linear(self, film: FilmCandidate) -> float:
+        """Return the quantity of the linear motion on a film."""
+        return float(self.make(film, 0).answer(None).value)
 
-    distance = rung(films[0]).place.change
-    questions = tuple(
-        HeatedQuestion(
-            load=scene.static_load,
-            speed=scene.speed,
-            make=partial(rung, samples=n),
-            value=value,
-            distance=distance,
-            moves=True,
+    def ladder(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+        """Return the ladder on films, the cheapest first; in a journal with what conserves its oil.
+
+        On an oil they keep the temperature of the rest, and what a richer level of heat would change is taken
+        of the linear motion.
+        """
+        ladder = self._warm(scene, films) if films[0].reaction.is_warming else self._isothermal(scene, films)
+        if scene.journal is None:
+            return ladder
+        return with_moved_rupture(scene, ladder, self.linear, self.distance, scaled=self.scaled)
+
+    def _isothermal(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+        rungs = [self.make(film, count) for film in films for count in self.counts]
+        if self.effort is not None:
+            rungs.sort(key=self.effort)
+        units = {unit: call for film in films for unit, call in film.batch_units(scene.speed).items()}
+        return isothermal_ladder(scene, rungs, self.unit, units, self.distance)
+
+    def _warm(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+        questions = tuple(
+            RestQuestion(
+                load=scene.static_load,
+                speed=scene.speed,
+                make=partial(self._counted, count),
+                value=lambda own: self.linear(films[0].frozen(own.reaction)),
+                distance=self.distance,
+                moves=True,
+            )
+            for count in self.counts
         )
-        for n in (0, *SAMPLES)
-    )
-    return thermal_ladder(scene, films, questions, ORBIT_UNITS[quantity])
+        return thermal_ladder(scene, films, questions, self.unit)
+
+    def _counted(self, count: int, film: FilmCandidate) -> Any:
+        return self.make(film, count)
 
 
-def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
-    """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
+def orbit_ladder(
+    films: Films, scene: Scene, quantity: str, rung: type[SampledOrbitRung[Any]] = OrbitRung
+) -> Ladder:
+    """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film.
 
+    Parameters
+    ----------
+    films : callable
+        Takes the scene and returns the candidates for states all round a turn.
+    scene : Scene
+    quantity : str
+        A key of `ORBIT_UNITS`.
+    rung : type
+        `OrbitRung`, or `StatefulOrbitRung` on tilting pads.
 
-def _effort(rung: OrbitRung, films: Sequence[FilmCandidate]) -> float:
-    """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before.
-
-    A map that is to be made comes after all that need none, by the time that it takes.
+    Raises
+    ------
+    InputError
+        As `rotor_of`.
     """
-    one = 1.0 if rung.film.makes_map else 2.0 ** films.index(rung.film)
-    return MAKING * rung.film.making + one * (6 if rung.samples == 0 else 5 * rung.samples)
+    rotor, known = rotor_of(scene), films(scene)
 
+    def effort(one: SampledOrbitRung[Any]) -> float:
+        """Return a measure of cost: films by place, each twice the one before; maps to be made last."""
+        each = 1.0 if one.film.makes_map else 2.0 ** known.index(one.film)
+        return MAKING * one.film.making + each * (6 if one.samples == 0 else 5 * one.samples)
 
-def film_batch_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, Callable[[], object]]:
-    """Return one force with derivatives of each film and of its richer one."""
-    units: dict[WorkUnit, Callable[[], object]] = {}
-    for film in films:
-        units[film.tangents] = _sampled(film.reaction, speed)
-        units[film.defects(smooth=False)] = _sampled(film.rich, speed)
-    return units
-
-
-def _sampled(reaction: Reaction, speed: float) -> Callable[[], object]:
-    position, velocity = np.array([0.3, 0.4]) * room(reaction), np.zeros(2)
-
-    def one() -> object:
-        return reaction.force(position, velocity, speed), reaction.jacobian(position, velocity, speed)
-
-    return one
+    motion = FilmMotion(
+        make=lambda film, samples: rung(film=film, quantity=quantity, rotor=rotor, samples=samples),
+        counts=(0, *SAMPLES),
+        unit=ORBIT_UNITS[quantity],
+        distance=partial(wave_change, quantity),
+        effort=effort if rung is OrbitRung else None,
+        scaled=quantity != PHASE,
+    )
+    return motion.ladder(scene, known)
 
 
 # How far a rotor goes after something has begun to shake it at rest: rungs in ever shorter steps.
@@ -501,45 +508,45 @@ class BladeLossRung(PeakRung[FilmCandidate]):
         return self.film.expected(3 * self.grid(self.steps)[1] if self.steps else LINEAR_CALLS)
 
 
-def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of the peak after a blade is lost.
+def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the peak after a blade is lost: linear, then nonlinear, on each film.
 
-    Raises
-    ------
-    InputError
-        If the scene loses no blade, has no rotor, or does not turn.
-    """
-    calls = calls_of(lost_blade(scene))
-    assert scene.journal is not None  # whose question it is
-    scene.journal.require_law(quantity)
-    films = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls)))
-    make = partial(BladeLossRung, **blade_numbers(scene))
-    warm = scene.journal_bearing.is_warming
-    ladder = warm_blade_ladder(scene, films, make) if warm else cold_blade_ladder(scene, films)
-
-    def linear(film: FilmCandidate) -> float:
-        return float(make(film=film, steps=0).answer(None).value)
-
-    return with_moved_rupture(scene, ladder, linear, relative_change, scaled=True)
-
-
-def calls_of(excitation: BladeLossTable) -> int:
-    """Return how many forces most motions take."""
-    return math.ceil(3 * COMMON_STEPS * excitation.revolutions)
-
-
-def blade_numbers(scene: Scene) -> dict[str, Any]:
-    """Return what all rungs of a lost blade share.
+    Parameters
+    ----------
+    films : callable
+        Takes the scene and returns the candidates for states all round a turn.
+    scene : Scene
+    quantity : str
 
     Raises
     ------
     InputError
         If the scene loses no blade, has no rotor or one with an unbalance, or does not turn.
     """
-    rotor = scene.rotor
+    excitation, rotor = lost_blade(scene), scene.rotor
     require_one_unbalance(rotor)
-    excitation = lost_blade(scene)
-    return {"load": scene.static_load, "speed": scene.speed, "mass": rotor.mass, "excitation": excitation}
+    calls = math.ceil(3 * COMMON_STEPS * excitation.revolutions)
+    known = sorted(films(scene), key=lambda film: film.time(calls))
+
+    def make(film: FilmCandidate, steps: int) -> BladeLossRung:
+        return BladeLossRung(
+            film=film,
+            load=scene.static_load,
+            speed=scene.speed,
+            mass=rotor.mass,
+            excitation=excitation,
+            steps=steps,
+        )
+
+    def effort(rung: BladeLossRung) -> float:
+        """Return the time of a rung; a linear motion takes so few forces that no map is worth it."""
+        return rung.film.time(calls if rung.steps else LINEAR_CALLS)
+
+    made = any(film.makes_map for film in known[:-1])
+    motion = FilmMotion(
+        make=make, counts=(0, *STEPS), unit="m", distance=relative, effort=effort if made else None
+    )
+    return motion.ladder(scene, known)
 
 
 def lost_blade(scene: Scene) -> BladeLossTable:
@@ -550,53 +557,6 @@ def lost_blade(scene: Scene) -> BladeLossTable:
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
     return scene.excitation
-
-
-def cold_blade_ladder(scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
-    """Return the ladder of the peak by films of one viscosity: linear, then nonlinear, on each."""
-    make = partial(BladeLossRung, **blade_numbers(scene))
-    calls = calls_of(lost_blade(scene))
-    films = sorted(films, key=lambda film: film.time(calls))
-    rungs = [make(film=film, steps=steps) for film in films for steps in (0, *STEPS)]
-    if any(film.makes_map for film in films[:-1]):
-        # A linear motion takes so few forces that no map is worth it.
-        rungs.sort(key=lambda rung: rung.film.time(calls if rung.steps else LINEAR_CALLS))
-    return Ladder(
-        rungs=tuple(rungs),
-        unit="m",
-        units=film_batch_units(films, scene.speed),
-        remarks=scene.film_remarks,
-        within=ISOTHERMAL,
-    )
-
-
-def warm_blade_ladder(
-    scene: Scene, films: tuple[FilmRung, ...], make: Callable[..., BladeLossRung]
-) -> Ladder:
-    """Return the ladder of the peak on an oil, which keeps the temperature that it has at rest.
-
-    What a richer level of heat would change is taken of the linear motion.
-    """
-
-    def value(own: WarmRest) -> float:
-        found: float = make(film=films[0].frozen(own.reaction), steps=0).answer(None).value
-        return found
-
-    def stepped(steps: int, film: FilmRung) -> BladeLossRung:
-        return make(film=film, steps=steps)
-
-    questions = tuple(
-        HeatedQuestion(
-            load=scene.static_load,
-            speed=scene.speed,
-            make=partial(stepped, steps),
-            value=value,
-            distance=relative_change,
-            moves=True,
-        )
-        for steps in (0, *STEPS)
-    )
-    return thermal_ladder(scene, films, questions, "m")
 
 
 # What is asked about an orbit that an unbalance makes: amplitude, phase or force, and where.
