@@ -11,7 +11,7 @@ import numpy as np
 
 from ..analysis import coefficients, equilibrium, whirl_threshold
 from ..analysis.speed_events import secant_speed
-from ..core.answers import SAFETY, CandidateRung, ErrorEstimate, Found, Ladder, Work
+from ..core.answers import SAFETY, CandidateRung, ErrorEstimate, Found, Ladder, Work, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.results import Equilibrium, WhirlThreshold
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, JudgedRest, WarmRest
@@ -200,6 +200,7 @@ class WhirlQuestion:
     quick: FilmCandidate
     moves: bool = False
 
+    distance: ClassVar[Callable[[Any, Any], float]] = staticmethod(relative_change)
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
     rests: ClassVar[int] = SPEEDS
     field_rests: ClassVar[float] = 4.0

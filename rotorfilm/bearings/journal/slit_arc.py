@@ -57,7 +57,7 @@ class SlitArc:
         rule = ReynoldsArc() if self.extent is None else FixedArc(extent=self.extent)
         return rule.shortcoming(basis)
 
-    def mirrored(self) -> SlitArc:
+    def in_mirror(self) -> SlitArc:
         """Return the arc in a mirror, y to -y."""
         return replace(self, slit=-self.slit - (self.extent or 0.0))
 

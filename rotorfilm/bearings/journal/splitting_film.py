@@ -134,8 +134,8 @@ def response_on(arc: FilmArc, respond: Callable[[FilmArc], PolarResponse]) -> Po
 
 def mirror_image(rupture: Rupture) -> Rupture | None:
     """Return a rule for the ends of a film in a mirror, y to -y; None where it is its own image."""
-    mirrored: Callable[[], Rupture] | None = getattr(rupture, "mirrored", None)
-    return None if mirrored is None else mirrored()
+    image: Callable[[], Rupture] | None = getattr(rupture, "in_mirror", None)
+    return None if image is None else image()
 
 
 def _require_order(order: object) -> None:
