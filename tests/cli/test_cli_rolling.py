@@ -11,7 +11,7 @@ def test_chart_of_ball_bearings_writes_pictures_and_tables(run, tmp_path):
     assert code == 0
     assert "done" in err
     result = json.loads(out)
-    assert result["ladder"]["states"] == 1
+    assert len(result["ladder"]["rungs"]) == 3
     assert len(result["curves"]["speeds"]) == 25
     for name, rows in (("chart_rolling", 75), ("chart_rolling_ladder", 3)):
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")

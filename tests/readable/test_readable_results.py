@@ -43,7 +43,7 @@ NO_RESULTS = {
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("RestingBalls", "BuiltDamperFilm"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
-        *("FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
+        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
         *(
             "RestingFilms",
             "DamperFilm",

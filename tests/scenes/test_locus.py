@@ -41,4 +41,4 @@ def test_equilibrium_lies_on_the_locus():
 
 def test_demonstration_compares_every_film_that_it_names_and_ends_in_that_of_the_bearing():
     assert tuple(rung.name for rung in demo_rungs()) == RUNGS
-    assert demo_rungs()[-1].film == BEARING.film == MapFilm()
+    assert demo_rungs()[-1].law == BEARING.film == MapFilm()
