@@ -333,6 +333,7 @@ class ContactScheme(Protocol):
         """Return sample points and matrices for a grid, both lengths in units of the axis along x."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class StaggeredScheme:
     """Film thickness at the corners of the cells, as published: second order, blind to the checkerboard.
