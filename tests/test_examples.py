@@ -135,7 +135,7 @@ def test_example_ends_in_its_number(path, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", [str(path)])
     with warnings.catch_warnings():
         warnings.filterwarnings("error", module=OURS)
-        warnings.filterwarnings("ignore", ".*must be below Reynolds number", ValidityWarning)
+        warnings.filterwarnings("ignore", ".*beyond the Reynolds number", ValidityWarning)
         runpy.run_path(str(path), run_name="__main__")
     assert float(capsys.readouterr().out.split()[-1]) == LAST_NUMBER[path.name]
     for picture in re.findall(r'savefig\("(.*)"\)', path.read_text(encoding="utf-8")):

@@ -13,7 +13,14 @@ from numpy.typing import ArrayLike
 from scipy.linalg import lu_factor, lu_solve
 
 from ..bearings.reaction import added_mass
-from ..core.errors import EquilibriumError, InputError, require_finite, require_kind, warn_user
+from ..core.errors import (
+    ConvergenceError,
+    EquilibriumError,
+    InputError,
+    require_finite,
+    require_kind,
+    warn_user,
+)
 from ..core.inputs import arguments
 from ..core.model import (
     Array,
@@ -332,9 +339,15 @@ def unbalance_response(
     -----
     ValidityWarning
         If a motion grows at the highest of the speeds: beyond the threshold no rotor stays in the response.
+        If the search for such a motion does not converge.
     """
     found = driven_by_unbalance(rotor, bearings, speeds)
-    if (unstable := first_growing(rotor, bearings, np.asarray(found.frequency))) is not None:
+    try:
+        unstable = first_growing(rotor, bearings, np.asarray(found.frequency))
+    except ConvergenceError as error:
+        warn_user(f"whether the rotor is stable at these speeds is not known: {error}")
+        return found
+    if unstable is not None:
         warn_user(
             f"speeds should be below the threshold of stability, got {unstable[0]:.6g} rad/s and more, where "
             f"a motion of {abs(unstable[1].imag):.4g} rad/s grows: no rotor stays in the response there"

@@ -294,11 +294,16 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
     Raises
     ------
     ConvergenceError
-        If the phase jumps: a root on the imaginary axis itself.
+        If the phase jumps: a root on the imaginary axis itself; if D/E does not come near 1.
     """
     points = [(float(nu), ratio(float(nu))) for nu in frequencies]
     while abs(points[-1][1] - 1.0) > NEAR_ONE and len(points) < len(frequencies) + _DOUBLINGS:
         points.append((2.0 * points[-1][0], ratio(2.0 * points[-1][0])))
+    if not abs(points[-1][1] - 1.0) <= NEAR_ONE:
+        raise ConvergenceError(
+            f"the stiffness must lose its effect at high frequencies for a count of roots, and D/E is "
+            f"{points[-1][1]:.3g} at {points[-1][0]:.3g} rad/s"
+        )
     turn = sum(_turn(ratio, low, high) for low, high in pairwise(points))
     last = points[-1][1]
     turn -= math.atan2(last.imag, last.real)

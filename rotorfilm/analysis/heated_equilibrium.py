@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, runtime_checkable
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.oil.laminar import warn_of_flow
-from ..core.errors import EquilibriumError, FilmContactError, require_number, warn_user
+from ..core.errors import EquilibriumError, FilmContactError, ValidityWarning, require_number, warn_user
 from ..core.inputs import arguments
 from ..core.model import Array, Reaction, prepared_tangent
 from ..core.readable import Readable
@@ -71,7 +72,7 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
         balances it.
     """
     load, speed = checked_load(load), require_number("speed", speed)
-    first = equilibrium(film.cold(), load, speed).position
+    first = _quiet_equilibrium(film.cold(), load, speed).position
     for near in near_states(film, load, speed, first):
         found = _settled(film, load, speed, near) or _unsettled(film, load, speed, near)
         if found is not None:
@@ -79,20 +80,26 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
             warn_of_flow(film, speed, mean, found.state.maximum_temperature)
             return found
     raise EquilibriumError(
-        f"film and temperature must come to rest together, and did not from any of {TRIED + 1} places: "
+        f"load must be one that the warm film carries: film and temperature do not come to rest together; "
         f"fresh oil carries the load at {first.tolist()} m, but no place was found where the warm film "
         f"that openings can feed carries it, got load {load.tolist()} N at {speed:g} rad/s"
     )
+
+
+def _quiet_equilibrium(film: Any, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium on a film on the way to the answer, of which nobody needs to be warned."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        return equilibrium(film, load, speed)
 
 
 def _settled(film: FieldFilm, load: Array, speed: float, state: Any) -> HeatedEquilibrium | None:
     """Return the equilibrium near a state, by film and heat in turn; None if they do not rest near it."""
     place = state.position
     try:
-        rest = equilibrium(state.film, load, speed)
+        rest = _quiet_equilibrium(state.film, load, speed)
         for _ in range(MOST_ROUNDS):
             before, state = state, film.warmed(rest.position, speed, state)
-            rest = equilibrium(state.film, load, speed)
+            rest = _quiet_equilibrium(state.film, load, speed)
             if _moved(film, rest, place) > LOST:
                 return None
             if film.is_settled(before, state):
@@ -105,7 +112,7 @@ def _settled(film: FieldFilm, load: Array, speed: float, state: Any) -> HeatedEq
 def _unsettled(film: FieldFilm, load: Array, speed: float, state: Any) -> HeatedEquilibrium | None:
     """Return the equilibrium at the temperature of a state, and warn, where it is nearly at that place."""
     try:
-        rest = equilibrium(state.film, load, speed)
+        rest = _quiet_equilibrium(state.film, load, speed)
         found = _closed(film, load, speed, rest, state)
     except (EquilibriumError, FilmContactError):
         return None

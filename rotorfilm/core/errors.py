@@ -165,6 +165,8 @@ def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         raise InputError(f"{name} must be numeric, got {brief(value)}") from None
+    except OverflowError:
+        raise InputError(f"{name} must be a number of double precision, got {brief(value)}") from None
     if not np.isfinite(array).all():
         raise InputError(f"{name} must be finite, got {brief(value)}")
     return array

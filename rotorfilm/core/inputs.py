@@ -120,11 +120,14 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
             if isinstance(error, InputError) and documented is not None:
                 require_named(error, plain_checks_of(home), given.items())
             raise
-        except Exception:
+        except Exception as error:
             _require_arguments(home, given, (*names[bare:], *doubled))
             every = dict([*zip(names, args, strict=False), *given.items()])
             require_allowed(checks_of(home, strictly=True), every.items())
-            require_usual(every.items())
+            if isinstance(
+                error, ArithmeticError | ValueError
+            ):  # an error of a user's own function is not ours
+                require_usual(every.items())
             raise
         checks = plain_checks_of(home) if documented is None else checks_of(home)
         require_allowed(checks, chain(given.items(), zip(names, args, strict=False)))

@@ -95,7 +95,7 @@ def test_the_friction_of_the_balls_is_a_parameter(opened):
     instance.set([reference[names[0]]], [0.0])
     with pytest.raises(FMICallException):
         instance.get([reference[one] for one in FORCES])
-    assert any("traction_coefficient must be finite and positive, got 0" in line for line in instance.log)
+    assert any("traction_coefficient must be 0.001 to 0.5, got 0" in line for line in instance.log)
 
 
 @pytest.mark.filterwarnings("ignore:the gyroscopic moment")

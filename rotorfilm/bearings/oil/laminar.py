@@ -89,6 +89,6 @@ def warn_of_flow(
         begins = "Taylor vortices begin" if most < TURBULENT else "turbulence begins"
         warn_user(
             f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
-            f"{speed:.6g} rad/s and {density:.4g} kg/m3, and must be below Reynolds number {most:.4g}, where "
+            f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
             f"{begins}: a real film takes more power and gets warmer than this laminar one"
         )

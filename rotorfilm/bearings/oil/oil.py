@@ -15,6 +15,7 @@ from ...core.errors import (
     InputError,
     brief,
     require_each,
+    require_finite,
     require_kind,
     require_non_negative,
     require_number,
@@ -486,8 +487,8 @@ def warn_beyond_law(oil: Oil, temperature: ArrayLike) -> None:
 
 
 def _kelvin(temperature: ArrayLike) -> Array:
-    T = np.asarray(temperature, dtype=float)
-    if not (np.isfinite(T).all() and (T > 0.0).all()):
+    T = require_finite("temperature", temperature)
+    if not (T > 0.0).all():
         raise InputError(f"temperature must be finite and positive, in K, got {temperature!r}")
     return T
 

@@ -24,8 +24,8 @@
    d = max((1 - carry_over) / 4, 0.01)
    capacity = bush_heat_capacity + volumetric_heat 2 pi radius length clearance
 
-   Validity: One temperature for the whole film: eccentricity ratio within 6 %, power within 15 % of a film
-   with temperatures along and across it. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map
+   Validity: One temperature for the whole film: power usually within 30 % of a film with temperatures along
+   and across it; with one groove near the load the place may differ too. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map
    is made for these openings and this length / diameter: radius and length are fixed. The oil is known between the
    temperatures of the table `oil_range`. Laminar, aligned. In vibration the temperature hardly moves. */
 #include <stdlib.h>

@@ -21,8 +21,8 @@
    P = viscosity(T) radius^3 length / clearance (speed^2 Sigma(e, w) - f(e, w).w)
    capacity = bush_heat_capacity + volumetric_heat 2 pi radius length clearance
 
-   Validity: One temperature for the whole film: eccentricity ratio within 6 %, power within 15 % of a film
-   with temperatures along and across it. The oil is known between the temperatures of the table `oil_range`; radius
+   Validity: One temperature for the whole film: power usually within 30 % of a film with temperatures along
+   and across it; with one groove near the load the place may differ too. The oil is known between the temperatures of the table `oil_range`; radius
    and length are fixed. Laminar, aligned, without grooves. In vibration the temperature hardly moves. */
 #include <stdlib.h>
 #include <string.h>

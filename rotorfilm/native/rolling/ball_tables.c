@@ -56,9 +56,10 @@ size_t rf_ball_law_parameters(const rf_balls *balls)
 int rf_set_ball_law(rf_balls *balls, const double *p, rf_message *why)
 {
     static const char *const names[] = {"traction_coefficient", "slide_to_roll_ratio"};
+    static const double least[] = {1e-3, 1e-4}, most[] = {0.5, 1.0};
     for (size_t k = 0; k < rf_ball_law_parameters(balls); ++k)
-        if (!(p[k] > 0.0 && isfinite(p[k])))
-            return rf_say(why, RF_INVALID, "%s must be finite and positive, got %.9g", names[k], p[k]);
+        if (!(p[k] >= least[k] && p[k] <= most[k]))
+            return rf_say(why, RF_INVALID, "%s must be %g to %g, got %.9g", names[k], least[k], most[k], p[k]);
     if (balls->law.inertia == RF_BALLS_TRACTION) {
         balls->law.traction = p[0];
         balls->law.slide = p[1];
@@ -81,5 +82,5 @@ const char *rf_ball_text(int status)
     static const char *const said[] = {
         "", "a ball must be pressed to 4200 MPa at most, and its gyroscopic moment must be held without sliding", "", "",
         "the force is not finite", "", "the balls must find a balance, and the search found none"};
-    return said[status];
+    return status >= 0 && (size_t)status < sizeof said / sizeof *said ? said[status] : "";
 }

@@ -250,7 +250,7 @@ def test_a_large_plain_bearing_comes_to_rest_with_layers():
     bearing = JournalBearing(
         radius=0.25, length=0.4, clearance=0.5e-3, oil=Oil.iso_vg(32), cooling=Cooling(supply_temperature=T_S)
     )
-    with pytest.warns(ValidityWarning, match="Taylor number .*where Taylor vortices begin"):
+    with pytest.warns(ValidityWarning, match="Taylor number .*at which Taylor vortices begin"):
         at = rests(bearing, 3e5, OMEGA, profile=LayeredTemperature(8))
     assert at.rounds < 40
     assert at.rest.eccentricity_ratio == pytest.approx(0.682, abs=0.006)  # 96 x 8 cells
