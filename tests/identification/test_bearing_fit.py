@@ -154,6 +154,9 @@ def test_csv_has_units_in_its_headings(tmp_path):
     path.write_text("x [um]\n1500\n")
     with pytest.raises(InputError, match="must have columns speed, and load_x and load_y where"):
         Measurements.read(path)
+    path.write_text("speed [rpm],x [um]\n1500,40.5\n3000\n\n")
+    with pytest.raises(InputError, match="must have 2 entries in line 3, got 1"):
+        Measurements.read(path, load=LOAD)
 
 
 def test_what_cannot_be_told_apart_is_named():
