@@ -116,7 +116,9 @@ class Measurements:
         for number, row in enumerate(rows, start=2):
             if row and len(row) != len(headings):
                 raise InputError(f"{path} must have {len(headings)} entries in line {number}, got {len(row)}")
-        columns = dict(_column(heading, [row[k] for row in rows if row]) for k, heading in enumerate(headings))
+        columns = dict(
+            _column(heading, [row[k] for row in rows if row]) for k, heading in enumerate(headings)
+        )
         if "speed" not in columns or (load is None and not {"load_x", "load_y"} <= set(columns)):
             raise InputError(
                 f"{path} must have columns speed, and load_x and load_y where none is given, got {headings}"
