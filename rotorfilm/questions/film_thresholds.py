@@ -189,6 +189,8 @@ class WhirlQuestion:
         From whose threshold those on temperature fields start.
     moves : bool
         Whether it takes more than rests.
+    distance : callable
+        Takes a speed and a better one, and returns how far it is off, relative to that.
     levels : tuple of FieldLevel
         Those with a temperature field.
     rests, field_rests : float
