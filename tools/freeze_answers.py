@@ -170,7 +170,7 @@ def jobs() -> dict[str, tuple[Callable[[str], Any], str]]:
 
 def differences(before: Any, after: Any, where: str) -> Iterator[str]:
     """Yield how two answers differ."""
-    models = [isinstance(one, dict) and "model" in one for one in (before, after)]
+    models = [isinstance(one, dict) and "rungs" in one for one in (before, after)]
     if all(models) and (before["model"], before["met"]) != (after["model"], after["met"]):
         old, new = np.asarray(before["value"], float), np.asarray(after["value"], float)
         gap = float(np.max(np.abs(old - new))) / max(float(np.max(np.abs(old))), 1e-300)
