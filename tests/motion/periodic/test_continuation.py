@@ -172,6 +172,7 @@ def test_over_any_parameter(short_rotor):
     assert "bounds" in curve.reason
 
 
+@pytest.mark.filterwarnings("ignore:.*beyond the Reynolds number")  # a model problem at any speed
 def test_unstable_cycle_separates_two_ends(short_rotor):
     rotor = short_rotor(0.1)
     onset = hopf_point(rotor, (0.97, 1.03))

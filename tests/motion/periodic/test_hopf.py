@@ -17,6 +17,7 @@ from rotorfilm import (
 
 @pytest.mark.closed_form
 @pytest.mark.parametrize(("eps", "known"), [(0.1, 2.741279), (0.3, 2.605786), (0.5, 2.541731)])
+@pytest.mark.filterwarnings("ignore:.*beyond the Reynolds number")  # a model problem at any speed
 def test_threshold_of_the_short_bearing(short_scene, short_rotor, eps, known):
     threshold = short_scene(eps).threshold()
     assert threshold == pytest.approx(known, abs=6e-7)
@@ -39,12 +40,14 @@ def test_always_stable_eccentricity_and_lowest_threshold(short_scene):
 
 
 @pytest.mark.closed_form
+@pytest.mark.filterwarnings("ignore:.*beyond the Reynolds number")  # a model problem at any speed
 def test_criticality_changes_where_it_is_known_to(short_rotor):
     change = brentq(lambda eps: hopf_point(short_rotor(eps), (0.97, 1.03)).lyapunov, 0.13, 0.15, xtol=1e-6)
     assert change == pytest.approx(0.1411, abs=5e-5)
 
 
 @pytest.mark.parametrize("eps", [0.1, 0.2])
+@pytest.mark.filterwarnings("ignore:.*beyond the Reynolds number")  # a model problem at any speed
 def test_small_whirl_follows_the_law_of_its_onset(short_rotor, eps):
     family = short_rotor(eps)
     onset = hopf_point(family, (0.97, 1.03))

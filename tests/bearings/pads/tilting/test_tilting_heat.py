@@ -111,6 +111,7 @@ def test_infinite_cooling_holds_the_ambient_temperature(five):
     np.testing.assert_allclose(at.temperature, COOLING.ambient_temperature, atol=1e-8)
 
 
+@pytest.mark.filterwarnings("ignore:.*beyond the Reynolds number")  # a model problem at any speed
 def test_threshold_of_a_warm_bearing_is_sought_at_its_temperatures(five):
     warm = five(viscosity=None, oil=OIL, cooling=COOLING)
     found = whirl_threshold(warm, LOAD, mass=300.0, speed_range=(200.0, 3000.0))
