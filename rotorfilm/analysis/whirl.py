@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -24,7 +24,6 @@ from ..core.errors import (
     ValidityWarning,
     require_finite,
     require_positive,
-    warn_user,
 )
 from ..core.inputs import arguments
 from ..core.model import (
@@ -85,9 +84,8 @@ def whirl_threshold(
     Warns
     -----
     ValidityWarning
-        Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
-        and of a threshold beyond it. Not of speeds that are only passed, nor of unloaded pads, which the
-        equilibrium at the threshold tells.
+        Of a threshold beyond what the film is meant for. Speeds that the search only passes give no warning;
+        where no threshold is found, the reason says which of them are in doubt.
 
     Notes
     -----
@@ -102,7 +100,7 @@ def whirl_threshold(
     search = _settling if isinstance(reaction, Settling) else _searched
     found = search(reaction, force, mass, (low, high), passed)
     if found.speed is None and passed:
-        warn_user(f"no threshold was found, but rests that were searched are in doubt: {passed[0]}")
+        return replace(found, reason=f"{found.reason}; equilibria of the search are in doubt: {passed[0]}")
     return found
 
 

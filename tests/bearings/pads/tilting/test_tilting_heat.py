@@ -115,7 +115,7 @@ def test_infinite_cooling_holds_the_ambient_temperature(five):
 def test_threshold_of_a_warm_bearing_is_sought_at_its_temperatures(five):
     warm = five(viscosity=None, oil=OIL, cooling=COOLING)
     found = whirl_threshold(warm, LOAD, mass=300.0, speed_range=(200.0, 3000.0))
-    assert found.reason == "stable at every speed from 200 to 3000 rad/s"
+    assert found.reason.startswith("stable at every speed from 200 to 3000 rad/s")
 
 
 def test_what_the_heat_of_tilting_pads_refuses(five):
