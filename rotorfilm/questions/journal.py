@@ -16,7 +16,7 @@ from ..scenes.export_scene import film_models
 from ..scenes.families import Family
 from ..scenes.film_heat import HeatSteps, uniform_rest
 from ..scenes.film_rungs import FilmRung, point_films, turn_films
-from ..scenes.schema import JournalTable
+from ..scenes.journal_tables import JournalTable
 from ..scenes.solve_journal import conserved_threshold
 from .conserved_oil import (
     UNFED,

@@ -27,7 +27,7 @@ from ..core.answers import WorkUnit
 from ..core.model import Array, settled
 from ..core.results import Equilibrium
 from .film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
-from .pad_tables import dam_film_name, pad_film_name
+from .pad_tables import pad_film_name
 
 COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
 """Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
@@ -230,10 +230,10 @@ def _dam_candidate(
 ) -> DamCandidate:
     rich = replace(bearing, cells=cells)
     return DamCandidate(
-        name=dam_film_name(bearing),
+        name=pad_film_name(bearing),
         reaction=bearing,
         rich=rich,
-        rich_name=dam_film_name(rich),
+        rich_name=pad_film_name(rich),
         position_prior=position_prior,
         prior=prior,
     )

@@ -34,9 +34,10 @@ from .excitation_table import (
     oil_remarks,
 )
 from .families import FAMILIES, family_of, table_of
+from .journal_tables import JournalTable
 from .lubricant_table import LubricantTable
 from .reading import Beside, Quantity, Table, Variant, one_of, read_table, require_no_near_miss, takes, text
-from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
+from .schema import SCHEMA, CosimulationTable, OperationTable, RigidRotorTable
 from .shaft_table import ShaftTable, require_node, require_place
 from .solve_journal import Answer, film_answer
 
