@@ -59,3 +59,5 @@ else:
     show(__name__)
 
 offer("plot_result", f"{__name__}.charts")  # which `plot()` of results calls
+for _name in ("ask", "ladders_of"):  # which scenes with a question call
+    offer(_name, f"{__name__}.questions")

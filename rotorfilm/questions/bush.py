@@ -28,8 +28,6 @@ from ..bearings.bush import (
 from ..core.answers import DISAGREEMENT, BaseRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import InputError, RotorfilmError
 from ..scenes.bush_run import BushRun, bush_remarks, bush_run, unworn
-from ..scenes.bush_table import BushTable
-from ..scenes.families import Family
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -296,18 +294,10 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
 # What polymer bushes bring to scenes and questions.
 
 
-FAMILY = Family(
-    table=BushTable,
-    ladders={
-        "critical_speed": bush_ladder,
-        "wear": wear_ladder,
-    },
-    answer=lambda scene, _: scene.melting(),
-    example={
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
-)
+LADDERS = {
+    "critical_speed": bush_ladder,
+    "wear": wear_ladder,
+}
 
 
 # Wear of a bush at nodes of its profile: for loads that fall, and where each point melts by itself.

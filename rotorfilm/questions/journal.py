@@ -12,11 +12,8 @@ from ..analysis import whirl_threshold
 from ..bearings.journal import JFOFilm
 from ..core.answers import ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import RotorfilmError
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.film_heat import HeatSteps, uniform_rest
 from ..scenes.film_rungs import FilmRung, point_films, turn_films
-from ..scenes.journal_tables import JournalTable
 from ..scenes.solve_journal import conserved_threshold
 from .conserved_oil import (
     UNFED,
@@ -141,24 +138,10 @@ def conserving_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     return with_rupture(scene, ladder, change, relative, None if bearing.is_warming else above)
 
 
-FAMILY = Family(
-    table=JournalTable,
-    ladders={
-        **dict.fromkeys(QUANTITIES, conserving_static_ladder),
-        **dict.fromkeys(ORBITS, on_turns(orbit_ladder)),
-        "whirl_threshold": conserving_whirl_ladder,
-        "blade_loss_peak": on_turns(blade_loss_ladder),
-        "cosimulation_error": coupling_ladder,
-    },
-    models=film_models,
-    example={
-        "journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "clearance": "80 um",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+LADDERS = {
+    **dict.fromkeys(QUANTITIES, conserving_static_ladder),
+    **dict.fromkeys(ORBITS, on_turns(orbit_ladder)),
+    "whirl_threshold": conserving_whirl_ladder,
+    "blade_loss_peak": on_turns(blade_loss_ladder),
+    "cosimulation_error": coupling_ladder,
+}

@@ -18,7 +18,7 @@ from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, Wor
 from ..core.errors import FilmContactError
 from ..core.model import Array
 from ..scenes.export_scene import film_models
-from ..scenes.families import Family, SceneModels
+from ..scenes.families import SceneModels
 from ..scenes.pad_candidates import (
     DamCandidate,
     LobedCandidate,
@@ -29,7 +29,7 @@ from ..scenes.pad_candidates import (
     many_forces,
     tilting_candidates,
 )
-from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, quick_pads
+from ..scenes.pad_tables import quick_pads
 from .coupling import coupling_ladder
 from .film_motions import (
     FORCE,
@@ -72,25 +72,9 @@ def _all(scene: Scene) -> tuple[LobedCandidate, ...]:
     return lobed_candidates(scene.table("lobed_journal").build(), fixed=scene.film_is_given)
 
 
-LOBED = Family(
-    table=LobedTable,
-    ladders=fixed_ladders(
-        lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
-        lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
-    ),
-    models=film_models,
-    example={
-        "lobed_journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "preset": "elliptical",
-            "assembled_clearance": "70 um",
-            "preload": 0.5,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
+LOBED = fixed_ladders(
+    lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
+    lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
 )
 
 
@@ -102,24 +86,7 @@ def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-PRESSURE_DAM = Family(
-    table=DamTable,
-    ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)),
-    models=film_models,
-    example={
-        "pressure_dam": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "pad_clearance": "80 um",
-            "depth": "140 um",
-            "end": "145 deg",
-            "share": 0.75,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+PRESSURE_DAM = fixed_ladders(_dam_films, partial(_dam_films, turns=True))
 
 
 # Questions about tilting pads: K and C are those at the shaft's frequency.
@@ -221,31 +188,13 @@ def tilting_models(scene: Scene) -> SceneModels:
     return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
 
 
-TILTING = Family(
-    table=TiltingTable,
-    ladders={
-        **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
-        **dict.fromkeys(
-            ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
-        ),
-        "whirl_threshold": partial(whirl_ladder, _films, levels=False),
-    },
-    models=tilting_models,
-    example={
-        "tilting_pad": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "assembled_clearance": "70 um",
-            "preload": 0.3,
-            "pad_count": 5,
-            "loading": "between_pads",
-            "extent": "60 deg",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+TILTING = {
+    **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
+    **dict.fromkeys(
+        ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
+    ),
+    "whirl_threshold": partial(whirl_ladder, _films, levels=False),
+}
 
 
 # Pads on an oil: in motion their films keep the temperature that they have at rest.
@@ -262,6 +211,6 @@ def settled_scene(scene: Scene) -> Scene:
         return scene
     bearing: Any = scene.bearing
     at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
-    name = next(name for name, table in scene.others.items() if table is scene.film_table)
+    name = next(name for name, table in scene.tables.items() if table is scene.film_table)
     kept: Any = replace(scene.film_table, temperature=at.temperature)  # type: ignore[type-var]
-    return replace(scene, others={**scene.others, name: kept})
+    return scene.with_tables(**{name: kept})

@@ -30,8 +30,6 @@ from ..core.answers import (
 )
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.rolling import (
     Balls,
     BallTable,
@@ -355,21 +353,4 @@ def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceC
 # What ball bearings by their dimensions bring to scenes and questions.
 
 
-FAMILY = Family(
-    table=BallTable,
-    ladders=dict.fromkeys(UNITS, ball_ladder),
-    models=film_models,
-    example={
-        "ball_bearing": {
-            "balls": 16,
-            "ball_diameter": "7.938 mm",
-            "pitch_diameter": "46.5 mm",
-            "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride",
-            "arrangement": "back_to_back",
-            "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-)
+LADDERS = dict.fromkeys(UNITS, ball_ladder)

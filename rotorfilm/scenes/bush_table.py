@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, fields, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..bearings.bush import (
     ApproximateShaft,
@@ -24,9 +25,13 @@ from ..bearings.bush import (
 )
 from ..core.errors import SceneError, brief
 from ..core.limits import WORN_NODES
+from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.signals import units
 from .reading import Count, Named, Quantity, Taking, fields_of, made_from, one_of, takes
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 MATERIALS = {"f4k20": f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
@@ -173,3 +178,9 @@ def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: 
         onset_speed=bush.onset_speed(load, settlement),
         operation=operation,
     )
+
+
+def answer_bush(scene: Scene, report: Report = silent) -> BushAnswer:
+    """Return contact and critical speeds of the unworn bush of a scene."""
+    load = math.hypot(*scene.static_load)
+    return solve_bush(scene.bush.build(), load, scene.speed, 0.0)

@@ -285,6 +285,7 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
 
 OF_PRESET = ("preload", "extent", "offset", "turned")
 
+
 @dataclass(frozen=True, kw_only=True)
 @fields_of(lobe_set, without=("name",), optional=True)
 class LobedTable(PadTable):

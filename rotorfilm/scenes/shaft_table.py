@@ -396,9 +396,9 @@ class ShaftTable(Taking):
         require_at_most("elements", self.node_count - 1, SHAFT_ELEMENTS)
         for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
             for k, part in enumerate(getattr(self, name)):
-                require_node(f"{name}[{k}].node", part.node, self)
+                self.require_node(f"{name}[{k}].node", part.node)
         for k, share in enumerate(self.compressor.nodes if self.compressor else ()):
-            require_node(f"compressor.nodes[{k}].node", share.node, self)
+            self.require_node(f"compressor.nodes[{k}].node", share.node)
         self._require_supports()
         self.build()
 
@@ -446,22 +446,7 @@ class ShaftTable(Taking):
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
 
-
-def require_node(name: str, node: int, shaft: ShaftTable | None) -> None:
-    """Raise InputError unless a shaft has this node; where there is none, it is 0."""
-    if shaft is None and node:
-        raise InputError(f"{name} must be 0 where there is no [shaft], got {node}")
-    if shaft is not None and node >= shaft.node_count:
-        raise InputError(f"{name} must be a node of the shaft, 0 to {shaft.node_count - 1}, got {node}")
-
-
-def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
-    """Raise InputError unless a question about a place names a bearing or a probe of a shaft."""
-    if shaft is None:
-        raise InputError(f"question.at must be left out where there is no [shaft], got {brief(name)}")
-    known = shaft.places(forces=quantity == "unbalance_force")
-    if name not in known:
-        raise InputError(
-            f"question.at must be one of {', '.join(known)} for {quantity}, "
-            f"got {name!r}{nearest(name, known)}"
-        )
+    def require_node(self, name: str, node: int) -> None:
+        """Raise InputError unless the shaft has this node."""
+        if node >= self.node_count:
+            raise InputError(f"{name} must be a node of the shaft, 0 to {self.node_count - 1}, got {node}")

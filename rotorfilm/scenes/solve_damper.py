@@ -261,7 +261,7 @@ def export_damped_rotor(
     if table is None:
         raise InputError("damper is required for the FMU of a rotor on one, got no such table")
     if table.film is None and not table.needs_length:
-        scene = replace(scene, damper=replace(table, film=MapSqueeze()))
+        scene = scene.with_tables(damper=replace(table, film=MapSqueeze()))
     models = damper_models(scene)
     assert not isinstance(models.support, JFODamper)  # which no scene has that names a film, or seals
     path = folder / "system.fmu"

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from rotorfilm import PorousDamper, RigidRotor, Sprung, synchronous_orbits
-from rotorfilm.scenes.families import FAMILIES, family_of
+from rotorfilm.scenes.families import FAMILIES, table_of
 from rotorfilm.scenes.new_scene import new_scene
 from rotorfilm.scenes.reading import keyed, twice_of
 from rotorfilm.scenes.scene import parse_scene
@@ -26,7 +26,7 @@ def test_the_scene_of_an_element_is_solved_as_it_stands(run, tmp_path, name):
 def test_the_scene_of_an_element_has_all_of_its_keys(run, name):
     text = run("new", name)[1]
     lines = [line.removeprefix("# ") for line in text.splitlines()]
-    for key, reader in keyed(family_of(name).table).readers.items():
+    for key, reader in keyed(table_of(name)).readers.items():
         assert any(line.startswith((f"{key} = ", f"{twice_of(reader) or key} = ")) for line in lines), key
     assert json.loads(run("new", name, "--json")[1]) == tomllib.loads(text)
 

@@ -16,8 +16,11 @@ PACKAGE = Path(rotorfilm.__file__).parent
 FOLDER = Path(__file__).parent / "sleeve"
 MOST_LINES = 3
 
-LINE = '    "sleeve": "scenes.sleeve.sleeve_family.FAMILY",\n'
-AFTER = '    "damper": "questions.damper.FAMILY",\n'
+LINE = (
+    '    "sleeve": Family("scenes.sleeve.SleeveTable", "scenes.sleeve.sleeve_models", '
+    'ladders="scenes.sleeve.LADDERS"),\n'
+)
+BEFORE = '    "lobed_journal": Family('
 
 SCENE = """schema = 1
 [sleeve]
@@ -90,7 +93,7 @@ def answered(tmp_path_factory):
     shutil.copytree(FOLDER, copy / "scenes" / "sleeve", ignore=shutil.ignore_patterns("__pycache__"))
     listed = copy / "scenes" / "families.py"
     before = listed.read_text(encoding="utf-8")
-    listed.write_text(before.replace(AFTER, AFTER + LINE), encoding="utf-8")
+    listed.write_text(before.replace(BEFORE, LINE + BEFORE), encoding="utf-8")
     scene = home / "sleeve.toml"
     scene.write_text(SCENE, encoding="utf-8")
     done = subprocess.run(

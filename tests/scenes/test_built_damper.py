@@ -148,8 +148,8 @@ def test_what_is_left_out_of_a_ruptured_film_is_its_edge(eps):
 
 def test_reynolds_number_is_refused_beyond_its_model_and_told_near_it():
     with pytest.raises(InputError, match="squeeze Reynolds number must not exceed 20"):
-        ladder_of(replace(scene(FULL), damper=replace(scene(FULL).damper, viscosity=5e-4)))
-    near = replace(scene(FULL), damper=replace(scene(FULL).damper, viscosity=1.4e-3))
+        ladder_of(scene(FULL).with_tables(damper=replace(scene(FULL).damper, viscosity=5e-4)))
+    near = scene(FULL).with_tables(damper=replace(scene(FULL).damper, viscosity=1.4e-3))
     assert any("squeeze Reynolds number 13.7, above 10" in line for line in ladder_of(near).remarks)
 
 

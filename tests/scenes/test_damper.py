@@ -203,7 +203,7 @@ def test_first_moments_after_a_blade_loss_are_those_of_a_free_mass():
     # x'' = (u/m) w^2 cos(w t + a): before the film has moved, from rest at the center.
     late = replace(scene().excitation, start=0.02, unbalance_angle=0.3, revolutions=0.01)
     light = replace(scene().damper, viscosity=1e-9)
-    run = run_damper(replace(scene(), excitation=late, damper=light))
+    run = run_damper(replace(scene(), excitation=late).with_tables(damper=light))
     t, shift = run.trajectory.time - 0.02, 0.3 + 400.0 * 0.02
     assert t[0] == 0.0
     turn = 400.0 * t
