@@ -89,6 +89,16 @@ class SceneModels(NamedTuple):
     step: float
     duration: float
 
+    @property
+    def files(self) -> dict[str, str]:
+        """Names of the files of film and rotor."""
+        return {"film": self.name, "rotor": "rotor"}
+
+    @property
+    def parts(self) -> dict[str, tuple[Any, Mapping[str, float]]]:
+        """Models and start values, by the names of their files."""
+        return {self.name: (self.bearing, self.start), "rotor": (self.rotor, {})}
+
 
 def models_of(scene: Any) -> SceneModels:
     """Return what of a scene becomes FMUs.

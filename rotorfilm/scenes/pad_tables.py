@@ -22,7 +22,6 @@ from ..bearings.pads import (
     lobe_set,
     pressure_dam_pads,
 )
-from ..bearings.pads.pad_bearing import PadBearing
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
@@ -61,7 +60,7 @@ def pad_film_name(film: PadFilm | PressureDamBearing) -> str:
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(PadBearing)
+@fields_of(LobedBearing, without=("lobes", "film"))
 class PadTable(OiledTable):
     """The table of a bearing made of pads; a family adds its pads, `data`, `film_key` and `build`.
 

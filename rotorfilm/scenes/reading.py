@@ -526,8 +526,8 @@ class Several:
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
         """Return the values."""
         if not isinstance(value, list) or not self.least <= len(value) <= self.most:
-            pair = "two quantities [x, y]" if self.most == 2 else "a list of quantities"
-            raise SceneError(f"{where} must be {self.said or pair}, got {brief(value)}")
+            usual = "two quantities [x, y]" if self.most == 2 else "a list of quantities"
+            raise SceneError(f"{where} must be {self.said or usual}, got {brief(value)}")
         return tuple(self.each(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 

@@ -60,7 +60,7 @@ loaded = Scene.load(scene)
 answer = loaded.ask()
 made = export_scene(loaded, out)
 moving = {"sleeve.vx": 2e-3}
-run = simulate_fmu(str(made.film), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
+run = simulate_fmu(str(made["film"]), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
 try:
     parse_scene(scene.read_text().replace("[sleeve]", "[sleve]"), "typo.toml")
 except SceneError as error:
@@ -75,9 +75,9 @@ print(json.dumps({
     "model": answer.model,
     "rungs": [[rung.name, rung.verdict] for rung in answer.rungs],
     "remarks": answer.remarks,
-    "files": [path.name for path in made],
+    "files": [path.name for path in made.values()],
     "force": float(run["sleeve.force_x"][-1]),
-    "checks": {item.check: item.passed for item in check_fmu(made.film)},
+    "checks": {item.check: item.passed for item in check_fmu(made["film"])},
     "typo": typo,
     "sign": sign,
 }))

@@ -155,11 +155,11 @@ def test_what_a_run_lacks_is_named():
 
 def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
     made = export_scene(scene(SPRINGS + CAGE), tmp_path, version="3.0")
-    assert [path.name for path in made] == ["damper.fmu", "rotor.fmu"]
-    found = {v.name: v for v in fmpy.read_model_description(str(made.film)).modelVariables}
+    assert [path.name for path in made.values()] == ["damper.fmu", "rotor.fmu"]
+    found = {v.name: v for v in fmpy.read_model_description(str(made["film"])).modelVariables}
     assert float(found["damper.stiffness"].start) == 2.56e5
     assert "damper.speed" not in found
-    rotor = {v.name: v for v in fmpy.read_model_description(str(made.rotor)).modelVariables}
+    rotor = {v.name: v for v in fmpy.read_model_description(str(made["rotor"])).modelVariables}
     assert float(rotor["rotor.unbalance"].start) == 3.5e-4
 
 
