@@ -287,10 +287,10 @@ class Scene:
 
         What the physics of the film leaves out is in `remarks` of the answer.
         """
+        bearing = self.bearing  # once, and before an import resets what was warned of: making it may warn
         from .solve_journal import film_answer  # which a scene with a question does not need
 
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        bearing = self.bearing  # once: making it may warn
         given = self.film_table.echo(bearing)
         answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=self._remarks_of(bearing))

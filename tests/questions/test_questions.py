@@ -119,7 +119,7 @@ def test_an_impossible_tolerance_is_answered_honestly():
 
 def test_named_film_is_the_only_one_that_answers():
     scene = bundled_scene()
-    named = replace(scene, journal=replace(scene.journal, film=ShortFilm()))
+    named = scene.with_tables(journal=replace(scene.journal, film=ShortFilm()))
     answer = asked("eccentricity_ratio", 1e-3, named).ask()
     assert [report.name for report in answer.rungs] == ["ShortFilm()"]
     assert not answer.met

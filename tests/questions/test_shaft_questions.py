@@ -237,7 +237,7 @@ def test_nonlinear_orbit_is_that_of_harmonic_balance():
     shaft = replace(
         SCENE.shaft, unbalances=(replace(SCENE.shaft.unbalances[0], unbalance=6e-3, unbalance_angle=0.7),)
     )
-    scene = replace(SCENE, shaft=shaft)
+    scene = SCENE.with_tables(shaft=shaft)
     rung = next(
         rung
         for rung in ladder_of(asked("unbalance_amplitude", 1e-3, scene, at="drive_end")).rungs
@@ -373,7 +373,7 @@ def test_estimate_is_against_elements_of_fourth_order_also_for_classical_ones():
 
 
 def test_a_short_film_named_in_the_file_is_judged_by_the_map():
-    short = tuple(replace(one, journal=replace(one.journal, film=None)) for one in SCENE.shaft.bearings)
+    short = tuple(one.with_tables(journal=replace(one.journal, film=None)) for one in SCENE.shaft.bearings)
     assert film_levels(replace(SCENE.shaft, bearings=short))[0].name == "map"
     text = (ROOT / "examples" / "rotor_questions.toml").read_text()
     named = parse_scene(text.replace('20 mPa s"', '20 mPa s", film = { name = "short" }'), "short")

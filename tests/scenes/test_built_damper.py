@@ -166,7 +166,7 @@ def test_seals_and_air_are_remarked():
 def test_lost_blade_is_that_of_an_integration(more):
     found = scene(more, LOSS, "blade_loss_peak")
     rung = next(r for r in ladder_of(found).rungs if r.name == "nonlinear, 192 steps, finite film")
-    models = damper_models(replace(found, damper=replace(found.damper, film=rung.film.law)))
+    models = damper_models(found.with_tables(damper=replace(found.damper, film=rung.film.law)))
     run = simulate(models.rotor, models.support, duration=models.duration, samples=400, rtol=1e-5)
     assert_allclose(rung.answer(None).value, np.hypot(*run.position).max(), rtol=2e-3)
 
