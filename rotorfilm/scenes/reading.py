@@ -731,6 +731,7 @@ def quantity_of(table: TableType[Any], path: Sequence[str]) -> Quantity | None:
     reader = readers.get(first) or doubled.get(first)
     if isinstance(reader, Quantity):
         return None if rest else reader
-    if isinstance(reader, Table):
-        return quantity_of(reader.table, rest)
-    return quantity_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
+    if isinstance(reader, Table | TableList):
+        return quantity_of(reader.table, rest[isinstance(reader, TableList) :])
+    beside = next((one for one in readers.values() if isinstance(one, Beside) and first in one.names), None)
+    return None if beside is None else quantity_of(beside.type_of(first), rest)

@@ -87,7 +87,7 @@ def compare(client, model, x, u, tolerance=1e-12):
 @pytest.mark.parametrize("balance", [ContactBalance(), GlobalBalance()])
 @pytest.mark.parametrize("friction", FRICTIONS)
 def test_one_state_is_that_of_python(unzipped, kind, balance, friction):
-    model = WEAR.with_tables(bush=replace(BUSH, friction=friction, balance=balance))
+    model = replace(WEAR, bush=replace(BUSH, friction=friction, balance=balance))
     client, _ = opened(unzipped, model, kind, (LOAD, 9.0))
     client.pass_event()
     client.fmu.enterContinuousTimeMode()
@@ -318,5 +318,5 @@ def test_rules_of_others_have_no_kernel():
         """A balance that the library does not know."""
 
     bush = replace(BUSH, balance=Mine())
-    assert WEAR.with_tables(bush=bush).native() is None
+    assert replace(WEAR, bush=bush).native() is None
     assert worn(bush=bush).native() is None

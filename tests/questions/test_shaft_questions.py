@@ -373,7 +373,7 @@ def test_estimate_is_against_elements_of_fourth_order_also_for_classical_ones():
 
 
 def test_a_short_film_named_in_the_file_is_judged_by_the_map():
-    short = tuple(one.with_tables(journal=replace(one.journal, film=None)) for one in SCENE.shaft.bearings)
+    short = tuple(replace(one, journal=replace(one.journal, film=None)) for one in SCENE.shaft.bearings)
     assert film_levels(replace(SCENE.shaft, bearings=short))[0].name == "map"
     text = (ROOT / "examples" / "rotor_questions.toml").read_text()
     named = parse_scene(text.replace('20 mPa s"', '20 mPa s", film = { name = "short" }'), "short")

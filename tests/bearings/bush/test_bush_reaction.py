@@ -295,7 +295,7 @@ def test_a_worn_bush_below_its_critical_speed_rests_where_force_and_steady_heat_
 @pytest.mark.parametrize("balance", [BUSH.balance, GlobalBalance()])
 def test_an_unworn_bush_rests_as_the_model_with_one_state_says(balance):
     bush = replace(BUSH, balance=balance)
-    model = WORN.with_tables(bush=bush, nodes=401)
+    model = replace(WORN, bush=bush, nodes=401)
     one = BushWear(bush=bush, melting_heat=1e8)
     for speed in (0.5, -3.0, 4.2, 60.0):
         at, temperature = model.rest(DOWN, speed)
@@ -365,7 +365,7 @@ def test_a_shaft_that_has_left_the_liner_feels_nothing():
 @pytest.mark.parametrize("balance", [BUSH.balance, GlobalBalance()])
 def test_melting_begins_at_the_critical_speed_of_the_true_pressure(balance):
     """(2.16) with the mean of the nodal pressure; (2.14) has the same mean to a small error."""
-    model = WORN.with_tables(bush=replace(BUSH, balance=balance), nodes=201)
+    model = replace(WORN, bush=replace(BUSH, balance=balance), nodes=201)
     wear = model.initial_state
     onset = float(model.bush.critical_speed(LOAD))
     u = at_load(model, DOWN, 0.0, wear)
