@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from ctypes import addressof, byref
 from dataclasses import dataclass
+from enum import IntEnum
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -16,23 +17,25 @@ from ..core.model import Array, Linearization, Reaction
 from ..core.results import Trajectory
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..native.library import master
-from ..native.master_structs import (
-    HELD,
-    INTEGRATED,
-    LAWFUL,
-    Call,
-    CouplingStruct,
-    Ended,
-    RecordStruct,
-    RotorStruct,
-    StationStruct,
-)
+from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from .partner_interface import Bench, Needs, Sample, StationMotion, Tangents
 from .partners import WORK, Partners, Record, require_finite_outputs
 from .schemes import MEMORY, NODES, TO_POWERS, GaussSeidel, Jacobi, Scheme, SIExp, SIExp3, started
-from .slaves import Compiled, CompiledPartner, Integrated, KernelPartner, Slave
+from .slaves import Call, Compiled, CompiledPartner, Integrated, KernelPartner, Slave
 from .watch import CHECK, Check, Watch
+
+
+class Ended(IntEnum):
+    """rf_coupled of couple.h."""
+
+    COUPLED = 0
+    ROTOR_FAILED = 1
+    FILM_FAILED = 2
+    NOT_NUMBERS = 3
+    ROTOR_WAITING = 4
+    FULL = 5
+
 
 MOST_PAUSE = 64
 """Longest pause, in macro steps, after the rotor could not be integrated in C."""
@@ -192,9 +195,9 @@ class CompiledLoop:
         self._check_slopes = np.zeros((most, *self._shapes[1]))
         self._laws = np.zeros((MOST_CHUNK + EXTRA, 1 + 5 * m + 2 * m * m))
         self._driven = self._rotor_struct()
-        stations = (StationStruct * len(films))(*map(self._station, partners.films, films))
+        stations = (structure("rf_station") * len(films))(*map(self._station, partners.films, films))
         self._kept.append(stations)
-        self._struct = CouplingStruct(
+        self._struct = structure("rf_coupling")(
             scheme=plan.scheme,
             degree=plan.degree,
             gentle=plan.gentle,
@@ -202,7 +205,7 @@ class CompiledLoop:
             stations=len(films),
             rotor=addressof(self._driven),
             films=addressof(stations),
-            record=RecordStruct(
+            record=structure("rf_record")(
                 m=m,
                 columns=record.outputs.shape[1],
                 position=self._ints(record.at.position),
@@ -222,7 +225,7 @@ class CompiledLoop:
 
     def integrate(self, x: Array, nominal: Array, base: Array) -> None:
         """Have the rotor integrated: its state, nominal values, forces where its motion is asked for."""
-        self._driven.mode, self._driven.x = INTEGRATED, self._held(x)
+        self._driven.mode, self._driven.x = constant("RF_INTEGRATED"), self._held(x)
         self._driven.nominal, self._driven.base = self._floats(nominal), self._floats(base)
         names = self._partners.wiring.force
         self._driven.drive_refs = self._refs([self.rotor.inputs[name] for name in names])
@@ -305,18 +308,18 @@ class CompiledLoop:
             rows = self._laws[: self.record.count - first].copy()
             self._partners.laws += [_law(row, m) for row in rows]
 
-    def _rotor_struct(self) -> RotorStruct:
+    def _rotor_struct(self) -> Any:
         rotor, record = self.rotor, self.record
         wiring, m = self._partners.wiring, record.size
         motion = [rotor.outputs[name] for name in (*wiring.position, *wiring.velocity)]
         lawful = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
-        mode, driven = HELD, list(wiring.force)
+        mode, driven = constant("RF_HELD"), list(wiring.force)
         if set(lawful) <= set(rotor.inputs):
-            mode, driven = LAWFUL, lawful
+            mode, driven = constant("RF_LAWFUL"), lawful
         room = max(
             master()["rf_rotor_work"](len(rotor.states), m), len(lawful), len(motion) + len(rotor.states)
         )
-        struct = RotorStruct(
+        struct = structure("rf_rotor")(
             partner=addressof(rotor.struct),
             mode=mode,
             stations=len(wiring.stations),
@@ -334,12 +337,12 @@ class CompiledLoop:
         )
         return struct
 
-    def _station(self, station: str, film: CompiledPartner) -> StationStruct:
+    def _station(self, station: str, film: CompiledPartner) -> Any:
         slave, (_, feeds) = self._partners.films[station], self._partners.feeds[station]
         known = [(k, name) for k, name in enumerate(JOURNAL_INPUTS) if name in film.knowns]
         taken = [(name, place, source) for name, place, source in feeds if name in film.inputs]
         outputs = list(slave.outputs)
-        return StationStruct(
+        return structure("rf_station")(
             partner=addressof(film.struct),
             inputs=len(taken),
             outputs=len(outputs),

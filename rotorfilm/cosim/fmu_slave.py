@@ -26,11 +26,10 @@ from ..fmu.instance import (
     provides,
     variables_of,
 )
-from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from .partner_interface import Wiring, local_name, references_of
 from .schemes import LawIntegrator
-from .slaves import CompiledPartner, FmuPartner
+from .slaves import Call, CompiledPartner, FmuPartner
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping, Sequence
 from ctypes import byref
+from enum import IntEnum
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -14,21 +15,22 @@ from ..core.model import Array, Dynamic, Linearization, Model, breakpoints, in_t
 from ..core.signals import names, units
 from ..fmu.reference import advance
 from ..native.library import master
-from ..native.master_structs import (
-    FMI2,
-    FMI3,
-    KERNEL,
-    Call,
-    MessageStruct,
-    OwnStruct,
-    PartnerStruct,
-    TablesStruct,
-    TableStruct,
-)
 from ..native.spec import HasKernel, NativeSpec
+from ..native.structs import constant, structure
 from ..rotors.force_law import ForceLaw
 from .partner_interface import Wiring
 from .schemes import LawIntegrator
+
+
+class Call(IntEnum):
+    """rf_call of partner.h."""
+
+    PUT = 0
+    TAKE = 1
+    STRIDE = 2
+    SLOPE = 3
+    MOVE = 4
+    RATE = 5
 
 
 class Slave(Protocol):
@@ -301,7 +303,7 @@ class CompiledPartner(Protocol):
 
     Attributes
     ----------
-    struct : PartnerStruct
+    struct : Any
     inputs, outputs : mapping of str to int
         References to set inputs and to get outputs by.
     knowns : mapping of str to int
@@ -310,7 +312,7 @@ class CompiledPartner(Protocol):
         References of the derivatives of the states, and of the states, in derivatives.
     """
 
-    struct: PartnerStruct
+    struct: Any
     inputs: dict[str, int]
     outputs: dict[str, int]
     knowns: dict[str, int]
@@ -331,7 +333,7 @@ class FmuPartner:
     component : int
         The instance.
     functions : mapping of str to int or None
-        Addresses by their names in `PartnerStruct`.
+        Addresses by their names in `structure("rf_partner")`.
     inputs, outputs : mapping of str to int
     rates, states : list of int
     """
@@ -346,8 +348,8 @@ class FmuPartner:
         rates: list[int],
         states: list[int],
     ) -> None:
-        self.struct = PartnerStruct(
-            kind={2: FMI2, 3: FMI3}[version], component=component, states=len(states), **functions
+        self.struct = structure("rf_partner")(
+            kind=constant(f"RF_IS_FMI{version}"), component=component, states=len(states), **functions
         )
         self.inputs, self.outputs, self.knowns = inputs, outputs, inputs
         self.rates, self.states = rates, states
@@ -375,18 +377,19 @@ class KernelPartner:
             name: np.ascontiguousarray(table, dtype=float) for name, table in spec.tables.items()
         }
         rows = [_table(name, numbers) for name, numbers in self._numbers.items()]
-        self._tables = (TableStruct * len(rows))(*rows)
-        why = MessageStruct()
+        self._tables = (structure("rf_table") * len(rows))(*rows)
+        why = structure("rf_message")()
         parameters = np.array([parameter.value for parameter in spec.parameters])
-        tables = TablesStruct(list=ctypes.addressof(self._tables), count=len(self._numbers))
+        tables = structure("rf_tables")(list=ctypes.addressof(self._tables), count=len(self._numbers))
         own = master()["rf_open_kernel"](
             spec.kernel.encode(), byref(tables), parameters.ctypes.data, byref(why)
         )
         if not own:
             raise InputError(why.text.decode(errors="replace"))
-        self.own = OwnStruct.from_address(own)
-        _, inputs, outputs, states, _ = self.own.sizes
-        self.struct = PartnerStruct(kind=KERNEL, component=own, states=states)
+        self.own = structure("rf_own").from_address(own)
+        sizes = self.own.sizes
+        inputs, outputs, states = sizes.inputs, sizes.outputs, sizes.states
+        self.struct = structure("rf_partner")(kind=constant("RF_IS_KERNEL"), component=own, states=states)
         names = [signal.name for signal in model.inputs] if spec.inputs is None else list(spec.inputs)
         self.fits = len(names) == inputs and len(model.outputs) == outputs and len(model.states) == states
         self.inputs = {name: k for k, name in enumerate(names)}
@@ -401,18 +404,18 @@ class KernelPartner:
     def sync(self, t: float, x: Array) -> None:
         """Take a time and a state."""
         self.own.t = t
-        for k, value in enumerate(x.tolist()):
-            self.own.x[k] = value
+        _numbers(self.own.x, len(x))[:] = x.tolist()
 
     def inputs_now(self) -> dict[str, float]:
         """Return the inputs at present."""
-        return {name: self.own.u[k] for name, k in self.inputs.items()}
+        return dict(zip(self.inputs, _numbers(self.own.u, len(self.inputs)), strict=True))
 
     def beyond(self) -> dict[str, float] | None:
         """Return the first inputs since the last call at which the model was beyond its verified range."""
-        found = {name: self.own.beyond[k] for name, k in self.inputs.items()} if self.own.outside else None
+        if not self.own.outside:
+            return None
         self.own.outside = 0
-        return found
+        return dict(zip(self.inputs, _numbers(self.own.beyond, len(self.inputs)), strict=True))
 
 
 def kernel_partner(model: Model) -> KernelPartner | None:
@@ -424,6 +427,13 @@ def kernel_partner(model: Model) -> KernelPartner | None:
     return found if found.fits else None
 
 
-def _table(name: str, numbers: Array) -> TableStruct:
+def _numbers(address: int | None, count: int) -> Any:
+    """Return so many numbers at an address."""
+    return (ctypes.c_double * count).from_address(address or 0)
+
+
+def _table(name: str, numbers: Array) -> Any:
     extent = (*numbers.shape, 0, 0, 0, 0)[:4]
-    return TableStruct(name=name.encode(), axes=numbers.ndim, extent=extent, numbers=numbers.ctypes.data)
+    return structure("rf_table")(
+        name=name.encode(), axes=numbers.ndim, extent=extent, numbers=numbers.ctypes.data
+    )

@@ -14,9 +14,9 @@ from studies.master_cases import BEARING, CLEARANCE, ROTOR, STEP, PythonGaussSei
 from rotorfilm.core.errors import CouplingError, FmuError, ValidityWarning
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, SIExp3, cosimulate, couple
 from rotorfilm.cosim.compiled_loop import MOST_CHUNK
+from rotorfilm.cosim.slaves import Call
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.instance import Instance
-from rotorfilm.native.master_structs import Call
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
