@@ -46,7 +46,7 @@ class Declarations(NamedTuple):
 @cache
 def declarations() -> Declarations:
     """Return what the headers beside this module declare; all are read at once, on the first call."""
-    paths = sorted(path for path in FOLDER.rglob("*.h") if path.parent.name != "fmi")
+    paths = [path for names in ("*.h", "*/*.h") for path in FOLDER.glob(names) if path.parent.name != "fmi"]
     text = _COMMENT.sub("", "\n".join(path.read_text(encoding="utf-8") for path in paths))
     members = [[name.strip() for name in found.split(",")] for found in _ENUM.findall(text)]
     return Declarations(
