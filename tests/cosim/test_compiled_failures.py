@@ -100,7 +100,7 @@ def test_calls_of_fmus_per_macro_step_are_counted(native_fmus, compiled):
     """One of each for a step; of the distance from the limit 5 + 6 derivatives in each eighth."""
     steps = 800
     cosimulate(native_fmus["held"], native_fmus["film"], macro_step=STEP, duration=steps * STEP)
-    rotor, film = compiled[0].loop.calls()
+    rotor, film = compiled[0].calls()
     for calls in (rotor, film):
         assert {call: calls[call] for call in (Call.PUT, Call.TAKE, Call.STRIDE)} == dict.fromkeys(
             (Call.PUT, Call.TAKE, Call.STRIDE), steps
@@ -110,7 +110,7 @@ def test_calls_of_fmus_per_macro_step_are_counted(native_fmus, compiled):
     cosimulate(
         native_fmus["law"], native_fmus["film"], macro_step=STEP, duration=steps * STEP, scheme=SIExp3()
     )
-    film = compiled[1].loop.calls()[1]
+    film = compiled[1].calls()[1]
     assert film[Call.SLOPE] == 5 * steps
     assert film[Call.STRIDE] == steps
 
