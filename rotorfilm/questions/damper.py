@@ -92,7 +92,7 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperCurveRung(CandidateRung[AnyDamperFilm]):
+class DamperCurveRung(CandidateRung):
     """One film and one model of its cage.
 
     Attributes
@@ -336,7 +336,7 @@ LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer fi
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperPeakRung(PeakRung[DamperFilm]):
+class DamperPeakRung(PeakRung):
     """The peak in a squeeze-film damper.
 
     Attributes

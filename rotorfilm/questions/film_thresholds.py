@@ -4,29 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..analysis import coefficients, equilibrium, whirl_threshold
 from ..analysis.speed_events import secant_speed
+from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import SAFETY, CandidateRung, ErrorEstimate, Found, Ladder, Work, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.results import Equilibrium, WhirlThreshold
-from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, JudgedRest, WarmRest
+from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest
 from ..scenes.film_rungs import FilmCandidate, least_stable, whirl_growth, whirl_matrix
-from .film_statics import Films, film_units, isothermal_ladder
-from .heat_levels import (
-    BALANCED,
-    FieldSolution,
-    HeatLevel,
-    UniformSolution,
-    any_bearing,
-    known_films,
-    thermal_ladder,
-    within_heat,
-)
+from ..scenes.solve_journal import conserved_threshold
+from .conserved_oil import Change, coarse_films
+from .film_statics import FilmQuestion, Films, any_bearing, film_ladder, film_units
+from .heat_levels import BALANCED, HeatLevel, WarmSolution
 from .quantities import relative
 from .walk import NoAnswerError
 
@@ -45,7 +40,7 @@ SPEEDS = 40
 
 
 @dataclass(frozen=True, kw_only=True)
-class WhirlRung(CandidateRung[FilmCandidate]):
+class WhirlRung(CandidateRung):
     """The whirl threshold by one film of any bearing; one that warms is at each speed as warm as at rest.
 
     Attributes
@@ -130,8 +125,112 @@ def required_rotor(scene: Scene, quantity: str) -> RigidRotorTable:
     return scene.rigid_rotor
 
 
+# On an oil the film is at each speed as warm as its rest there: by one temperature (T0, T1) on every film, or
+# by a temperature field (T2, T3), K and C at frozen temperature.
+
+
+MOVING, PECLET, POWER = 0.03, 20.0, 0.8
+"""Share of the speed by which heat that moves with the whirl lowers a threshold at a Peclet number, and the
+power with which it grows with that: 3 % at 20, 10 % at 90, by unsteady solutions of T2."""
+
+RESTS, NEAR, FARTHEST = 12, 3e-5, 0.2
+"""Most rests on a temperature field that a search takes, the relative change of speed at which it ends, and
+the largest one of a step."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class WhirlQuestion(FilmQuestion):
+    """The whirl threshold, asked of a film in the balance of its heat at each speed.
+
+    Attributes
+    ----------
+    mass : float [kg]
+        Of the rotor.
+    """
+
+    mass: float
+
+    levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
+    rests: ClassVar[int] = SPEEDS
+    field_rests: ClassVar[float] = 4.0
+
+    def uniform(
+        self, level: HeatLevel, film: FilmCandidate, count: int, before: Found | None
+    ) -> WarmSolution:
+        """Return the threshold by one film, of T0 that of fresh oil at all speeds."""
+        fresh = level.temperature(film.reaction)
+        rung = self.make(film if fresh is None else film.at_temperature(fresh), count)
+        threshold = rung.around(rung.film.reaction, before)
+        return WarmSolution(level, Found(threshold.speed, {}, threshold.equilibrium), rung)
+
+    def on_field(self, level: FieldLevel, film: FilmCandidate, before: Found | None) -> WarmSolution:
+        """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
+        rung = self.make(film, 0)
+        speed = float((self.uniform(BALANCED, film, 0, None).found if before is None else before).value)
+
+        def growth_at(speed: float) -> tuple[float, WarmRest]:
+            own = level.rest(film.reaction, self.load, speed)
+            return float(self.value(own)), own
+
+        at = secant_speed(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
+        judge = self.growth(at.speed, at.slope)
+        return WarmSolution(level, Found(at.speed, {}), own=at.solution, judge=judge)
+
+    def growth(self, speed: float, per_speed: float) -> RestJudge:
+        """Return what K and C of a rest at a threshold [rad/s] do to it, by d(growth)/d speed."""
+        return RestJudge(
+            load=self.load,
+            speed=speed,
+            value=self.value,
+            distance=lambda value, better: abs((better - value) / per_speed) / speed,
+            moving=partial(moving_heat, speed=speed),
+        )
+
+    def judged(self, solved: WarmSolution) -> RestJudge:
+        """Return what judges rests at the threshold."""
+        speed = float(solved.found.value)
+        return self.growth(speed, solved.rung.slope(speed))
+
+    def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
+        """Return a call that takes another bearing and returns how far its threshold by T1 is off."""
+        found, rung = self.uniform(BALANCED, film, 0, None).found, self.make(film, 0)
+        return lambda other: relative(rung.around(other, found).speed, found.value)
+
+    def conserved(self, film: JFOFilm, before: Found | None) -> float:
+        """Return the threshold on a film that conserves its oil, at the frequency of the whirl."""
+        if before is not None:
+            start = float(before.value)
+        else:
+            found = whirl_threshold(coarse_films(film.bearing)[-1][0], self.load, self.mass).speed
+            start = self.speed if found is None else found
+        return conserved_threshold(film, self.load, self.mass, start)
+
+    def conservation(self, bearing: JournalBearing) -> Callable[[Found], Change]:
+        """Return a call that takes a threshold and returns what the conservation of oil changes in it."""
+
+        def change(found: Found) -> Change:
+            reynolds, conserved = coarse_films(bearing)[-1]
+            around = found.value / AROUND, found.value * AROUND
+            own = whirl_threshold(reynolds, self.load, self.mass, around).speed or found.value
+            return Change(own, conserved_threshold(conserved, self.load, self.mass, own), relative=True)
+
+        return change
+
+
+def moving_heat(bearing: Any, speed: float) -> float:
+    """Return the share by which heat that moves with the whirl lowers a threshold [1] at a speed [rad/s].
+
+    Oil runs at half the speed, and in forward half-speed whirl with the pattern of the film; conduction to
+    the walls, as fast as the Peclet number speed clearance^2/diffusivity is small, keeps it near frozen.
+    """
+    oil, cooling = bearing.cooled
+    per_volume = float(oil.volumetric_heat(cooling.supply_temperature))
+    peclet = abs(speed) * bearing.clearance**2 * per_volume / oil.conductivity
+    return MOVING * (peclet / PECLET) ** POWER
+
+
 def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = True) -> Ladder:
-    """Return the ladder of the whirl threshold by the films of any bearing, on an oil with those of its heat.
+    """Return the ladder of the whirl threshold by the films of any bearing.
 
     Parameters
     ----------
@@ -147,143 +246,19 @@ def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = Tr
     InputError
         If the scene has no rigid rotor.
     """
-    mass, known = required_rotor(scene, quantity).mass, films(scene)
-
-    def make(film: FilmCandidate) -> WhirlRung:
-        return WhirlRung(film=film, load=scene.static_load, mass=mass)
-
-    bearing = any_bearing(scene)
-    if bearing.is_warming and levels:
-        question = WhirlQuestion(load=scene.static_load, make=make, quick=known_films(known)[0])
-        return thermal_ladder(scene, known, (question,), "rad/s")
-    near = math.sqrt(math.hypot(*scene.static_load) / (mass * bearing.clearance))
-    ladder = isothermal_ladder(scene, map(make, known), "rad/s", film_units(known, near))
-    return replace(ladder, within=within_heat(bearing)) if bearing.is_warming else ladder
-
-
-# At which speed a rigid rotor begins to whirl on an oil: the film as warm as its rest at each speed.
-#
-# By one temperature (T0, T1) on every film, or by a temperature field (T2, T3), K and C at frozen
-# temperature.
-
-
-MOVING, PECLET, POWER = 0.03, 20.0, 0.8
-"""Share of the speed by which heat that moves with the whirl lowers a threshold at a Peclet number, and the
-power with which it grows with that: 3 % at 20, 10 % at 90, by unsteady solutions of T2."""
-
-RESTS, NEAR, FARTHEST = 12, 3e-5, 0.2
-"""Most rests on a temperature field that a search takes, the relative change of speed at which it ends, and
-the largest one of a step."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class WhirlQuestion:
-    """The whirl threshold, asked of a film in the balance of its heat at each speed.
-
-    Attributes
-    ----------
-    load : (float, float) [N]
-    make : callable
-        Takes a film and returns the rung that answers on it.
-    quick : FilmCandidate
-        From whose threshold those on temperature fields start.
-    moves : bool
-        Whether it takes more than rests.
-    distance : callable
-        Takes a speed and a better one, and returns how far it is off, relative to that.
-    levels : tuple of FieldLevel
-        Those with a temperature field.
-    rests, field_rests : float
-        Rests that an answer takes about, on films of one temperature and on those with a field.
-    """
-
-    load: tuple[float, float]
-    make: Callable[[Any], WhirlRung]
-    quick: FilmCandidate
-    moves: bool = False
-
-    distance: ClassVar[Callable[[Any, Any], float]] = staticmethod(relative_change)
-    levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
-    rests: ClassVar[int] = SPEEDS
-    field_rests: ClassVar[float] = 4.0
-
-    def uniform(self, level: HeatLevel, film: FilmCandidate, before: Found | None) -> UniformSolution:
-        """Return the threshold by one film, of T0 that of fresh oil at all speeds."""
-        fresh = level.temperature(film.reaction)
-        rung = self.make(film if fresh is None else film.at_temperature(fresh))
-        threshold = rung.around(rung.film.reaction, before)
-        found = Found(threshold.speed, {}, threshold.equilibrium)
-        return UniformSolution(level, found, rung)
-
-    def lower(self, level: HeatLevel, before: Found | None) -> Found | None:
-        """Return the answer of any lower rung."""
-        return before
-
-    def on_field(self, level: FieldLevel, bearing: Any, before: Found | None) -> FieldSolution:
-        """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
-        rung = self.make(self.quick)
-        speed = float((self.uniform(BALANCED, self.quick, None).found if before is None else before).value)
-
-        def growth_at(speed: float) -> tuple[float, WarmRest]:
-            own = level.rest(rung.film.reaction, self.load, speed)
-            return whirl_growth(own.coefficients, rung.mass), own
-
-        at = secant_speed(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
-        return FieldSolution(level, at.speed, at.solution, Growth(rung, at.speed, at.slope))
-
-    def judged(self, solved: UniformSolution) -> Growth:
-        """Return what judges rests at the threshold."""
-        speed = float(solved.found.value)
-        return Growth(solved.rung, speed, solved.rung.slope(speed))
-
-    def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
-        """Return a call that takes another bearing and returns how far its threshold by T1 is off."""
-        found, rung = self.uniform(BALANCED, film, None).found, self.make(film)
-        return lambda other: relative(rung.around(other, found).speed, found.value)
-
-
-@dataclass(frozen=True)
-class Growth(JudgedRest):
-    """What K and C of a rest at a threshold do to its speed.
-
-    Attributes
-    ----------
-    rung : WhirlRung
-        Of the rotor.
-    speed : float [rad/s]
-    per_speed : float [1]
-        d(growth)/d speed.
-    """
-
-    rung: WhirlRung
-    speed: float
-    per_speed: float
-
-    @property
-    def load(self) -> tuple[float, float]:
-        """On the journal [N]."""
-        return self.rung.load
-
-    def value(self, own: WarmRest) -> float:
-        """Return the growth rate of the whirl of a rest [1/s]."""
-        return whirl_growth(own.coefficients, self.rung.mass)
-
-    def distance(self, value: float, better: float) -> float:
-        """Return by which share of itself the threshold is off."""
-        return abs((better - value) / self.per_speed) / self.speed
-
-    def moving(self, bearing: Any) -> float:
-        """Return the share by which heat that moves with the whirl lowers the threshold."""
-        return moving_heat(bearing, self.speed)
-
-
-def moving_heat(bearing: Any, speed: float) -> float:
-    """Return the share by which heat that moves with the whirl lowers a threshold [1] at a speed [rad/s].
-
-    Oil runs at half the speed, and in forward half-speed whirl with the pattern of the film; conduction to
-    the walls, as fast as the Peclet number speed clearance^2/diffusivity is small, keeps it near frozen.
-    """
-    oil, cooling = bearing.cooled
-    per_volume = float(oil.volumetric_heat(cooling.supply_temperature))
-    peclet = abs(speed) * bearing.clearance**2 * per_volume / oil.conductivity
-    return MOVING * (peclet / PECLET) ** POWER
+    mass, load, bearing = required_rotor(scene, quantity).mass, scene.static_load, any_bearing(scene)
+    near = math.sqrt(math.hypot(*load) / (mass * bearing.clearance))
+    question = WhirlQuestion(
+        load=load,
+        speed=scene.speed,
+        unit="rad/s",
+        make=lambda film, count: WhirlRung(film=film, load=load, mass=mass),
+        value=lambda own: whirl_growth(own.coefficients, mass),
+        distance=relative_change,
+        units=partial(film_units, speed=near),
+        # On an oil the error by heat of a threshold by conserved oil is not known yet.
+        follows_oil=not bearing.is_warming,
+        has_levels=levels,
+        mass=mass,
+    )
+    return film_ladder(scene, films, question)

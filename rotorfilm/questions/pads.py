@@ -34,7 +34,7 @@ from .coupling import coupling_ladder
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
-    SampledOrbitRung,
+    OrbitRung,
     blade_loss_ladder,
     orbit_ladder,
     wave_change,
@@ -148,7 +148,7 @@ ORBIT_STEPS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class StatefulOrbitRung(SampledOrbitRung[TiltingCandidate]):
+class StatefulOrbitRung(OrbitRung):
     """The orbit on tilting pads of one film, by its equations over a turn."""
 
     @property
