@@ -156,9 +156,7 @@ def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
     return ""
 
 
-def conserved_oil(
-    scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder
-) -> Ladder:
+def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder) -> Ladder:
     """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
 
     On them stand the rungs that conserve it, unless the scene names the film, or the question has none.
@@ -232,9 +230,7 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[MadeRung, ...]:
     return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
 
 
-def conserved_rung(
-    question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None
-) -> MadeRung:
+def conserved_rung(question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None) -> MadeRung:
     """Return the rung of an answer on the film that conserves its oil, of an oil in the balance of its heat.
 
     Its error is the change since half the lines, and since half the cells along: mostly thrice the error.

@@ -308,7 +308,7 @@ class PeakMotion(NamedTuple):
 class PeakRung(CandidateRung):
     """The peak by one film, linear about the rest or nonlinear in so many steps over a turn.
 
-    A rung adds `tangents`, `shaken`, `at_rest`, `grid`, `answer` and `estimate`.
+    A rung adds `shaken`, `at_rest`, `grid`, `answer` and `estimate`.
 
     Attributes
     ----------
@@ -335,8 +335,9 @@ class PeakRung(CandidateRung):
 
     @property
     def tangents(self) -> WorkUnit:
-        """One force with derivatives."""
-        raise NotImplementedError
+        """One force of the film with derivatives."""
+        unit: WorkUnit = self.film.tangents
+        return unit
 
     @property
     def shaken(self) -> ShakenRotor:
@@ -410,11 +411,6 @@ class BladeLossRung(PeakRung):
     speed: float
     mass: float
     excitation: BladeLossTable
-
-    @property
-    def tangents(self) -> WorkUnit:
-        """One force of the film with derivatives."""
-        return self.film.tangents
 
     @cached_property
     def rest(self) -> Coefficients:
