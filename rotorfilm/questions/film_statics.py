@@ -1,13 +1,17 @@
-"""Questions to the films of any bearing: their ladder, its effects, and quantities of a journal at rest."""
+"""Questions to the films of any bearing: their ladder and its effects; rest and whirl threshold."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from ..analysis import coefficients, equilibrium
+import numpy as np
+
+from ..analysis import coefficients, equilibrium, whirl_threshold
+from ..analysis.speed_events import secant_speed
 from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import (
     ISOTHERMAL,
@@ -19,16 +23,21 @@ from ..core.answers import (
     Rung,
     Work,
     WorkUnit,
+    relative_change,
 )
-from ..core.errors import InputError
-from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, uniform_rest
-from ..scenes.film_rungs import FilmCandidate, FilmRest
-from .conserved_oil import Change, change_at_rest, conserved_ladder, conserved_oil, rest_on
-from .heat_levels import HeatLevel, WarmSolution, answer_below, heat, with_losses
-from .quantities import LOSSES, QUANTITIES, TEMPERATURES, FilmQuantity
+from ..core.errors import InputError, RotorfilmError
+from ..core.results import Equilibrium, WhirlThreshold
+from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest, uniform_rest
+from ..scenes.film_rungs import FilmCandidate, FilmRest, least_stable, whirl_growth, whirl_matrix
+from ..scenes.solve_journal import conserved_threshold
+from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
+from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat, with_losses
+from .quantities import LOSSES, QUANTITIES, TEMPERATURES, FilmQuantity, relative
+from .walk import NoAnswerError
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
+    from ..scenes.schema import RigidRotorTable
 
 Films = Callable[["Scene"], Sequence[FilmCandidate]]
 """Takes a scene and returns the candidates for its bearing, the cheapest first."""
@@ -277,3 +286,241 @@ def static_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     if quantity != "side_flow" or table is None or table.conserves or not bearing.geometry.plain:
         return ladder
     return replace(ladder, remarks=(*ladder.remarks, UNFED))
+
+
+# At which speed a rigid rotor begins to whirl, by each film of any bearing.
+
+
+AROUND = 1.4
+"""A higher rung looks for the threshold within this factor of a lower one's."""
+
+STEP = 1e-4
+"""Relative change of speed over which the growth rate is differentiated."""
+
+SPEEDS = 40
+"""Equilibria that a search takes about."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WhirlRung(CandidateRung):
+    """The whirl threshold by one film of any bearing; one that warms is at each speed as warm as at rest.
+
+    Attributes
+    ----------
+    load : (float, float) [N]
+    mass : float [kg]
+    """
+
+    load: tuple[float, float]
+    mass: float
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the film's error."""
+        return self.film.speed_prior
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the speed at which the equilibrium loses stability [rad/s]."""
+        bearing, work = self.film.asked(SPEEDS)
+        absent = NoAnswerError if self.film.is_close else RotorfilmError
+        threshold = self.around(bearing, before, absent)
+        return Found(threshold.speed, work(), threshold.equilibrium)
+
+    def around(
+        self, bearing: Any, before: Found | None, absent: type[RotorfilmError] = RotorfilmError
+    ) -> WhirlThreshold:
+        """Return the threshold in a bearing, around that of a lower rung first; an error without one."""
+        around = None if before is None else (before.value / AROUND, before.value * AROUND)
+        threshold = whirl_threshold(bearing, self.load, self.mass, around)
+        if threshold.speed is None and around is not None:
+            threshold = whirl_threshold(bearing, self.load, self.mass)
+        if threshold.speed is None:
+            raise absent(f"no threshold: {threshold.reason}, by {self.name}")
+        return threshold
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change of speed that undoes the growth which the richer film would bring.
+
+        The whirl s = i nu of the cheap film becomes s' with the richer one; the speed changes by
+        -Re s' / (d Re s/d speed), the slope being that of the cheap film along its own equilibria.
+        """
+        at: Equilibrium = found.solution
+        film = self.film if at.temperature is None else self.film.at_temperature(at.temperature)
+        bound = self._bound(film, at)
+        if SAFETY * bound < tolerance:
+            return ErrorEstimate(bound, "verified bound of the map", {self.film.tangents: 15}, bound=True)
+        growth, doubt = film.rich_growth(at, self.mass)
+        slope = self.slope(at.speed)
+        error = abs(growth / slope) / at.speed if slope else math.inf
+        work = self.film.judged(smooth=True, defects=1, tangents=15)
+        return ErrorEstimate(error, f"growth by {film.rich_name}", work, bound=film.bounded, doubt=doubt)
+
+    def _bound(self, film: FilmCandidate, at: Equilibrium) -> float:
+        """Return the error [1] that the worst K and C within the verified bound would make."""
+        bound = film.rest_bound(at, slopes=True)
+        if not math.isfinite(bound):
+            return math.inf
+        found = coefficients(self.film.reaction, at.position, at.speed)
+        worst = np.zeros((4, 4))
+        worst[2:, :2] = bound * np.abs(found.stiffness).max() / self.mass
+        worst[2:, 2:] = bound * np.abs(found.damping).max() / self.mass
+        _, left, right = least_stable(whirl_matrix(found, self.mass))
+        return float(np.abs(left) @ worst @ np.abs(right)) / abs(self.slope(at.speed)) / at.speed
+
+    def slope(self, speed: float) -> float:
+        """Return d Re s/d speed of the whirl of this film, by central differences."""
+        low, high = (
+            self.film.growth(equilibrium(self.film.reaction, self.load, near), self.mass)
+            for near in (speed * (1.0 - STEP), speed * (1.0 + STEP))
+        )
+        return (high - low) / (2.0 * STEP * speed)
+
+    def expected(self, done: Work) -> Work:
+        """Return as much work as a lower rung did."""
+        return self.film.expected(sum(done.values()))
+
+
+def required_rotor(scene: Scene, quantity: str) -> RigidRotorTable:
+    """Return the table of the rigid rotor; raise InputError if the scene has none."""
+    if scene.rigid_rotor is None:
+        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
+    return scene.rigid_rotor
+
+
+# On an oil the film is at each speed as warm as its rest there: by one temperature (T0, T1) on every film, or
+# by a temperature field (T2, T3), K and C at frozen temperature.
+
+
+MOVING, PECLET, POWER = 0.03, 20.0, 0.8
+"""Share of the speed by which heat that moves with the whirl lowers a threshold at a Peclet number, and the
+power with which it grows with that: 3 % at 20, 10 % at 90, by unsteady solutions of T2."""
+
+RESTS, NEAR, FARTHEST = 12, 3e-5, 0.2
+"""Most rests on a temperature field that a search takes, the relative change of speed at which it ends, and
+the largest one of a step."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class WhirlQuestion(FilmQuestion):
+    """The whirl threshold, asked of a film in the balance of its heat at each speed.
+
+    Attributes
+    ----------
+    mass : float [kg]
+        Of the rotor.
+    """
+
+    mass: float
+
+    levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
+    rests: ClassVar[int] = SPEEDS
+    field_rests: ClassVar[float] = 4.0
+
+    def uniform(
+        self, level: HeatLevel, film: FilmCandidate, count: int, before: Found | None
+    ) -> WarmSolution:
+        """Return the threshold by one film, of T0 that of fresh oil at all speeds."""
+        fresh = level.temperature(film.reaction)
+        rung = self.make(film if fresh is None else film.at_temperature(fresh), count)
+        threshold = rung.around(rung.film.reaction, before)
+        return WarmSolution(level, Found(threshold.speed, {}, threshold.equilibrium), rung)
+
+    def on_field(self, level: FieldLevel, film: FilmCandidate, before: Found | None) -> WarmSolution:
+        """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
+        rung = self.make(film, 0)
+        speed = float((self.uniform(BALANCED, film, 0, None).found if before is None else before).value)
+
+        def growth_at(speed: float) -> tuple[float, WarmRest]:
+            own = level.rest(film.reaction, self.load, speed)
+            return float(self.value(own)), own
+
+        at = secant_speed(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
+        judge = self.growth(at.speed, at.slope)
+        return WarmSolution(level, Found(at.speed, {}), own=at.solution, judge=judge)
+
+    def growth(self, speed: float, per_speed: float) -> RestJudge:
+        """Return what K and C of a rest at a threshold [rad/s] do to it, by d(growth)/d speed."""
+        return RestJudge(
+            load=self.load,
+            speed=speed,
+            value=self.value,
+            distance=lambda value, better: abs((better - value) / per_speed) / speed,
+            moving=partial(moving_heat, speed=speed),
+        )
+
+    def judged(self, solved: WarmSolution) -> RestJudge:
+        """Return what judges rests at the threshold."""
+        speed = float(solved.found.value)
+        return self.growth(speed, solved.rung.slope(speed))
+
+    def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
+        """Return a call that takes another bearing and returns how far its threshold by T1 is off."""
+        found, rung = self.uniform(BALANCED, film, 0, None).found, self.make(film, 0)
+        return lambda other: relative(rung.around(other, found).speed, found.value)
+
+    def conserved(self, film: JFOFilm, before: Found | None) -> float:
+        """Return the threshold on a film that conserves its oil, at the frequency of the whirl."""
+        if before is not None:
+            start = float(before.value)
+        else:
+            found = whirl_threshold(coarse_films(film.bearing)[-1][0], self.load, self.mass).speed
+            start = self.speed if found is None else found
+        return conserved_threshold(film, self.load, self.mass, start)
+
+    def conservation(self, bearing: JournalBearing) -> Callable[[Found], Change]:
+        """Return a call that takes a threshold and returns what the conservation of oil changes in it."""
+
+        def change(found: Found) -> Change:
+            reynolds, conserved = coarse_films(bearing)[-1]
+            around = found.value / AROUND, found.value * AROUND
+            own = whirl_threshold(reynolds, self.load, self.mass, around).speed or found.value
+            return Change(own, conserved_threshold(conserved, self.load, self.mass, own), relative=True)
+
+        return change
+
+
+def moving_heat(bearing: Any, speed: float) -> float:
+    """Return the share by which heat that moves with the whirl lowers a threshold [1] at a speed [rad/s].
+
+    Oil runs at half the speed, and in forward half-speed whirl with the pattern of the film; conduction to
+    the walls, as fast as the Peclet number speed clearance^2/diffusivity is small, keeps it near frozen.
+    """
+    oil, cooling = bearing.cooled
+    per_volume = float(oil.volumetric_heat(cooling.supply_temperature))
+    peclet = abs(speed) * bearing.clearance**2 * per_volume / oil.conductivity
+    return MOVING * (peclet / PECLET) ** POWER
+
+
+def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = True) -> Ladder:
+    """Return the ladder of the whirl threshold by the films of any bearing.
+
+    Parameters
+    ----------
+    films : callable
+        Takes the scene and returns the candidates for some equilibria.
+    scene : Scene
+    quantity : str
+    levels : bool
+        Whether an oil has levels of heat; else all films are at the temperature of their balance.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rigid rotor.
+    """
+    mass, load, bearing = required_rotor(scene, quantity).mass, scene.static_load, any_bearing(scene)
+    near = math.sqrt(math.hypot(*load) / (mass * bearing.clearance))
+    question = WhirlQuestion(
+        load=load,
+        speed=scene.speed,
+        unit="rad/s",
+        make=lambda film, count: WhirlRung(film=film, load=load, mass=mass),
+        value=lambda own: whirl_growth(own.coefficients, mass),
+        distance=relative_change,
+        units=partial(film_units, speed=near),
+        # On an oil the error by heat of a threshold by conserved oil is not known yet.
+        follows_oil=not bearing.is_warming,
+        has_levels=levels,
+        mass=mass,
+    )
+    return film_ladder(scene, films, question)

@@ -13,8 +13,7 @@ from ..scenes.film_rungs import FilmRung, point_films, turn_films
 from ..scenes.schema import JournalTable
 from .coupling import coupling_ladder
 from .film_motions import ORBIT_UNITS as ORBITS, blade_loss_ladder, orbit_ladder
-from .film_statics import Films, static_ladder
-from .film_thresholds import whirl_ladder
+from .film_statics import Films, static_ladder, whirl_ladder
 from .quantities import QUANTITIES
 
 if TYPE_CHECKING:

@@ -41,7 +41,7 @@ NO_RESULTS = {
         *("FilmField", "StudyCase", "FilmCase", "Study", "BushRun"),
         *("RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("RestingBalls"),
+        *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
         *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
         *(
