@@ -59,5 +59,5 @@ else:
     show(__name__)
 
 offer("plot_result", f"{__name__}.charts")  # which `plot()` of results calls
-for _name in ("ask", "ladders_of"):  # which scenes with a question call
-    offer(_name, f"{__name__}.questions")
+offer("ask", f"{__name__}.questions")  # which scenes with a question call
+offer("ladders_of", f"{__name__}.questions")  # which a new scene lists

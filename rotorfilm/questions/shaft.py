@@ -46,7 +46,7 @@ from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import oil_remarks
 from ..scenes.solve_shaft import shaft_remarks
 from .film_motions import ORBIT_UNITS as ORBITS
-from .film_thresholds import moving_heat
+from .film_statics import moving_heat
 from .shaft_films import (
     ShaftFilms,
     at_supply,

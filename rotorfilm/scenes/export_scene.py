@@ -172,6 +172,19 @@ def film_models(scene: Scene) -> SceneModels:
     return SceneModels("film", scene.bearing, law, start, scene.macro_step, scene.duration)
 
 
+def tilting_models(scene: Scene) -> SceneModels:
+    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
+    from .pad_tables import settled_scene  # another family, whose tables no other scene needs
+
+    scene = settled_scene(scene)
+    models = film_models(scene)
+    bearing = scene.table("tilting_pad").build()
+    rest = np.array([models.start["x"], models.start["y"]])
+    pads = bearing.at_rest().pad_states(rest, scene.speed)
+    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
+    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
+
+
 def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
     """Return the rotor of a scene on its damper, springs included, a step [s], and its speed.
 

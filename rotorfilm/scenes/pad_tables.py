@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
+from ..analysis import equilibrium
 from ..bearings.pads import (
     SETS,
     Lobe,
@@ -30,6 +31,9 @@ from .film_rungs import room
 from .journal_tables import NOTABLE, REMARKS, film_numbers, warmed
 from .lubricant_table import Lubricant, OiledTable
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 # The films of pads in scene files: schema 1.
 
@@ -277,6 +281,17 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
     ):
         return replace(bearing, film=PadGridFilm(cells=REMARK_CELLS))
     return bearing
+
+
+def settled_scene(scene: Scene) -> Scene:
+    """Return a scene whose films keep the temperature that they have with the journal at rest."""
+    bearing: Any = scene.bearing
+    if not bearing.is_warming:
+        return scene
+    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
+    name = next(name for name, table in scene.tables.items() if table is scene.film_table)
+    kept: Any = scene.film_table
+    return scene.with_tables(**{name: replace(kept, temperature=at.temperature)})
 
 
 # `[lobed_journal]` of a scene: a bearing of fixed pads.
