@@ -24,8 +24,8 @@ from ..scenes.film_rungs import Corrected, FilmCandidate, RestedJournal, any_can
 from .heat_levels import field_rung
 
 if TYPE_CHECKING:
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.schema import JournalTable
 
 CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""

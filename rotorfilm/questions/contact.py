@@ -36,9 +36,6 @@ from ..scenes.contact_motions import (
     natural_frequency,
     unknowns,
 )
-from ..scenes.contact_table import ContactTable
-from ..scenes.families import Family
-from ..scenes.solve_contact import answer_contact
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -266,26 +263,9 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
 # What rolling balls bring to scenes and questions.
 
 
-FAMILY = Family(
-    table=ContactTable,
-    ladders={
-        **dict.fromkeys(QUANTITIES, contact_ladder),
-    },
-    answer=answer_contact,
-    example={
-        "contact": {
-            "diameter": "20 mm",
-            "modulus": "206 GPa",
-            "poisson_ratio": 0.3,
-            "viscosity": "8 mPa s",
-            "pressure_coefficient": "5 1/GPa",
-            "speed": "0.9 m/s",
-            "load": "10 N",
-            "mass": "33 g",
-            "cells": 24,
-        },
-    },
-)
+LADDERS = {
+    **dict.fromkeys(QUANTITIES, contact_ladder),
+}
 
 
 # The approach of a rolling ball on its reduced law, over time.

@@ -7,10 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from ..core.answers import Ladder
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.film_rungs import FilmRung, point_films, turn_films
-from ..scenes.schema import JournalTable
 from .coupling import coupling_ladder
 from .film_motions import ORBIT_UNITS as ORBITS, blade_loss_ladder, orbit_ladder
 from .film_statics import Films, static_ladder, whirl_ladder
@@ -37,24 +34,10 @@ def on_turns(ladder: Callable[[Films, Scene, str], Ladder]) -> Callable[[Scene, 
     return lambda scene, quantity: ladder(partial(journal_turns, quantity), scene, quantity)
 
 
-FAMILY = Family(
-    table=JournalTable,
-    ladders={
-        **dict.fromkeys(QUANTITIES, partial(static_ladder, journal_points)),
-        **dict.fromkeys(ORBITS, on_turns(orbit_ladder)),
-        "whirl_threshold": partial(whirl_ladder, journal_points),
-        "blade_loss_peak": on_turns(blade_loss_ladder),
-        "cosimulation_error": coupling_ladder,
-    },
-    models=film_models,
-    example={
-        "journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "clearance": "80 um",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+LADDERS = {
+    **dict.fromkeys(QUANTITIES, partial(static_ladder, journal_points)),
+    **dict.fromkeys(ORBITS, on_turns(orbit_ladder)),
+    "whirl_threshold": partial(whirl_ladder, journal_points),
+    "blade_loss_peak": on_turns(blade_loss_ladder),
+    "cosimulation_error": coupling_ladder,
+}

@@ -44,9 +44,7 @@ from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import oil_remarks
-from ..scenes.families import Family
-from ..scenes.shaft_table import ShaftTable
-from ..scenes.solve_shaft import shaft_remarks, solve_rotor
+from ..scenes.solve_shaft import shaft_remarks
 from .film_motions import ORBIT_UNITS as ORBITS
 from .film_statics import moving_heat
 from .shaft_films import (
@@ -334,29 +332,8 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
 # What flexible rotors in their bearings bring to scenes and questions.
 
 
-JOURNAL = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
-"""The bearings of the example."""
-
-FAMILY = Family(
-    table=ShaftTable,
-    ladders={
-        **dict.fromkeys(EVENTS, shaft_ladder),
-        **dict.fromkeys(ORBITS, shaft_orbit_ladder),
-        PEAK: shaft_peak_ladder,
-    },
-    answer=solve_rotor,
-    example={
-        "shaft": {
-            "material": {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"},
-            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
-            "bearings": [
-                {"name": "left", "node": 0, "journal": JOURNAL},
-                {"name": "right", "node": 4, "journal": JOURNAL},
-            ],
-            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
-            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
-            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
-            "highest_frequency": "100 Hz",
-        },
-    },
-)
+LADDERS = {
+    **dict.fromkeys(EVENTS, shaft_ladder),
+    **dict.fromkeys(ORBITS, shaft_orbit_ladder),
+    PEAK: shaft_peak_ladder,
+}

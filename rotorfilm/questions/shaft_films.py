@@ -35,7 +35,7 @@ from ..scenes.solve_shaft import shaft_physics
 from .heat_levels import BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat
 
 if TYPE_CHECKING:
-    from ..scenes.schema import JournalTable
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.shaft_table import ShaftTable
 
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
