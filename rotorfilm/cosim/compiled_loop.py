@@ -339,8 +339,7 @@ def compiled_run(
     watch: Watch,
     macro_step: float,
     points: Sequence[float],
-    *,
-    gentle: bool = False,
+    gentle: bool,
 ) -> CompiledRun | None:
     """Return the macro steps in C of partners that were started; None where one needs Python."""
     plan = plan_of(scheme)

@@ -185,7 +185,7 @@ class _Run:
         self._keep(self._partners.start())
         self._record.work[0] = list(self._partners.work.values())
         kept = self._record, self._watch, self._macro_step, self._points
-        self._compiled = compiled_run(self._partners, self._scheme, *kept, gentle=self._gentle)
+        self._compiled = compiled_run(self._partners, self._scheme, *kept, self._gentle)
 
     def reached(self) -> Iterator[Iterator[float]]:
         """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""

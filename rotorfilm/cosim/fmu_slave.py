@@ -18,9 +18,7 @@ from ..core.model import Array, Linearization
 from ..fmu.instance import (
     DERIVATIVES,
     STATES,
-    EventInfo,
     Port,
-    Slopes,
     instantiated,
     nominal_of,
     provides,
@@ -65,7 +63,7 @@ class FmuSlave(Slave):
         self._instance = instantiated(description, folder, exchange)
         # Values are exchanged in each step: their references are told once.
         self._ports: dict[tuple[str, ...], Port] = {}
-        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Slopes] = {}
+        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Callable[[], Array]] = {}
         self._output = self._instance.port(list(self._references["output"].values()))
 
     def start(self, values: Mapping[str, float]) -> None:
@@ -135,7 +133,7 @@ class FmuSlave(Slave):
         wanted = tuple(unknowns), tuple(knowns)
         if wanted not in self._slopes_of:
             self._slopes_of[wanted] = self._instance.slopes(*wanted)
-        found: Array = self._calling("reading derivatives", self._slopes_of[wanted].get)
+        found: Array = self._calling("reading derivatives", self._slopes_of[wanted])
         return found
 
     def compiled(self, film: bool) -> CompiledPartner | None:
@@ -144,9 +142,8 @@ class FmuSlave(Slave):
             return None
         version, component, functions = self._instance.entry()
         inputs, outputs = self._references["input"], self._references["output"]
-        struct = structure("rf_partner")(
-            kind=constant(f"RF_IS_FMI{version}"), component=component, states=len(self._states), **functions
-        )
+        kind, states = constant(f"RF_IS_FMI{version}"), len(self._states)
+        struct = structure("rf_partner")(kind=kind, component=component, states=states, **functions)
         return CompiledPartner(struct, inputs, outputs, inputs, self._slopes, self._states)
 
     def fail(self, call: Call, status: int, t: float) -> None:
@@ -264,8 +261,8 @@ class ExchangeRotor(Integrated, FmuSlave):
         self._move(t, x, self._base)
         self._scheduled(self._instance.event())
 
-    def _scheduled(self, event: EventInfo) -> None:
-        self._kink = np.inf if event.next_time is None else event.next_time
+    def _scheduled(self, event: float | None) -> None:
+        self._kink = np.inf if event is None else event
 
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)

@@ -24,7 +24,6 @@ from .instance import (
     SERIAL_STATES,
     STATES,
     Instance,
-    Instance3,
     extracted,
     instantiated,
     known_nominals,
@@ -247,7 +246,6 @@ def derivative_error(description: Any, instance: Instance, inputs: Array) -> flo
 
 def adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
     """Return the largest deviation of adjoint from directional derivatives, relative to its row."""
-    assert isinstance(instance, Instance3)
     unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
     instance.set(references_of(description, "input"), inputs.tolist())
     exact = _columns(instance, unknowns, knowns)
@@ -363,7 +361,7 @@ def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
     instance = instantiated(description, folder, True)
     try:
-        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0])).next_time
+        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0]))
         x = instance.states(len(nominal))
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
@@ -382,7 +380,7 @@ def _between(
     while next_event is not None and next_event <= end:
         x = _integrated(instance, t, x, next_event, nominal)
         t = next_event
-        next_event = instance.event().next_time
+        next_event = instance.event()
         if next_event is not None and next_event <= t:
             raise FmuError(f"the next event must be after t = {t!r} s, got {next_event!r}")
     return _integrated(instance, t, x, end, nominal), next_event

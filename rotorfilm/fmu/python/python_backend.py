@@ -75,19 +75,19 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = import_closure({slave, *own}.union(*(module.needs for module in read.values())), SHELVES)
-    companions = _companions(own.union(*(module.needs for module in read.values())))
+    sources = import_closure({slave, *own}.union(*(needs for _, needs in read.values())), SHELVES)
+    companions = _companions(own.union(*(needs for _, needs in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
     # FMUs of the same models, which read the same before the folder of the first is gone.
     models = {"models": " ".join(sorted(own)).encode()}
     package = f"{PACKAGE}_{content_hash({**sources, **companions, **models})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
-    texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
+    texts = {name: ast.unparse(tree).encode() for name, (tree, _) in read.items()}
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
     files = {module_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
     files.update({f"{package}/{name}": content for name, content in companions.items()})
-    files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
+    files.update({f"{names[name]}.py": renamed_source(read[name][0], names).encode() for name in users})
     return Bundle(files, names)
 
 
@@ -156,16 +156,6 @@ class Slave({base}):
 '''
 
 
-class SlaveClass(NamedTuple):
-    """The class that runs a model, and the module it is in."""
-
-    module: str
-    name: str
-
-
-STEPPED = SlaveClass(STEPPED_SLAVE, "SteppedSlave")
-
-
 def python_tool() -> str:
     """Return what made the FMU, with versions."""
     return f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})"
@@ -188,13 +178,13 @@ def python_files(
     """
     require_verified_version()
     data = encode(model)
-    slave = SlaveClass(SLAVE, "ModelSlave") if isinstance(model, Model) else STEPPED
-    bundle = bundle_source(class_modules(data), slave.module)
+    slave, base = (SLAVE, "ModelSlave") if isinstance(model, Model) else (STEPPED_SLAVE, "SteppedSlave")
+    bundle = bundle_source(class_modules(data), slave)
     _require_rebuilt(data)
     texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, prefix, start, bundle, slave),
+        **_resources(data, component, prefix, start, bundle, bundle.modules[slave], base),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -213,9 +203,12 @@ def _require_rebuilt(data: Any) -> None:
 
 
 def _resources(
-    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
+    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: str, base: str
 ) -> dict[str, bytes]:
-    """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
+    """Return the files that PythonFMU reads: the entry module, the model as data, and the source.
+
+    The class `base` of the module `slave` runs the model.
+    """
     settings = {"component": prefix, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
     tag = content_hash({**bundle.files, "model.json": text})
@@ -223,8 +216,8 @@ def _resources(
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
         api=bundle.modules[API],
-        slave=bundle.modules[slave.module],
-        base=slave.name,
+        slave=slave,
+        base=base,
         modules=f"({modules}\n)",
         title=component,
         tag=tag,
