@@ -22,9 +22,8 @@ from ..core.limits import STEPS
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from .compiled_loop import CompiledRun, compiled_run
-from .partner_interface import Sample
 from .partners import Partners, Record
-from .schemes import MEMORY, GaussSeidel, Scheme, started
+from .schemes import MEMORY, GaussSeidel, Sample, Scheme, started
 from .slaves import Slave
 from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
 

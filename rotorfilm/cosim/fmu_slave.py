@@ -15,6 +15,7 @@ from fmpy.fmi1 import FMICallException
 
 from ..core.errors import FilmContactError, FmuError, InputError
 from ..core.model import Array, Linearization
+from ..core.signals import from_fmi_name
 from ..fmu.instance import (
     DERIVATIVES,
     STATES,
@@ -26,8 +27,7 @@ from ..fmu.instance import (
 )
 from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from .partner_interface import Wiring, local_name, references_of
-from .slaves import Call, CompiledPartner, Integrated, Slave
+from .slaves import Call, CompiledPartner, Integrated, Slave, Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
@@ -267,3 +267,22 @@ class ExchangeRotor(Integrated, FmuSlave):
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)
         self._input.set(u.tolist())
+
+
+def references_of(description: Any, causality: str) -> dict[str, int]:
+    """Return the value references of the real inputs or outputs, by local name."""
+    references: dict[str, int] = {}
+    for variable in variables_of(description, causality):
+        name = local_name(variable.name)
+        if name in references:
+            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
+        references[name] = variable.valueReference
+    return references
+
+
+def local_name(name: str) -> str:
+    """Return the signal of `component.signal`; other spellings stay as they are."""
+    try:
+        return from_fmi_name(name)[1]
+    except InputError:
+        return name

@@ -30,7 +30,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from ..core.errors import FmuError, FmuFileError
 from ..core.model import Array
 from .archive import read_description
-from .binaries import host_libraries, require_whole
+from .native.platforms import host_libraries, require_whole
 
 
 @contextmanager

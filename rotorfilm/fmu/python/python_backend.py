@@ -27,7 +27,6 @@ SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"
-STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
 API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
 LIBRARY = {
@@ -61,11 +60,11 @@ class Bundle(NamedTuple):
     modules: dict[str, str]
 
 
-def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
+def bundle_source(modules: Iterable[str]) -> Bundle:
     """Return the source that a model with classes from `modules` needs.
 
-    Of this package that is what those modules, and the module `slave` of the slave, import; a user's module
-    goes along by itself.
+    Of this package that is what those modules, and the module of the slave, import; a user's module goes
+    along by itself.
 
     Raises
     ------
@@ -75,7 +74,7 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = import_closure({slave, *own}.union(*(needs for _, needs in read.values())), SHELVES)
+    sources = import_closure({SLAVE, *own}.union(*(needs for _, needs in read.values())), SHELVES)
     companions = _companions(own.union(*(needs for _, needs in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
     # FMUs of the same models, which read the same before the folder of the first is gone.
@@ -178,13 +177,12 @@ def python_files(
     """
     require_verified_version()
     data = encode(model)
-    slave, base = (SLAVE, "ModelSlave") if isinstance(model, Model) else (STEPPED_SLAVE, "SteppedSlave")
-    bundle = bundle_source(class_modules(data), slave)
+    bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
+    texts, base = (PYTHON, "ModelSlave") if isinstance(model, Model) else (PYTHON_STEPPED, "SteppedSlave")
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, prefix, start, bundle, bundle.modules[slave], base),
+        **_resources(data, component, prefix, start, bundle, base),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -203,11 +201,11 @@ def _require_rebuilt(data: Any) -> None:
 
 
 def _resources(
-    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: str, base: str
+    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, base: str
 ) -> dict[str, bytes]:
     """Return the files that PythonFMU reads: the entry module, the model as data, and the source.
 
-    The class `base` of the module `slave` runs the model.
+    The class `base` of the slave's module runs the model.
     """
     settings = {"component": prefix, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
@@ -216,7 +214,7 @@ def _resources(
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
         api=bundle.modules[API],
-        slave=slave,
+        slave=bundle.modules[SLAVE],
         base=base,
         modules=f"({modules}\n)",
         title=component,
