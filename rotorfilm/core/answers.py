@@ -372,6 +372,22 @@ class MadeRung:
     film: Any = None
 
 
+def with_estimate(
+    rung: Any, estimate: Callable[[Found, Found | None, float], ErrorEstimate], shares: object = None
+) -> MadeRung:
+    """Return a rung with another estimate, as an effect makes it; `shares` counts where it has none."""
+    return MadeRung(
+        name=rung.name,
+        answer=rung.answer,
+        estimate=estimate,
+        expected=rung.expected,
+        prior=rung.prior,
+        refines=rung.refines,
+        shares=rung.shares or shares,
+        film=getattr(rung, "film", None),
+    )
+
+
 def counted_rung(
     name: str,
     key: Hashable,

@@ -15,12 +15,29 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..analysis import equilibrium
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, MadeRung, Rung, counted_rung
+from ..core.answers import (
+    HEATED,
+    ISOTHERMAL,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    MadeRung,
+    Rung,
+    counted_rung,
+    with_estimate,
+)
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import settled
 from ..core.results import Equilibrium
 from ..scenes.film_heat import HeatSteps, uniform_rest
-from ..scenes.film_rungs import Corrected, FilmCandidate, RestedJournal, any_candidate, tangent
+from ..scenes.film_rungs import (
+    Corrected,
+    FilmCandidate,
+    RestedJournal,
+    any_candidate,
+    maximum_pressure,
+    tangent,
+)
 from .heat_levels import field_rung
 
 if TYPE_CHECKING:
@@ -64,6 +81,11 @@ class RestedFilm(RestedJournal):
         return self.at.temperature
 
     maximum_temperature = temperature
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        return maximum_pressure(self.reaction, self.at.position, self.at.speed)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
@@ -175,16 +197,7 @@ def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
         def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
             return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
 
-        return MadeRung(
-            name=rung.name,
-            answer=rung.answer,
-            estimate=estimate,
-            expected=rung.expected,
-            prior=rung.prior,
-            refines=rung.refines,
-            shares=rung.shares or token,
-            film=getattr(rung, "film", None),
-        )
+        return with_estimate(rung, estimate, token)
 
     rungs = tuple(ruptured(rung) for rung in ladder.rungs)
     if not question.follows_oil:

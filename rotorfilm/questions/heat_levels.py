@@ -18,7 +18,7 @@ import numpy as np
 
 from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import HEATED, SAFETY, ErrorEstimate, Found, Ladder, MadeRung, WorkUnit, counted_rung
-from ..core.errors import InputError, RotorfilmError
+from ..core.errors import RotorfilmError
 from ..scenes.film_heat import (
     REFERENCE,
     FieldLevel,
@@ -31,7 +31,7 @@ from ..scenes.film_heat import (
     grid_error,
     uniform_rest,
 )
-from ..scenes.film_rungs import FilmCandidate
+from ..scenes.film_rungs import FilmCandidate, with_losses
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -247,14 +247,6 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[MadeRung, ...]:
 
 
 # The ladder of a question about a bearing on an oil.
-
-
-def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
-    """Return the films whose losses are known; InputError where there is none, as they are wanted."""
-    known = tuple(film for film in films if film.has_losses)
-    if known:
-        return known
-    raise InputError(f"film must be a law with losses for {wanted}, as map or reynolds, got {films[0].name}")
 
 
 def known_films(films: Sequence[FilmCandidate]) -> tuple[Any, ...]:

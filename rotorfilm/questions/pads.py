@@ -34,17 +34,16 @@ from ..scenes.export_scene import film_models
 from ..scenes.families import Family, SceneModels
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
 from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, dam_film_name, pad_film_name, quick_pads
-from .coupling import coupling_ladder
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
     OrbitRung,
-    blade_loss_ladder,
+    film_ladders,
     orbit_ladder,
     wave_change,
     wave_value,
 )
-from .film_statics import Films, static_ladder, whirl_ladder
+from .film_statics import static_ladder, whirl_ladder
 from .quantities import QUANTITIES
 
 if TYPE_CHECKING:
@@ -409,22 +408,8 @@ def _tilting_candidate(
     )
 
 
-# Ladders of bearings of fixed pads: those of journals, by films of pads.
-
-
-PAD_STATICS = [quantity for quantity in QUANTITIES if quantity != "maximum_temperature"]
-"""Static quantities of pads, whose films have one temperature."""
-
-
-def fixed_ladders(points: Films, turns: Films) -> dict[str, Callable[[Scene, str], Ladder]]:
-    """Return the ladders by quantity, of candidates for some equilibria and for states all round a turn."""
-    return {
-        **dict.fromkeys(PAD_STATICS, partial(static_ladder, points)),
-        **dict.fromkeys(ORBITS, partial(orbit_ladder, turns)),
-        "whirl_threshold": partial(whirl_ladder, points),
-        "blade_loss_peak": partial(blade_loss_ladder, turns),
-        "cosimulation_error": coupling_ladder,
-    }
+PAD_STATICS = [name for name in QUANTITIES if name not in ("maximum_temperature", "maximum_pressure")]
+"""Static quantities of pads: films of one temperature, of which only those with recesses tell a pressure."""
 
 
 # What bearings of fixed pads bring to scenes and questions.
@@ -436,9 +421,10 @@ def _all(scene: Scene) -> tuple[LobedCandidate, ...]:
 
 LOBED = Family(
     table=LobedTable,
-    ladders=fixed_ladders(
+    ladders=film_ladders(
         lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
         lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
+        PAD_STATICS,
     ),
     models=film_models,
     example={
@@ -466,7 +452,7 @@ def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]
 
 PRESSURE_DAM = Family(
     table=DamTable,
-    ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)),
+    ladders=film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"]),
     models=film_models,
     example={
         "pressure_dam": {
