@@ -16,8 +16,8 @@ GUIDE = Path(__file__).parents[2] / "docs" / "adding_a_bearing.md"
 
 EFFECT = """from dataclasses import replace
 
-from ..core.answers import with_estimate
 from ..scenes.film_rungs import any_candidate
+from .variants import with_estimate
 
 
 """

@@ -53,13 +53,7 @@ NO_RESULTS = {
 }
 """Classes with attributes that nobody is answered with, by the reason."""
 
-READERS = (
-    "scenes.reading",
-    "questions.",
-    "core.answers.Ladder",
-    "core.answers.CandidateRung",
-    "core.answers.MadeRung",
-)
+READERS = ("scenes.reading", "questions.", "core.answers.Ladder", "core.answers.CandidateRung")
 """Where classes hold what they were made from: readers of files, and rungs."""
 
 BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
