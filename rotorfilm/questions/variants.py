@@ -62,7 +62,7 @@ def counted_rung(
     name: str,
     key: Hashable,
     seconds: float,
-    solve: Callable[[Found | None], tuple[Any, Any]],
+    ask: Callable[[Found | None], tuple[Any, Any]],
     judge: Callable[[Found, Found | None, float], ErrorEstimate],
     **known: Any,
 ) -> VariantRung:
@@ -75,7 +75,7 @@ def counted_rung(
         Of the unit of its answers.
     seconds : float [s]
         About what an answer takes.
-    solve : callable
+    ask : callable
         Takes the answer of a lower rung or None, and returns the value and what `judge` starts from.
     judge : callable
         As `Rung.estimate`.
@@ -85,7 +85,7 @@ def counted_rung(
     unit, done = WorkUnit(f"answers of {name}", key, nominal=seconds), WorkUnit(f"estimates of {name}")
 
     def answer(before: Found | None) -> Found:
-        value, solution = solve(before)
+        value, solution = ask(before)
         return Found(value, {unit: 1}, solution)
 
     def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
