@@ -218,6 +218,7 @@ def _rung(
     bounded: bool = False,
 ) -> FilmRung:
     cells, rich_name = rich
+    grid = grid_of(film)
     return FilmRung(
         name=name,
         reaction=fitted_bearing(bearing, film),
@@ -226,7 +227,14 @@ def _rung(
         position_prior=position_prior,
         prior=slope_prior,
         bounded=bounded,
+        call_time=CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells),
     )
+
+
+def grid_of(film: FilmLaw) -> ReynoldsFilm | None:
+    """Return the film in two dimensions that a law is, or is extrapolated from; None of any other."""
+    own = film.film if isinstance(film, ExtrapolatedFilm) else film
+    return own if isinstance(own, ReynoldsFilm) else None
 
 
 # A candidate of films: one that may answer, and the richer one that its defect is sampled with.
@@ -260,6 +268,8 @@ class FilmCandidate:
         Whether the error has one verified bound in any motion.
     making : float [s]
         About how long the map takes that its first force makes; 0 where there is none to make.
+    call_time : float [s]
+        About what a force with derivatives takes.
     """
 
     name: str
@@ -270,6 +280,7 @@ class FilmCandidate:
     prior: float
     bounded: bool = False
     making: float = 0.0
+    call_time: float = CALL_TIME
 
     @property
     def makes_map(self) -> bool:
@@ -293,11 +304,6 @@ class FilmCandidate:
     def time(self, tangents: int) -> float:
         """Return about how long so many forces with derivatives take, with the map that is to be made [s]."""
         return self.making + tangents * self.call_time
-
-    @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        return CALL_TIME
 
     def prepare(self) -> dict[WorkUnit, int]:
         """Make what the first force would make, and return the work of that."""
@@ -462,9 +468,8 @@ def maximum_pressure(bearing: Any, position: Array, speed: float) -> float:
     if not isinstance(bearing, JournalBearing):
         pressures = (bearing.pressure(k, position, np.zeros(2), speed) for k in range(len(bearing.pads)))
         return max(float(np.max(one.pressure)) for one in pressures)
-    film = bearing.film
-    law = film.film if isinstance(film, ExtrapolatedFilm) else film
-    found = film_state(replace(bearing, film=law), position, np.zeros(2), speed).maximum_pressure
+    law = replace(bearing, film=grid_of(bearing.film) or bearing.film)
+    found = film_state(law, position, np.zeros(2), speed).maximum_pressure
     assert found is not None  # see `has_pressure`
     return found
 
@@ -631,13 +636,6 @@ class FilmRung(FilmCandidate):
     rich: JournalBearing
 
     @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        law = self.reaction.film
-        grid = law.film if isinstance(law, ExtrapolatedFilm) else law
-        return CELL_TIME * math.prod(grid.cells) if isinstance(grid, ReynoldsFilm) else CALL_TIME
-
-    @property
     def has_losses(self) -> bool:
         """Whether its law knows power loss and flow of oil."""
         return has_losses(self.reaction)
@@ -646,9 +644,8 @@ class FilmRung(FilmCandidate):
         """Return the candidate beside a richer film on a grid, as a map knows no pressure."""
         if not has_pressure(self.reaction):
             return None
-        law = self.reaction.film
-        grid = law.film if isinstance(law, ExtrapolatedFilm) else law
-        fine = isinstance(grid, ReynoldsFilm) and math.prod(grid.cells) >= math.prod(MEDIUM)
+        grid = grid_of(self.reaction.film)
+        fine = grid is not None and math.prod(grid.cells) >= math.prod(MEDIUM)
         cells = FINEST if fine else FINE
         rich_name = f"2-D {cells[0]} x {cells[1]} extr."
         return replace(self, rich=extrapolated(self.reaction, cells), rich_name=rich_name)

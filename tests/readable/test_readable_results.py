@@ -42,7 +42,7 @@ NO_RESULTS = {
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
-        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate"),
+        *("FilmRest", "FilmCandidate", "PadCandidate", "TiltingCandidate"),
         *(
             "RestingFilms",
             "DamperFilm",
