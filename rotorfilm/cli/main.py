@@ -42,8 +42,6 @@ CHARTS = {
     "chart_commands.pads": "chart pads --ld 0.5 --json",
     "chart_commands.rolling": "chart rolling --speed '30000 rpm'",
     "chart_commands.contact": "chart contact --cells 48 --json",
-    "chart_commands.contact_cases": "chart contact-cases --cells 40",
-    "chart_commands.contact_limits": "chart contact-limits --json",
     "chart_commands.scene": "chart scene examples/question.toml",
     "chart_commands.limits": "chart limits --physics journal --physics damper",
     "chart_commands.page": "chart page --out rotorfilm-charts",

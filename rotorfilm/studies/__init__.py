@@ -20,8 +20,7 @@ if TYPE_CHECKING:
         bearing_types as bearing_types,
     )
     from .bush_tiers import bush_tiers as bush_tiers, shaft_flux_errors as shaft_flux_errors
-    from .contact_cases import contact_cases as contact_cases
-    from .contact_precision import contact_limits as contact_limits, contact_precision as contact_precision
+    from .contact_precision import contact_precision as contact_precision, decay_time as decay_time
     from .coupling_cost import coupling_cost as coupling_cost, coupling_limits as coupling_limits
     from .damper_accuracy import damper_accuracy as damper_accuracy, damper_rungs as damper_rungs
     from .heat_accuracy import (
