@@ -247,11 +247,12 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
     from .. import charts, studies
     from ..charts.whirl_verdicts import verdicts
+    from ..studies.journal_stability import by_film
 
     result = studies.journal_stability(ld, report=report)
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    rows = [(rung.name, *(text for text, _ in verdicts(result, rung))) for rung in result.rungs]
+    rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
     return Said(result, partial(show_table, headings, rows, [("reference", result.reference), *files]))
 
 

@@ -22,7 +22,6 @@ from ..core.results import Trajectory, orbit_distance, to_plain, write_csv
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly
 from ..studies import (
-    JournalStability,
     StudyModel,
     StudyResult,
     comparison_bearing,
@@ -231,7 +230,7 @@ class DemoResult(Readable):
         Coupled runs beside the monolithic one.
     attitude_angle : dict of str to ndarray [rad]
         By film, at the eccentricity ratios of `stability`.
-    stability : JournalStability
+    stability : StudyResult
         Whirl threshold by film.
     accuracy : StudyResult
         Error and cost of the force by film.
@@ -245,7 +244,7 @@ class DemoResult(Readable):
     critical_macro_angle: float | None
     coupling: CouplingStudy
     attitude_angle: dict[str, Array]
-    stability: JournalStability
+    stability: StudyResult
     accuracy: StudyResult
 
     @property
