@@ -40,13 +40,12 @@ NO_RESULTS = {
         *("FilmField", "StudyCase", "Study", "BushRun"),
         *("RossRotor", "DemoResult", "PublishedStage"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("RestingBalls", "BuiltDamperFilm"),
+        *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
         *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate"),
         *(
             "RestingFilms",
             "DamperFilm",
-            "ConservedDamperFilm",
             "FilmRung",
             "Panel",
         ),
@@ -54,7 +53,13 @@ NO_RESULTS = {
 }
 """Classes with attributes that nobody is answered with, by the reason."""
 
-READERS = ("scenes.reading", "questions.", "core.answers.Ladder", "core.answers.CandidateRung")
+READERS = (
+    "scenes.reading",
+    "questions.",
+    "core.answers.Ladder",
+    "core.answers.CandidateRung",
+    "core.answers.MadeRung",
+)
 """Where classes hold what they were made from: readers of files, and rungs."""
 
 BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
