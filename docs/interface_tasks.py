@@ -31,14 +31,12 @@ TASKS = {
     "Equilibrium and coefficients": (
         "analysis.coefficients",
         "analysis.equilibrium",
-        "analysis.heated_equilibrium",
         "analysis.rotor_equilibrium",
         "core.results.Coefficients",
         "bearings.reaction",
         "core.results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (
-        "analysis.campbell",
         "analysis.whirl",
         "analysis.rotor_modes",
         "analysis.rotor_threshold",
@@ -52,13 +50,11 @@ TASKS = {
     ),
     "Motion over time": (
         "analysis.compiled_march",
-        "analysis.variable_compliance",
         "core.results.Trajectory",
     ),
     "Orbits": (
         "analysis.circular_orbits",
         "analysis.periodic_orbit",
-        "analysis.basin",
         "core.results.CircularOrbit",
     ),
     "Bearings fitted to measurements": ("identification",),

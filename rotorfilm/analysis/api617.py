@@ -9,19 +9,18 @@ from functools import cached_property
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
-from scipy import sparse
 
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
-from ..core.model import Array, Reaction, RestingStates, carries_load
+from ..core.model import Array, Reaction, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
 from .coefficients import coefficients
-from .modal_reduction import BandedFactor, DenseFactor, exact_structure
+from .modal_reduction import exact_structure, lu_solver
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import dynamics, journal_rows, motion_near, second_order, whirl_near
-from .rotor_modes import Motions, log_decrement, motions_about, oscillates
+from .rotor_modes import RotorModes, log_decrement, motions_about, oscillates
 from .shaft_statics import chosen_stations, rigid_support_speed
 
 # Log decrement of the first forward whirl over applied cross-coupling, in one set of bearings.
@@ -250,13 +249,12 @@ def stability_level_one(
         for name, bearings in cases.items()
     )
     zero = min(curve.zero_cross_coupling for curve in curves)
-    found = Screening(
-        margin=zero / anticipated,
-        anticipated_decrement=min(curve.anticipated_decrement for curve in curves),
-        critical_speed_ratio=abs(speed) / rigid_support_speed(rotor, held),
-        average_density=density,
-    )
-    reasons = [*screened(found), *(f"in {c.name}, {c.other_growth}" for c in curves if c.other_growth)]
+    margin, decrement = zero / anticipated, min(curve.anticipated_decrement for curve in curves)
+    ratio = abs(speed) / rigid_support_speed(rotor, held)
+    reasons = [
+        *screened(margin, decrement, ratio, density),
+        *(f"in {c.name}, {c.other_growth}" for c in curves if c.other_growth),
+    ]
     return StabilityLevelOne(
         verdict=_verdict(reasons),
         level_two_required=bool(reasons),
@@ -264,9 +262,9 @@ def stability_level_one(
         anticipated_cross_coupling=anticipated,
         stage_cross_coupling=each,
         zero_cross_coupling=zero,
-        margin=found.margin,
-        anticipated_decrement=found.anticipated_decrement,
-        critical_speed_ratio=found.critical_speed_ratio,
+        margin=margin,
+        anticipated_decrement=decrement,
+        critical_speed_ratio=ratio,
         average_density=density,
         nodes={str(node): part for node, part in parts.items()},
         curves=curves,
@@ -642,10 +640,9 @@ class CrossCoupledRotor:
     def _stiffness(self) -> float:
         """Smallest static stiffness [N/m] of the rotor on its bearings, where cross-coupling acts."""
         exact = exact_structure(self.rotor)
-        held = second_order(exact, self.at).stiffness
-        factor = BandedFactor(held) if sparse.issparse(held) else DenseFactor(held)
+        solve = lu_solver(second_order(exact, self.at).stiffness)
         rows = [journal_rows(exact, name) for name in self.shares]
-        return 1.0 / max(float(np.linalg.norm(pair @ factor.solve(pair.T), 2)) for pair in rows)
+        return 1.0 / max(float(np.linalg.norm(pair @ solve(pair.T), 2)) for pair in rows)
 
     def under(self, cross_coupling: float) -> RotorEquilibrium:
         """Return the rest with a cross-coupling [N/m] that drives whirl in the sense of the rotation."""
@@ -661,7 +658,7 @@ class CrossCoupledRotor:
         }
         return replace(self.at, coefficients={**self.at.coefficients, **added})
 
-    def motions(self, cross_coupling: float) -> Motions:
+    def motions(self, cross_coupling: float) -> RotorModes:
         """Return all motions under a cross-coupling [N/m]."""
         return motions_about(self.rotor, self.under(cross_coupling))
 
@@ -714,7 +711,7 @@ def cross_coupled(
     synchronous = {
         name: coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
         for name, bearing in bearings.items()
-        if isinstance(bearing, RestingStates)
+        if hasattr(bearing, "rest_state")
     }
     at = replace(at, coefficients={**at.coefficients, **synchronous})
     return CrossCoupledRotor(
@@ -738,25 +735,6 @@ BORDER_RATIO = (2.5, 2.0)
 """Critical speed ratios of the border there, and below the first density."""
 
 
-class Screening(NamedTuple):
-    """What the criteria judge.
-
-    Attributes
-    ----------
-    margin : float [1]
-        Q0 / QA.
-    anticipated_decrement : float [1]
-    critical_speed_ratio : float [1]
-    average_density : float or None [kg/m3]
-        None for an axial rotor.
-    """
-
-    margin: float
-    anticipated_decrement: float
-    critical_speed_ratio: float
-    average_density: float | None
-
-
 def border_ratio(density: float) -> float:
     """Return the critical speed ratio [1] above which a density [kg/m3] is in region B."""
     if density > BORDER_DENSITY[1]:
@@ -769,16 +747,28 @@ def in_region_b(ratio: float, density: float) -> bool:
     return ratio > border_ratio(density)
 
 
-def screened(found: Screening) -> Iterator[str]:
-    """Yield why an analysis of level II is required; nothing where it is not."""
-    if found.anticipated_decrement < LEAST_DECREMENT:
-        yield f"delta_A = {found.anticipated_decrement:.3g}, below {LEAST_DECREMENT}"
-    if found.average_density is None:
+def screened(margin: float, decrement: float, speed_ratio: float, density: float | None) -> Iterator[str]:
+    """Yield why an analysis of level II is required; nothing where it is not.
+
+    Parameters
+    ----------
+    margin : float [1]
+        Q0 / QA.
+    decrement : float [1]
+        The anticipated one.
+    speed_ratio : float [1]
+        Critical speed ratio.
+    density : float or None [kg/m3]
+        Average one; None for an axial rotor.
+    """
+    if decrement < LEAST_DECREMENT:
+        yield f"delta_A = {decrement:.3g}, below {LEAST_DECREMENT}"
+    if density is None:
         return
-    if found.margin < LEAST_MARGIN:
-        yield f"Q0/QA = {found.margin:.3g}, below {LEAST_MARGIN:g}"
-    elif found.margin < SAFE_MARGIN and in_region_b(found.critical_speed_ratio, found.average_density):
+    if margin < LEAST_MARGIN:
+        yield f"Q0/QA = {margin:.3g}, below {LEAST_MARGIN:g}"
+    elif margin < SAFE_MARGIN and in_region_b(speed_ratio, density):
         yield (
-            f"Q0/QA = {found.margin:.3g}, below {SAFE_MARGIN:g}, in region B (critical speed ratio "
-            f"{found.critical_speed_ratio:.3g}, {found.average_density:.3g} kg/m3)"
+            f"Q0/QA = {margin:.3g}, below {SAFE_MARGIN:g}, in region B (critical speed ratio "
+            f"{speed_ratio:.3g}, {density:.3g} kg/m3)"
         )

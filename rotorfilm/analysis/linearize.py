@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..bearings.reaction import Complex, MemoryCoefficients, StateSpaceStiffness
 from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Dynamic, Linearization, Model, Remembering, RestingStates, settled
+from ..core.model import Array, Dynamic, Linearization, Model, Remembering, settled
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names
@@ -110,8 +110,9 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
 def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
     given = names(model.inputs)
     u = np.array([*at.position, 0.0, 0.0, at.speed])
-    if given == list(JOURNAL_INPUTS) and isinstance(model, RestingStates):
-        return OperatingPoint(x=model.rest_state(at.position, at.speed), u=u)
+    rest_state = getattr(model, "rest_state", None)
+    if given == list(JOURNAL_INPUTS) and rest_state is not None:
+        return OperatingPoint(x=rest_state(at.position, at.speed), u=u)
     if given != list(JOURNAL_INPUTS):
         raise InputError(
             "at must be an OperatingPoint for a model that is no film with the inputs "

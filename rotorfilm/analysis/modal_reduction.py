@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
-from typing import Any, NamedTuple, Protocol, TypeGuard, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
-from ..core.model import Array, JournalForce, Reaction, Settling, require_reactions
+from ..core.model import Array, JournalForce, at_rest, require_reactions
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
@@ -71,16 +71,16 @@ class BandedFactor:
         return found
 
 
-class DenseFactor:
-    """The LU factor of a dense matrix."""
+def lu_solver(matrix: Any) -> Callable[..., np.ndarray]:
+    """Return the function of a load (N,), and adjoint=False, that solves with a factored matrix.
 
-    def __init__(self, matrix: np.ndarray) -> None:
-        tally("factorizations")
-        self.factor = lu_factor(matrix, check_finite=False)
-
-    def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
-        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
-        return np.asarray(lu_solve(self.factor, load, trans=2 if adjoint else 0))
+    With `adjoint` it is the conjugate transpose that is solved; a sparse matrix may be complex.
+    """
+    if sparse.issparse(matrix):
+        return BandedFactor(matrix).solve
+    tally("factorizations")
+    factor = lu_factor(matrix, check_finite=False)
+    return lambda load, adjoint=False: np.asarray(lu_solve(factor, load, trans=2 if adjoint else 0))
 
 
 def band_order(matrix: Any) -> Array:
@@ -292,26 +292,12 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
 # Bearings that resist the tilt of a shaft too: what linear analysis asks of them, and where they act.
 
 
-class TiltingReaction(Protocol):
-    """A bearing with force and moment over the place (x, y, tilt_x, tilt_y) of the shaft [m], [rad]."""
+def resists_tilt(bearing: object) -> bool:
+    """Return whether a bearing has force and moment over the place (x, y, tilt_x, tilt_y) [m], [rad].
 
-    @property
-    def clearance(self) -> float:
-        """Radial way [m] on which the force may change much."""
-
-    @property
-    def planar(self) -> Reaction:
-        """The bearing with its tilts held."""
-
-    def tilting_force(self, place: Array, speed: float) -> Array:
-        """Return force [N] along x, y and moment [N m] about x, y on the shaft, shape (4,)."""
-
-    def tilting_coefficients(self, place: Array, speed: float) -> Coefficients:
-        """Return stiffness and damping, shape (4, 4), at a place of the shaft at rest."""
-
-
-def resists_tilt(bearing: object) -> TypeGuard[TiltingReaction]:
-    """Return whether a bearing resists tilts."""
+    It says them by `tilting_force(place, speed)`, shape (4,), and `tilting_coefficients(place, speed)` with
+    matrices of shape (4, 4); `planar` is the bearing with its tilts held.
+    """
     return hasattr(type(bearing), "tilting_force")
 
 
@@ -343,20 +329,20 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
     """
     if resists_tilt(bearing):
         return bearing.tilting_force(place, speed)
-    if not isinstance(bearing, Settling):
+    following = at_rest(bearing)
+    if following is None:
         force: Array = bearing.force(place, np.zeros(2), speed)
         return force
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnloadedPadWarning)
-        return np.asarray(bearing.at_rest().force(place, np.zeros(2), speed))
+        return np.asarray(following.force(place, np.zeros(2), speed))
 
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square, of the force that `force_at` returns."""
     if resists_tilt(bearing):
         return -bearing.tilting_coefficients(place, speed).stiffness
-    film: Any = bearing.at_rest() if isinstance(bearing, Settling) else bearing
-    slopes: Array = film.jacobian(place, np.zeros(2), speed)[:, :2]
+    slopes: Array = (at_rest(bearing) or bearing).jacobian(place, np.zeros(2), speed)[:, :2]
     return slopes
 
 

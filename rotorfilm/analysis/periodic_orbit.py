@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,16 +13,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.reaction import reach
-from ..core.errors import EquilibriumError, InputError, require_count, require_positive
+from ..core.errors import (
+    ContactError,
+    EquilibriumError,
+    InputError,
+    require_count,
+    require_positive,
+    require_vector,
+)
 from ..core.inputs import arguments
 from ..core.model import MOST_LEFT, Array, Reaction
-from ..core.readable import Drawable
+from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import Structure
 from .coefficients import coefficients
-from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
-from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
+from .compiled_march import LONGEST_TURN, STAGES, March, ModalArrays, StepTable, radau_scheme
+from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
 from .harmonic_balance import (
     CONVERGED,
@@ -583,7 +591,7 @@ class DrivenRotor(NamedTuple):
 
     def receptance(self, harmonics: int, frequency: float) -> Receptance:
         """Return what the journals answer at the frequency of the shaft."""
-        return Receptance(self.answers.journals, None)
+        return self.answers.journals, None
 
     def external(self, harmonics: int, periods: int, frequency: float) -> Array:
         """Return the series of the answer to weight and unbalance."""
@@ -672,3 +680,160 @@ def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, React
 def _by_bearing(rows: Array) -> Array:
     """Return (2 m, n) as (m, 2, n)."""
     return rows.reshape(-1, 2, rows.shape[1])
+
+
+# Which initial offsets of a rotor at rest decay, and which end in whirl.
+
+
+BLOCK = 10
+"""Turns between two looks at the amplitude."""
+
+SAMPLES = 200
+"""Samples of a block."""
+
+SETTLED = 0.01
+"""Amplitude, in that of the offset, below which a stable rest is taken to be reached."""
+
+STEADY = 1e-6
+"""Relative change of the amplitude from block to block at which whirl is taken to be steady."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BasinScan(Readable):
+    """Where a rotor goes from offsets of its journals.
+
+    Attributes
+    ----------
+    offsets : ndarray, shape (2, ...) [m]
+        Initial displacement of all journals from their rest.
+    amplitude : ndarray, shape (...) [1]
+        Largest distance of a journal from its rest / clearance over the last turns; nan where it hit
+        the wall.
+    whirls : ndarray of bool, shape (...)
+        Whether the rotor whirls in the end, or hit the wall.
+    eccentricity : ndarray, shape (...) [1]
+        Largest eccentricity ratio over the last turns.
+    rest : ndarray, shape (2 n_bearings,) [m]
+        Position of the journals at rest.
+    work : dict of str to int
+    """
+
+    offsets: Array
+    amplitude: Array
+    whirls: np.ndarray
+    eccentricity: Array
+    rest: Array
+    work: dict[str, int]
+
+
+@arguments
+def basin_scan(
+    mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6
+) -> BasinScan:
+    """Return which offsets from the rest decay and which end in whirl.
+
+    The rotor starts without velocity, its journals off their rest by the same displacement, the shaft bent as
+    little as that takes.
+
+    Parameters
+    ----------
+    mounted : MountedRotor
+        From `mount`, at constant speed, without unbalance.
+    offsets : array_like, shape (2, ...) [m]
+        Those that touch the wall count as whirl, with the amplitude nan.
+    turns : int
+        Longest run in turns of the shaft; it ends sooner once it is decided.
+    rtol : float [1]
+        As in `simulate_rotor`.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the rotor has an unbalance.
+    EquilibriumError
+        If there is no rest.
+    """
+    require_count("turns", turns)
+    require_positive("rtol", rtol)
+    grid = require_vector("offsets", offsets)
+    parts = take_apart(mounted)
+    if np.any(parts.structure.unbalance):
+        raise InputError("rotor must have no unbalance for a basin of whirl")
+    modal = modal_rotor(parts, parts.speed)
+    rest = rest_of(mounted, modal)
+    shapes = offset_shapes(parts)
+    state = _rest_state(modal, rest)
+    work: Counter[str] = Counter()
+    flat = grid.reshape(2, -1)
+    ends = np.array([_end(modal, rest, state, shapes @ offset, turns, rtol, work) for offset in flat.T])
+    amplitude, eccentricity, whirls = ends.reshape(*grid.shape[1:], 3).transpose(-1, *range(grid.ndim - 1))
+    return BasinScan(
+        offsets=grid,
+        amplitude=amplitude,
+        whirls=whirls > 0.0,
+        eccentricity=eccentricity,
+        rest=rest.position,
+        work=dict(work),
+    )
+
+
+def _end(
+    modal: ModalRotor, rest: Rest, state: Array, shape: Array, turns: int, rtol: float, work: Counter[str]
+) -> tuple[float, float, bool]:
+    """Return amplitude, eccentricity ratio and whether it whirls in the end, from one offset."""
+    start = state.copy()
+    start[: len(shape)] += shape
+    turn = 2.0 * np.pi / abs(modal.parts.speed)
+    march = March(
+        modal=modal,
+        state=modal.modal(start),
+        rtol=rtol,
+        longest=LONGEST_TURN * turn,
+        duration=turns * turn,
+    )
+    first = _amplitude(modal, rest, march.state[:, None].copy())[0]
+    before, amplitude, eccentricity = np.inf, first, 0.0
+    begin = 0.0
+    while begin < turns * turn * (1.0 - 1e-12):
+        stop = min(begin + BLOCK * turn, turns * turn)
+        try:
+            kept = march.to(stop, np.linspace(begin, stop, SAMPLES + 1)[1:])
+        except ContactError:
+            work.update(march.work)
+            return float("nan"), 1.0, True
+        amplitude, eccentricity = _amplitude(modal, rest, kept.T)
+        if amplitude < SETTLED * first or abs(amplitude - before) <= STEADY * amplitude:
+            break
+        before, begin = amplitude, stop
+    work.update(march.work)
+    return amplitude, eccentricity, amplitude > 0.5 * first or amplitude > 0.05
+
+
+def _amplitude(modal: ModalRotor, rest: Rest, kept: Complex) -> tuple[float, float]:
+    """Return the largest distance of a journal from its rest, and from its center, in clearances."""
+    motion = (modal.sense @ kept).real + modal.journal_rest[:, None]
+    position = motion.reshape(-1, 4, motion.shape[1])[:, :2]
+    lengths = modal.parts.lengths[:, None]
+    away = position - rest.position.reshape(-1, 2, 1)
+    return (
+        float((np.hypot(away[:, 0], away[:, 1]) / lengths).max()),
+        float((np.hypot(position[:, 0], position[:, 1]) / lengths).max()),
+    )
+
+
+def _rest_state(modal: ModalRotor, rest: Rest) -> Array:
+    """Return the state of the whole rotor at rest."""
+    none = np.zeros((len(rest.position), 1))
+    force = film_forces(modal, rest.position[:, None], none)[0][:, 0]
+    return modal.physical(-(modal.push[:, :-2] @ force) / modal.values)
+
+
+def offset_shapes(parts: Parts) -> Array:
+    """Return the displacement of the rotor per common offset of its journals, least bent, shape (N, 2)."""
+    stiffness, rows = parts.structure.stiffness, parts.rows
+    n, count = len(stiffness), len(rows)
+    size = float(np.abs(stiffness).max()) or 1.0
+    saddle = np.block([[stiffness / size, rows.T], [rows, np.zeros((count, count))]])
+    right = np.zeros((n + count, 2))
+    right[n:] = np.tile(np.eye(2), (count // 2, 1))
+    return np.asarray(np.linalg.lstsq(saddle, right, rcond=None)[0][:n])

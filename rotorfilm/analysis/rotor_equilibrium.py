@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -283,7 +283,7 @@ class RestEquations:
 
     def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
-        bearing = self.given[k]
+        bearing: Any = self.given[k]
         if resists_tilt(bearing):
             still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
             place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position

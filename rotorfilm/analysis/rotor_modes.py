@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eig
+from scipy.optimize import linear_sum_assignment
 
-from ..core.errors import InputError, require_finite, require_number, require_positive
+from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
 from ..core.inputs import arguments
 from ..core.model import Array, Reaction
-from ..core.readable import Readable
+from ..core.readable import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
+from .critical import Crossing, crossings
 from .frequency_dependent import motion_by_memory
-from .modal_reduction import COUNTS, TOLERANCE, Condensed, counted, models, tally, usual_frequency
+from .modal_reduction import (
+    COUNTS,
+    TOLERANCE,
+    Condensed,
+    CountedTuple,
+    counted,
+    models,
+    tally,
+    usual_frequency,
+)
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import remembering, rest_near, small_motion
-from .truncation_error import WholeRotor, roundoff, whirl_errors
+from .rotor_matrices import WholeRotor, remembering, rest_near, roundoff, small_motion, whirl_errors
 
 _OSCILLATES = 1e-6
 
@@ -140,14 +150,10 @@ def rotor_modes(
     return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
 
-class Motions(RotorModes):
-    """The whirls at a speed, those beyond `highest_frequency` too, after motions that do not oscillate."""
-
-
 def motions_at(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
-) -> Motions:
-    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
+) -> RotorModes:
+    """Return the whirls at a speed, also beyond `highest_frequency`, and motions that do not oscillate."""
     require_flexible(rotor)
     speed = require_number("speed", speed)
     require_range(highest_frequency)
@@ -158,7 +164,7 @@ def motions_at(
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
-def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> Motions:
+def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> RotorModes:
     """Return the same about a rest that is known, with its K and C of the bearings."""
     known_to = usual_frequency(rotor, at.speed)
     found = (_motions(model, at, known_to) for model in models(rotor, known_to))
@@ -171,32 +177,32 @@ def require_range(highest_frequency: float) -> None:
         require_positive("highest_frequency", highest_frequency)
 
 
-def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
+def whirls_of(motions: RotorModes, highest_frequency: float = math.inf) -> RotorModes:
     """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
     whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.highest_frequency)
     whirls &= motions.frequency <= highest_frequency
-    return RotorModes(
-        speed=motions.speed,
+    return replace(
+        motions,
         eigenvalues=motions.eigenvalues[whirls],
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
-        error=motions.error,
         roundoff=np.broadcast_to(motions.roundoff, whirls.shape)[whirls],
         highest_frequency=min(highest_frequency, motions.highest_frequency),
     )
 
 
-def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> Motions:
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorModes:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(at.speed))]
-    shapes = np.hstack([part.shapes for part in parts])
-    return Motions(
+    parts = [_part(model, at, part, known_to) for part in _bands(model.structure, abs(at.speed))]
+    values, vectors, errors, rounded = zip(*parts, strict=True)
+    shapes = np.hstack(vectors)
+    return RotorModes(
         speed=at.speed,
-        eigenvalues=np.concatenate([part.values for part in parts]),
+        eigenvalues=np.concatenate(values),
         shapes=model.lifted(shapes),
         direction=directions(model.structure.mass, shapes, at.speed),
-        error=max(part.error for part in parts),
-        roundoff=np.concatenate([part.roundoff for part in parts]),
+        error=max(errors),
+        roundoff=np.concatenate(rounded),
         highest_frequency=math.inf if model.space is None else known_to,
     )
 
@@ -209,73 +215,65 @@ def directions(mass: Any, shapes: np.ndarray, speed: float) -> Array:
     return np.asarray((-1.0 if speed < 0.0 else 1.0) * (forward - backward) / (forward + backward))
 
 
-class _Band(NamedTuple):
-    """Frequencies low <= Im s < high that have the hysteresis of one frequency [rad/s]."""
+Band = tuple[float, float, float]
+"""Frequencies low <= Im s < high that have the hysteresis of one frequency [rad/s]: that one, low, high."""
 
-    frequency: float
-    low: float
-    high: float
-
-
-class _Part(NamedTuple):
-    """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
-
-    values: NDArray[np.complex128]
-    shapes: NDArray[np.complex128]
-    error: float
-    roundoff: Array
+Part = tuple[NDArray[np.complex128], NDArray[np.complex128], float, Array]
+"""Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
 
 
-def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
+def _bands(structure: Structure, turn: float) -> tuple[Band, ...]:
     if structure.hysteresis is None:
-        return (_Band(0.0, 0.0, math.inf),)
-    return _Band(0.5 * turn, 0.0, turn), _Band(2.0 * turn + 1.0, turn, math.inf)
+        return ((0.0, 0.0, math.inf),)
+    return (0.5 * turn, 0.0, turn), (2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) -> _Part:
+def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -> Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
-    system = small_motion(model.structure, at, band.frequency)
+    frequency, low, high = band
+    system = small_motion(model.structure, at, frequency)
     tally("eigenproblems")
     matrix = system.state_matrix()
     values, left, vectors = eig(matrix, left=True)
     rounded = roundoff(matrix, left, vectors)
     shapes = vectors[: len(system.mass)]
-    whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
-    chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
+    whole, lifted = WholeRotor(model.whole, at, frequency), model.lifted(shapes)
+    chosen = _is_held(whole, values, lifted) & (values.imag >= low) & (values.imag < high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if remembering(at):
-        return _remembered(model, at, band, known_to, (values[order], shapes[:, order], rounded[order]))
+        return _remembered(model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order]))
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
         ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
         error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
-    return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order])
+    return values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order]
 
 
 def _remembered(
     model: Condensed,
     at: RotorEquilibrium,
-    band: _Band,
+    frequency: float,
     known_to: float,
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
-) -> _Part:
+) -> Part:
     """Return the motions on films that remember next to those with K and C of one frequency."""
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
     for start, shape, rounding in zip(starts, shapes.T, rounded, strict=True):
-        one = motion_by_memory(model.structure, at, band.frequency, complex(start), shape)
-        if one is None or any(abs(one.value - other) <= _SAME * abs(other) for other, *_ in found):
+        one = motion_by_memory(model.structure, at, frequency, complex(start), shape)
+        if one is None or any(abs(one[0] - other) <= _SAME * abs(other) for other, *_ in found):
             continue
-        found.append((one.value, one.right, float(rounding)))
-        if model.space is not None and oscillates(np.array(one.value)) and abs(one.value) <= known_to:
-            whole = WholeRotor(model.whole, rest_near(at, one.value), band.frequency)
-            ends = (model.lifted(vector[:, None]) for vector in (one.right, one.left))
-            error = max(error, float(whirl_errors(model, whole, np.array([one.value]), *ends)[0]))
+        s, *vectors = one
+        found.append((s, vectors[0], float(rounding)))
+        if model.space is not None and oscillates(np.array(s)) and abs(s) <= known_to:
+            whole = WholeRotor(model.whole, rest_near(at, s), frequency)
+            ends = (model.lifted(vector[:, None]) for vector in vectors)
+            error = max(error, float(whirl_errors(model, whole, np.array([s]), *ends)[0]))
     found.sort(key=lambda motion: motion[0].imag)
     values = np.array([value for value, *_ in found], dtype=complex)
-    vectors = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
-    return _Part(values, vectors.T, error, np.array([rounding for *_, rounding in found]))
+    right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
+    return values, right.T, error, np.array([rounding for *_, rounding in found])
 
 
 def _is_held(
@@ -301,3 +299,251 @@ def speeds_in_turn(speeds: ArrayLike) -> Array:
     if not grid.size or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
         raise InputError(f"speeds must be a list of rising or of falling numbers, got {speeds!r}")
     return grid
+
+
+# Whirl modes over speed, and critical speeds.
+
+
+PEAK_SPEEDS = 21
+"""Speeds across a resonance, two half-widths to each side."""
+
+LEAST_DECREMENT = 1e-6
+"""Logarithmic decrement below which a resonance counts as undamped."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Campbell(Whirls, Drawable):
+    """Whirl modes over speed.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (n_speeds,) [rad/s]
+    eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
+        By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
+    direction : ndarray, shape (n_modes, n_speeds) [1]
+        As in `RotorModes`; nan likewise.
+    frequency : ndarray, shape (n_modes, n_speeds) [rad/s]
+        Damped frequency, the imaginary part of the eigenvalues.
+    log_decrement : ndarray, shape (n_modes, n_speeds) [1]
+        Negative where the whirl grows.
+    error : float [1]
+        Largest of those of `RotorModes`.
+    roundoff : ndarray, shape (n_modes, n_speeds) [1/s]
+        As in `RotorModes`; nan likewise.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out; inf where none is.
+    work : dict of str to int
+        As `RotorModes.work`, of all speeds.
+    """
+
+    speeds: Array
+    eigenvalues: NDArray[np.complex128]
+    direction: Array
+    error: float = 0.0
+    roundoff: Array | float = 0.0
+    highest_frequency: float = math.inf
+    work: dict[str, int] = field(default_factory=dict, compare=False)
+
+
+_BEYOND = 1.5
+"""How far modes of a rotor of many elements are followed / the highest frequency."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CriticalSpeed(Readable):
+    """A speed at which a whirl has the frequency of the rotation.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+        Of the sign of the speeds searched.
+    log_decrement : float [1]
+        Of that whirl.
+    direction : float [1]
+        As in `RotorModes`; an unbalance excites forward whirl.
+    """
+
+    speed: float
+    log_decrement: float
+    direction: float
+
+
+@arguments
+def campbell(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speeds: ArrayLike,
+    highest_frequency: float = math.inf,
+) -> Campbell:
+    """Return the whirl modes of a rotor on its films over a range of speeds.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
+        the next.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out. If infinite, as in `rotor_modes`, so that a shaft of more than
+        19 elements has only its lower modes; `Campbell.highest_frequency` tells it.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid = speeds_in_turn(speeds)
+    require_range(highest_frequency)
+    with counted(*COUNTS) as work:
+        points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
+    tracks = tracked(points, rotor.assembly.mass)
+    values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
+    direction, rounded = np.full((2, len(tracks), len(grid)), math.nan)
+    for row, track in enumerate(tracks):
+        for column, k in track.items():
+            values[row, column] = points[column].eigenvalues[k]
+            direction[row, column] = points[column].direction[k]
+            rounded[row, column] = np.asarray(points[column].roundoff)[k]
+    lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
+    order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
+    return Campbell(
+        speeds=grid,
+        eigenvalues=values[order],
+        direction=direction[order],
+        error=max(point.error for point in points),
+        roundoff=rounded[order],
+        highest_frequency=min(highest_frequency, *(point.highest_frequency for point in points)),
+        work=dict(work),
+    )
+
+
+@arguments
+def critical_speeds(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> CountedTuple[CriticalSpeed]:
+    """Return all damped critical speeds, rising: where a whirl has the frequency of the rotation.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign: the range searched, and the steps in which that begins.
+
+    Returns
+    -------
+    CountedTuple
+        A tuple of `CriticalSpeed` with the counters `work`.
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds, or between them.
+    ConvergenceError
+        Of intervals in which the list cannot be proven complete, as where coefficients of a bearing jump and
+        a whirl is slower than the rotation on one side only, or of a search that takes too many equilibria;
+        the message names the likely cause. `partial` has those found in all of the range.
+
+    Notes
+    -----
+    Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and small numbers.
+    They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton 1970), and all other
+    eigenvalues by Gershgorin's circles. A step counts as proven where no other eigenvalue comes to the line
+    Im s = |speed|, and those that may, have a frequency that grows more slowly than the speed all along, or
+    faster all along: each then crosses once at most, and Newton's method tells whether it does. Other steps
+    are halved, up to 14 times.
+
+    The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
+    solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
+    as the parabola through both ends and the middle, and on films that remember, `JFOFilm`, for whirls with
+    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
+    is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
+    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
+    is checked in all coordinates besides, by Sylvester's law of inertia.
+    """
+    grid = speeds_in_turn(speeds)
+    require_flexible(rotor)
+    with counted(*COUNTS) as work:
+        try:
+            found = crossings(rotor, bearings, grid)
+        except ConvergenceError as failure:
+            failure.partial = CountedTuple(_listed(rotor, failure.partial or ()), work)
+            raise
+    return CountedTuple(_listed(rotor, found), work)
+
+
+def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpeed]:
+    return [
+        CriticalSpeed(
+            speed=one.speed,
+            log_decrement=float(log_decrement(one.value)),
+            direction=float(directions(rotor.assembly.mass, one.right[:, None], one.speed)[0]),
+        )
+        for one in found
+    ]
+
+
+@arguments
+def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
+    """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
+
+    Parameters
+    ----------
+    speeds : array_like, shape (n,) [rad/s]
+        Rising.
+    critical : sequence of CriticalSpeed
+        As `critical_speeds` returns them. Those without damping are left out: their peak has no height.
+
+    Returns
+    -------
+    ndarray, shape (m,) [rad/s]
+        Rising, within the range of `speeds`: these, and 21 across each resonance, two half-widths to each
+        side. The half-width of a peak is speed log_decrement / (2 pi).
+    """
+    grid, width = np.asarray(speeds, dtype=float), np.linspace(-2.0, 2.0, PEAK_SPEEDS)
+    damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
+    near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
+    every = np.unique(np.concatenate([grid, *near]))
+    within: Array = every[(every >= grid[0]) & (every <= grid[-1])]
+    return within
+
+
+# Which whirl at one speed is which at another.
+
+
+def matches(before: RotorModes, after: RotorModes, mass: Any) -> dict[int, int]:
+    """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
+    if not (before.eigenvalues.size and after.eigenvalues.size):
+        return {}
+    product = np.abs(before.shapes.conj().T @ (mass @ after.shapes)) ** 2
+    sizes = [np.sum(m.shapes.conj() * (mass @ m.shapes), axis=0).real for m in (before, after)]
+    likeness = product / np.outer(*sizes)
+    scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
+    apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale
+    cost = apart + 0.2 * (1.0 - likeness)
+    rows, columns = linear_sum_assignment(cost)
+    return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
+
+
+def tracked(points: list[RotorModes], mass: Any) -> list[dict[int, int]]:
+    """Return, for each mode, its index among the modes of each speed at which it was found."""
+    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
+    current = list(range(len(tracks)))
+    for column in range(1, len(points)):
+        before, after = points[column - 1], points[column]
+        partner = matches(before, after, mass)
+        following = []
+        for k in range(len(after.eigenvalues)):
+            if k in partner:
+                following.append(current[partner[k]])
+            else:
+                tracks.append({})
+                following.append(len(tracks) - 1)
+            tracks[following[-1]][column] = k
+        current = following
+    return tracks

@@ -18,8 +18,8 @@ from ..core.readable import Readable
 from ..rotors import FlexibleRotor
 from .frequency_dependent import require_all_growing
 from .modal_reduction import COUNTS, CountedTuple, counted
-from .rotor_modes import Motions, motions_at, oscillates, speeds_in_turn
-from .truncation_error import value_error
+from .rotor_matrices import value_error
+from .rotor_modes import RotorModes, motions_at, oscillates, speeds_in_turn
 
 NEUTRAL = 1e-9
 """Growth rate / frequency that is roundoff."""
@@ -198,7 +198,7 @@ class _Growth(NamedTuple):
 
     rates: Array
     places: NDArray[np.intp]
-    motions: Motions
+    motions: RotorModes
 
     @property
     def growing(self) -> int:

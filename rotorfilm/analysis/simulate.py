@@ -70,7 +70,7 @@ def simulate(
     """Return the motion of a rotor on a film from t = 0.
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
-    Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
+    Jacobian of both, so no coupling error arises. The integration stops at the `breakpoints` of the rotor.
     The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
     kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as
     `JFOFilm`, with the rotor in one Newton step, by differences of second order.

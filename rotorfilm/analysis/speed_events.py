@@ -14,7 +14,6 @@ from ..core.model import Array, Reaction
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
-from .campbell import critical_speeds
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
@@ -29,7 +28,7 @@ from .rotor_matrices import (
     second_order,
     whirl_near,
 )
-from .rotor_modes import RotorModes, rotor_modes
+from .rotor_modes import RotorModes, critical_speeds, rotor_modes
 from .rotor_threshold import NEUTRAL, rotor_threshold
 
 NEAR = 1.1

@@ -24,7 +24,7 @@ from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
 from ..rotors.structure import mean_plane
-from .closed_loop import HOUSING, synchronous_response
+from .closed_loop import HOUSING, frequency_response, synchronous_response
 from .rotor_equilibrium import RotorEquilibrium
 from .rotor_matrices import journal_rows
 from .rotor_modes import rotor_modes
@@ -404,15 +404,8 @@ def tracked_response(
     table = np.array([run.signals[name] for name in names])
     phasors = np.array([_fitted(angle, table[:, chosen]) for chosen, angle in windows])
     order = np.argsort(speeds)
-    import control
-
-    return control.FrequencyResponseData(
-        phasors[order].T[:, None],
-        speeds[order],
-        inputs=["unbalance"],
-        outputs=names,
-        name="tracked_response",
-    )
+    columns = [row[:, None] for row in phasors[order]]
+    return frequency_response(columns, speeds[order], ["unbalance"], names, "tracked_response")
 
 
 def _windows(time: Array, speed: SpeedProfile, turns: int) -> tuple[Array, list[tuple[Array, Array]]]:
