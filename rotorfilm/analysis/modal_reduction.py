@@ -158,7 +158,7 @@ def _loads(full: Structure) -> Array:
     housings = np.eye(n)[list(full.supports)]
     both = [full.journals[:, :n], full.journals[:, n:], housings]
     both += [full.weight.reshape(2, n), full.unbalance[:n].T, full.unbalance[n:].T]
-    both += [readout.row[: 2 * n].reshape(2, n) for readout in full.readouts]
+    both += [row[: 2 * n].reshape(2, n) for _, row in full.readouts]
     both += [] if full.tilts is None else [full.tilts[:, :n], full.tilts[:, n:]]
     rows = np.vstack(both)
     return np.asarray(rows[np.any(rows, axis=1)].T)

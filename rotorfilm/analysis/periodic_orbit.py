@@ -539,7 +539,7 @@ def rotor_answers(
     # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); turning backward mirrors it.
     turning = speed**2 * structure.unbalance @ np.array([1.0, -1.0j * np.sign(speed)])
     answers, external, seen = [], np.zeros((2, len(rows)), dtype=complex), {}
-    own = {readout.signal.name: readout.row[: len(structure.weight)] for readout in structure.readouts}
+    own = {signal.name: row[: len(structure.weight)] for signal, row in structure.readouts}
     for k in range(samples // 2 + 1):
         whole = with_hysteresis(structure, system, k * turn, speed).dynamic_stiffness(k * turn)
         load = structure.weight if k == 0 else turning

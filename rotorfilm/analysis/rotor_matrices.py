@@ -384,7 +384,7 @@ def seen_rows(structure: Structure) -> Array:
     Forces on the ground follow from the displacements of housings.
     """
     n = len(structure.weight)
-    probes = [readout.row[None, :n] for readout in structure.readouts if readout.signal.unit == "m"]
+    probes = [row[None, :n] for signal, row in structure.readouts if signal.unit == "m"]
     housings = [] if structure.housings is None else [structure.housings]
     return np.concatenate([structure.journals, *housings, *probes])
 

@@ -19,10 +19,10 @@ from ..analysis.rotor_matrices import (
     whirl_near,
 )
 from ..analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     SpeedEvent,
     Start,
-    Threshold,
     Whirl,
     on_films,
     value_rate,
@@ -71,7 +71,7 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-EVENTS: dict[str, SpeedEvent] = {"critical_speed": Critical(), "whirl_threshold": Threshold()}
+EVENTS: dict[str, SpeedEvent] = {"critical_speed": CRITICAL, "whirl_threshold": THRESHOLD}
 """What happens at the speeds that may be asked for."""
 
 SHAFT_ROUNDOFF = float(np.finfo(float).eps)
@@ -245,7 +245,7 @@ class ShaftRung(BaseRung):
 
     def moving(self, found: Found) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
-        if not isinstance(self.event, Threshold):
+        if self.event is not THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -137,22 +136,22 @@ class MountedRotor(AroundRotor):
         values = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
         inputs = self._inputs(values, u)
         rotor = self.rotor.linearization(t, own, inputs)
-        slopes = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
+        A, forces, further = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
         taken, free = self._taken, list(self._free)
-        forces, driven = slopes.forces, np.zeros((len(slopes.forces), len(free)))
+        driven = np.zeros((len(forces), len(free)))
         if self._heavy:
             rates, sensed = self.rotor.derivative(t, own, inputs), self.rotor.output(t, own, inputs)
             columns = rotor.B[:, taken], rotor.B[:, free]
             forces, driven = self._heavy.slopes(rotor, *columns, sensed, forces, rates)
-        states = len(slopes.A) - len(rotor.A)
+        states = len(A) - len(rotor.A)
         push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ forces
         seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ forces
         by_input = rotor.B[:, free] + rotor.B[:, taken] @ driven
         return Linearization(
-            np.vstack([push, slopes.A[len(rotor.A) :]]),
+            np.vstack([push, A[len(rotor.A) :]]),
             np.vstack([by_input, np.zeros((states, len(free)))]),
-            np.vstack([seen, forces, slopes.further]),
-            np.vstack([rotor.D[:, free], driven, np.zeros((len(slopes.further), len(free)))]),
+            np.vstack([seen, forces, further]),
+            np.vstack([rotor.D[:, free], driven, np.zeros((len(further), len(free)))]),
         )
 
     def native(self) -> NativeSpec | None:
@@ -228,16 +227,8 @@ class MountedRotor(AroundRotor):
         return tuple(k for k in range(len(self.rotor.inputs)) if k not in self._taken)
 
 
-class _Slopes(NamedTuple):
-    """Derivatives by the whole state: of it, where bearings have states; of forces and further outputs."""
-
-    A: Array
-    forces: Array
-    further: Array
-
-
-def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> _Slopes:
-    """Return the derivatives of all bearings by the states of the rotor, `size`, and their own."""
+def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> tuple[Array, Array, Array]:
+    """Return A, forces, further outputs of all bearings by the states of the rotor, `size`, and their own."""
     total = size + sum(len(part.A) for part in parts)
     A, forces, further = np.zeros((total, total)), [np.zeros((0, total))], [np.zeros((0, total))]
     first = size
@@ -249,7 +240,7 @@ def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) 
         forces.append(seen[:2])
         further.append(seen[2:])
         first = inner.stop
-    return _Slopes(A, np.concatenate(forces), np.concatenate(further))
+    return A, np.concatenate(forces), np.concatenate(further)
 
 
 @arguments

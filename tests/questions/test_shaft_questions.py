@@ -21,9 +21,9 @@ from rotorfilm.analysis import (
 )
 from rotorfilm.analysis.periodic_orbit import rest_position, rotor_answers
 from rotorfilm.analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     Start,
-    Threshold,
     on_films,
     value_rate,
     whirl_near,
@@ -106,9 +106,9 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
     nodal = rungs[0].model.nodal(whirl_near(structure, at, forward, 1j * forward, shape)[1])
     for rung in rungs[:-1]:
         whirl, _ = whirl_of(
-            Critical(), rung.model.rotor, rung.films, Start(forward, 1j * forward, rung.model.seen(nodal))
+            CRITICAL, rung.model.rotor, rung.films, Start(forward, 1j * forward, rung.model.seen(nodal))
         )
-        rate = Critical().rate(value_rate(rung.model.rotor.structure, whirl, rung.films))
+        rate = CRITICAL.rate(value_rate(rung.model.rotor.structure, whirl, rung.films))
         moved = rung._corrected(whirl, rate, trusted=True)
         error, about = abs(whirl.at.speed / exact - 1.0), abs(moved.speed / whirl.at.speed - 1.0)
         # bearings of 1e13 N/m give way by some 4e-8
@@ -449,7 +449,7 @@ def test_divergence_is_no_whirl_threshold():
     film = TabulatedBearing(speeds=[10.0, 100.0], stiffness=springs, damping=[100.0 * np.eye(2)] * 2)
     message = r"10 to 100 rad/s: the rotor departs without whirl \(divergence\) from 55 rad/s on"
     with pytest.raises(AbsentError, match=message):
-        Threshold().sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
+        THRESHOLD.sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
 
 
 def test_a_speed_that_only_a_cheap_model_finds_in_the_range_is_no_answer():

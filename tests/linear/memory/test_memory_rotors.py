@@ -28,7 +28,7 @@ from rotorfilm import (
 )
 from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
 from rotorfilm.analysis.frequency_dependent import rotor_growing
-from rotorfilm.analysis.speed_events import Critical, Start, value_rate, whirl_of
+from rotorfilm.analysis.speed_events import CRITICAL, Start, value_rate, whirl_of
 from rotorfilm.bearings.pads.pad_build import PadResolution
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
@@ -178,7 +178,7 @@ def test_a_critical_speed_on_pads_has_their_stiffness_at_the_exponent():
     rotor, films = shaft(2), Turning(PADS)
     first = critical_speeds(rotor, PADS, [140.0, 155.0])[0]
     start = Start(first.speed * 1.01, 1j * first.speed, np.ones(len(rotor.structure.weight), dtype=complex))
-    whirl, _ = whirl_of(Critical(), rotor, films, start)
+    whirl, _ = whirl_of(CRITICAL, rotor, films, start)
     assert whirl.at.speed == pytest.approx(first.speed, rel=1e-8)
     assert imbalance(pad_equations(rotor, whirl.at, whirl.value), whirl.right) < 1e-9
     near = [rotor_modes(rotor, PADS, first.speed * share, 400.0).eigenvalues for share in (0.999, 1.001)]
