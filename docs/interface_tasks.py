@@ -39,7 +39,6 @@ TASKS = {
     "Stability, critical speeds, Campbell diagrams": (
         "analysis.whirl",
         "analysis.rotor_modes",
-        "analysis.rotor_threshold",
         "analysis.continuation",
         "core.results.WhirlThreshold",
     ),

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from ..core.sources import show
     from .api617 import (
         AxialStage as AxialStage,
         DisturbingStage as DisturbingStage,
@@ -97,14 +96,12 @@ if TYPE_CHECKING:
         Campbell as Campbell,
         CriticalSpeed as CriticalSpeed,
         RotorModes as RotorModes,
+        RotorThreshold as RotorThreshold,
+        StabilityChange as StabilityChange,
         campbell as campbell,
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
         rotor_modes as rotor_modes,
-    )
-    from .rotor_threshold import (
-        RotorThreshold as RotorThreshold,
-        StabilityChange as StabilityChange,
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
-from ..core.model import Array, Reaction, carries_load
+from ..core.model import Array, Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
@@ -176,7 +176,7 @@ class StabilityLevelOne(Drawable):
 @arguments
 def stability_level_one(
     rotor: ShaftRotor,
-    cases: Mapping[str, Mapping[str, Reaction]],
+    cases: Mapping[str, Bearings],
     speed: float,
     stages: Sequence[DisturbingStage],
     *,
@@ -277,9 +277,7 @@ def _verdict(reasons: Sequence[str]) -> str:
     return f"an analysis of level II is required: {'; '.join(reasons)}"
 
 
-def _require_cases(
-    cases: Mapping[str, Mapping[str, Reaction]], stages: Sequence[DisturbingStage], speed: float
-) -> None:
+def _require_cases(cases: Mapping[str, Bearings], stages: Sequence[DisturbingStage], speed: float) -> None:
     if not cases:
         raise InputError("cases must hold at least one set of bearings, got none")
     if not stages:
@@ -309,7 +307,7 @@ def _density(stages: Sequence[DisturbingStage], given: float | None) -> float | 
     return None
 
 
-def _bearings(rotor: ShaftRotor, cases: Mapping[str, Mapping[str, Reaction]]) -> list[str]:
+def _bearings(rotor: ShaftRotor, cases: Mapping[str, Bearings]) -> list[str]:
     """Return the names of the stations without a seal in any case."""
     seals = {name for case in cases.values() for name, one in case.items() if not carries_load(one)}
     return [station.name for station in rotor.stations if station.name not in seals]
@@ -378,9 +376,7 @@ LEAST_FINAL = 0.1
 
 
 @arguments
-def stability_level_two(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float
-) -> StabilityLevelTwo:
+def stability_level_two(rotor: ShaftRotor, bearings: Bearings, speed: float) -> StabilityLevelTwo:
     """Return whether the final log decrement of the first forward whirl is what API 617 wants, above .1.
 
     A rotor of which anything else grows, as a backward whirl or another mode, is not acceptable either.
@@ -700,7 +696,7 @@ _TURN: Array = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 def cross_coupled(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float, nodes: Mapping[int, float]
+    rotor: ShaftRotor, bearings: Bearings, speed: float, nodes: Mapping[int, float]
 ) -> CrossCoupledRotor:
     """Return a rotor at rest, with a station at each node for its part of a cross-coupling."""
     names = {node: f"cross_coupling_{node}" for node in nodes}

@@ -237,21 +237,15 @@ def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: i
     held = any(spring.stiffness > 0.0 for spring in springs)
     order, swings = np.argsort(size), values.imag > _SWINGS * size
     whole = [] if held else [0.0j]
-    chosen = [k for k in order[_whole_count(values[order[0]]) if whole else 0 :] if swings[k]]
+    # A free shaft in one piece has 0 twice, by roundoff two real ones or a pair; with dampers once.
+    first = 0 if held else 1 if values[order[0]].imag == 0.0 else 2
+    chosen = [k for k in order[first:] if swings[k]]
     shapes = [np.ones(n, dtype=complex)] if whole else []
     shapes += [vectors[:n, k] for k in chosen]
     nodes = np.array(shapes).T[: len(rotor.elements) + 1]
     largest = np.array([column[np.argmax(np.abs(column))] for column in nodes.T])
     found = np.array([*whole, *values[chosen]], dtype=complex)[:count]
     return StraightModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
-
-
-def _whole_count(smallest: complex) -> int:
-    """Return how many of the smallest eigenvalues are the motion of a free shaft, one piece, as a whole.
-
-    That is 0 twice, by roundoff two real ones, of which none swings, or a pair. With dampers it is 0 once.
-    """
-    return 1 if smallest.imag == 0.0 else 2
 
 
 # A shaft under static forces along its axis, and what its tension does to bending.

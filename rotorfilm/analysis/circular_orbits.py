@@ -28,7 +28,7 @@ from ..core.model import (
 )
 from ..core.readable import Drawable, Item, Readable, items_of
 from ..core.results import CircularOrbit, Trajectory
-from ..core.signals import Signal, force_outputs
+from ..core.signals import Signal, signals_of
 from ..rotors import RigidRotor
 from ..rotors.structure import rotating_linearization
 from .coefficients import coefficients
@@ -650,6 +650,9 @@ class _Response:
 # Dampers for python-control: small motion about the center, and about a circular orbit in turning axes.
 
 
+TURNING = ("radial", "tangential")
+"""Axes that turn with the orbit."""
+
 _SYMMETRY = 1e-9
 
 
@@ -783,29 +786,19 @@ def orbit_system(
     added = orbit_mass(reaction, position, velocity, orbit.speed)
     matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
-    inputs = tuple(
-        Signal(name=f"force_{axis}", unit="N", nominal=nominal, description=f"{axis} force on the rotor")
-        for axis in ("radial", "tangential")
-    )
+    inputs = signals_of(*((f"force_{axis}", "N", nominal, f"{axis} force on the rotor") for axis in TURNING))
+    housing = ((f"housing_{axis}", "N", nominal, f"{axis} force on the housing") for axis in TURNING)
     states = _turning_states(reaction.clearance, abs(orbit.speed))
-    return state_space(matrices, inputs, (*states, *_housing_outputs(nominal)), states, name)
+    return state_space(matrices, inputs, (*states, *signals_of(*housing)), states, name)
 
 
 def _turning_states(length: float, speed: float) -> tuple[Signal, ...]:
     """Return the signals of the position in turning axes and of its rates."""
-    return tuple(
-        Signal(name=f"{axis}{rate}", unit=unit, nominal=nominal, description=f"{axis} displacement{rate}")
-        for rate, unit, nominal in (("", "m", length), ("_rate", "m/s", length * speed))
-        for axis in ("radial", "tangential")
+    kinds = (("", "m", length), ("_rate", "m/s", length * speed))
+    rows = (
+        (axis + of, unit, size, f"{axis} displacement{of}") for of, unit, size in kinds for axis in TURNING
     )
-
-
-def _housing_outputs(nominal: float) -> tuple[Signal, ...]:
-    unit = force_outputs(nominal)[0].unit
-    return tuple(
-        Signal(name=f"housing_{axis}", unit=unit, nominal=nominal, description=f"{axis} force on the housing")
-        for axis in ("radial", "tangential")
-    )
+    return signals_of(*rows)
 
 
 def _isotropic(name: str, matrix: np.ndarray) -> float:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import block_diag, lu_factor, lu_solve
 
 from ..bearings.reaction import added_mass
 from ..core.errors import (
@@ -23,6 +23,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import (
     Array,
+    Bearings,
     Dynamic,
     JournalForce,
     Linearization,
@@ -42,7 +43,7 @@ from .linearize import OperatingPoint, checked_vector, control_system, film_stat
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import LeftOut, journal_rows, remembering, rest_near, second_order, small_motion
-from .rotor_threshold import first_growing
+from .rotor_modes import first_growing
 
 if TYPE_CHECKING:
     import control
@@ -303,7 +304,7 @@ def base_response(
 
 @arguments
 def unbalance_response(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return the synchronous response of a rotor to its own unbalance.
 
@@ -351,7 +352,7 @@ def unbalance_response(
 
 
 def driven_by_unbalance(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return `unbalance_response` without looking at stability."""
     require_flexible(rotor)
@@ -365,7 +366,7 @@ def driven_by_unbalance(
 
 def synchronous_response(
     rotor: FlexibleRotor,
-    bearings: Mapping[str, Reaction],
+    bearings: Bearings,
     speeds: ArrayLike,
     loads: Array,
     amplitudes: Callable[[float], np.ndarray],
@@ -387,7 +388,7 @@ def synchronous_response(
 
 @arguments
 def rotor_transmissibility(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return the forces on all housings per force on each journal that turns with the shaft.
 
@@ -452,7 +453,7 @@ Driven = Callable[[float, np.ndarray], tuple[RotorEquilibrium, np.ndarray] | Non
 
 
 def driven_response(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], loads: Array, highest_frequency: float
+    rotor: FlexibleRotor, bearings: Bearings, loads: Array, highest_frequency: float
 ) -> Callable[[float, np.ndarray], tuple[RotorEquilibrium, np.ndarray]]:
     """Return the response of a rotor on its films, driven at the frequency of its rotation, as `Driven`.
 
@@ -479,7 +480,7 @@ def driven_response(
     return at
 
 
-def _driven(model: Condensed, bearings: Mapping[str, Reaction], loads: Array) -> Driven:
+def _driven(model: Condensed, bearings: Bearings, loads: Array) -> Driven:
     """Return the same in some of the shapes."""
     seen, left_out = model.seen(loads), None if model.space is None else LeftOut(model, loads)
     last: RotorEquilibrium | None = None
@@ -532,7 +533,7 @@ def rotor_states(
     columns = np.hstack([-stiffness, -damping, *pushes, loads])
     motion, pushed = np.split(np.linalg.solve(mass, columns), [2 * n + sum(sizes)], axis=1)
     felt = [np.hstack([f.B[:, :2] @ rows[name], f.B[:, 2:] @ rows[name]]) for name, f in films.items()]
-    own = _on_diagonal([film.A for film in films.values()])
+    own = np.asarray(block_diag(np.zeros((0, 0)), *(film.A for film in films.values())))
     sense, outputs = response_rows(rotor, direct)
     by_state = np.hstack([sense[:, : 2 * n], np.zeros((len(sense), sum(sizes)))])
     for name, first, film in zip(films, np.cumsum([2 * n, *sizes]), films.values(), strict=False):
@@ -577,8 +578,3 @@ def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, 
     }
 
 
-def _on_diagonal(blocks: Sequence[Array]) -> Array:
-    """Return square blocks on a diagonal; of none an empty matrix."""
-    from scipy.linalg import block_diag
-
-    return np.asarray(block_diag(*blocks)) if blocks else np.zeros((0, 0))

@@ -132,39 +132,35 @@ def simulate_rotor(
     if require_finite("initial_state", state).shape != (size,):
         raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
     grid = sample_times(duration, samples, times)
-    wanted = Wanted(grid=grid, duration=duration, rtol=rtol, max_step=max_step, condensation=condensation)
-    return _agreed(starts(mounted, state, whole=condensation == 0.0), wanted)
+    run = partial(_run, duration=duration, rtol=rtol, max_step=max_step)
+    return _agreed(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
 
 
-class Wanted(NamedTuple):
-    """What is asked of a run."""
-
-    grid: Array
-    duration: float
-    rtol: float
-    max_step: float
-    condensation: float
-
-
-def _agreed(starts: Iterator[tuple[MountedRotor, Array, bool]], wanted: Wanted) -> Trajectory:
+def _agreed(
+    starts: Iterator[tuple[MountedRotor, Array, bool]],
+    run_of: Callable[..., Trajectory],
+    grid: Array,
+    duration: float,
+    condensation: float,
+) -> Trajectory:
     """Return the first run that one in fewer shapes agrees with, or that of the whole rotor."""
     # Runs are compared at more times than those that are asked for.
-    dense = wanted._replace(grid=np.union1d(wanted.grid, np.linspace(0.0, wanted.duration, COMPARED)))
+    dense = np.union1d(grid, np.linspace(0.0, duration, COMPARED))
     work: Counter[str] = Counter()
     before: Trajectory | None = None
     for mounted, state, condensed in starts:
         failure = None
         parts = take_apart(mounted)
         try:
-            run = _run(mounted, state, parts, dense if condensed else wanted)
+            run = run_of(mounted, state, parts, dense if condensed else grid)
         except (ContactError, ConvergenceError) as raised:
             failure, run = raised, raised.partial
         work.update(run.work)
-        near = before is not None and largest_difference(parts, before, run) <= wanted.condensation
+        near = before is not None and largest_difference(parts, before, run) <= condensation
         if near or not condensed:
             break
         before = run
-    picked = replace(_at(run, wanted.grid), work=dict(work))
+    picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
     return picked
@@ -176,12 +172,19 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
     return replace(run, time=run.time[kept], signals={name: row[kept] for name, row in run.signals.items()})
 
 
-def _run(mounted: MountedRotor, state: Array, parts: Parts, wanted: Wanted) -> Trajectory:
-    grid = wanted.grid
+def _run(
+    mounted: MountedRotor,
+    state: Array,
+    parts: Parts,
+    grid: Array,
+    *,
+    duration: float,
+    rtol: float,
+    max_step: float,
+) -> Trajectory:
     rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
-    longest = min(wanted.max_step, wanted.duration, LONGEST_TURN * 2.0 * np.pi / rate)
-    march = partial(March, rtol=wanted.rtol, longest=longest, duration=wanted.duration)
-    run = RunUp(parts, state, wanted.duration, march)
+    longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
+    run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
     kept: list[Array] = [state[None]] if grid.size and grid[0] == 0.0 else []
     try:
         kept.extend(run.states(grid))

@@ -278,11 +278,7 @@ def _margin(kind: Bifurcation, rank: int, point: Point, orbit: PeriodicOrbit) ->
 
 
 def _located(
-    curve: Curve,
-    point: Point,
-    step: float,
-    kind: Bifurcation,
-    test: Callable[[Point, PeriodicOrbit], float],
+    curve: Curve, point: Point, step: float, kind: Bifurcation, test: Callable[[Point, PeriodicOrbit], float]
 ) -> OrbitEvent | None:
     """Return where a test function vanishes within a step; None where it does not change its sign."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -16,7 +16,7 @@ from scipy.linalg import eig, eigh
 from ..bearings.reaction import added_mass
 from ..core.errors import ConvergenceError, InputError, require_count, require_finite
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import (
@@ -81,7 +81,7 @@ class _Unproven(Exception):
     """The shapes kept are too few, or a step must be halved."""
 
 
-def crossings(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array) -> list[Crossing]:
+def crossings(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Crossing]:
     """Return all whirls of the frequency of the rotation between the first and the last speed, rising.
 
     Raises
@@ -116,7 +116,7 @@ class _Search:
     """
 
     rotor: FlexibleRotor
-    bearings: Mapping[str, Reaction]
+    bearings: Bearings
     model: Condensed
     end: float
     top: float

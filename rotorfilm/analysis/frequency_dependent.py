@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from ..bearings.reaction import DynamicStiffness, MemoryCoefficients
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import models, usual_frequency
@@ -85,11 +85,7 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
 
 
 def require_all_growing(
-    rotor: FlexibleRotor,
-    bearings: Mapping[str, Reaction],
-    speed: float,
-    values: np.ndarray,
-    growing: int,
+    rotor: FlexibleRotor, bearings: Bearings, speed: float, values: np.ndarray, growing: int
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 

@@ -233,9 +233,7 @@ def film_system(
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
     by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
-    import control
-
-    system = control.StateSpace(
+    system = control_system(
         A,
         np.hstack([B, np.zeros((len(A), 1))]),
         C,
@@ -244,7 +242,6 @@ def film_system(
         outputs=list(FORCE_OUTPUTS),
         states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(len(fit.parts))],
         name=name,
-        remove_useless_states=False,
     )
     return FilmSystem(system=system, error=fit.error, highest_frequency=float(fit.highest_frequency))
 

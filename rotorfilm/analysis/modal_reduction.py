@@ -168,18 +168,26 @@ def _modes_below(
     mass: Any, stiffness: Any, solid: BandedCholesky, shift: float, cut: float
 ) -> tuple[Array, Array]:
     """Return frequencies and shapes, of unit mass, of the modes below a frequency, with no bearings."""
-    n = mass.shape[0]
-    inverse = LinearOperator((n, n), matvec=solid.solve, dtype=float)
-    start = np.random.default_rng(0).normal(size=n)
-    count = _FIRST_COUNT
+    n, count = mass.shape[0], _FIRST_COUNT
     while True:
         count = min(count, n - 2)
-        squares, modes = eigsh(stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start)
+        squares, modes = modes_near(stiffness, mass, solid, -(shift**2), count)
         rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
         # Lanczos' method may miss one: the law of inertia tells how many there are.
         if (count > len(rising) == negative_count(stiffness, cut**2, mass)) or count == n - 2:
             return np.sqrt(np.maximum(squares[rising], 0.0)), modes[:, rising]
         count *= 2
+
+
+def modes_near(
+    stiffness: Any, mass: Any, shifted: BandedCholesky, square: float, count: int
+) -> tuple[Array, Array]:
+    """Return squared frequencies nearest to `square` [rad2/s2] and shapes, with that shift factored."""
+    n = mass.shape[0]
+    inverse = LinearOperator((n, n), matvec=shifted.solve, dtype=float)
+    start = np.random.default_rng(0).normal(size=n)
+    squares, shapes = eigsh(stiffness, count, mass, sigma=square, which="LM", OPinv=inverse, v0=start)
+    return squares, shapes
 
 
 # A rotor in as few shapes as a range of frequencies needs, and how far off its whirls are.

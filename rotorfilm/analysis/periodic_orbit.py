@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, NamedTuple
@@ -22,7 +22,7 @@ from ..core.errors import (
     require_vector,
 )
 from ..core.inputs import arguments
-from ..core.model import MOST_LEFT, Array, Reaction
+from ..core.model import MOST_LEFT, Array, Bearings, Reaction
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
@@ -313,13 +313,10 @@ def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> A
 
 def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
     """Return a rotor on other springs and dampers at its journals: further slopes (2 n, 4)."""
-    rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
-    forced = np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1)
-    A = ((modal.shapes * modal.values) @ modal.inverse).real
-    B = (modal.shapes @ modal.push).real
+    A, B = shifted_matrix(modal), (modal.shapes @ modal.push).real
     size = len(A) // 2
     rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
-    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ forced, rate)
+    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ _by_state(modal, slopes), rate)
     return modal._replace(
         values=values,
         shapes=shapes,
@@ -377,37 +374,30 @@ class Rest(NamedTuple):
         Of the journals.
     matrix : ndarray, shape (2 N, 2 N)
         x' = A x of small motion.
-    stiffness, damping : ndarray, shape (2 n_bearings, 2)
-        Slopes of each bearing's force by its own position and velocity, positive where they drive.
     """
 
     position: Array
     matrix: Array
-    stiffness: Array
-    damping: Array
 
 
-def rest_of(mounted: MountedRotor, modal: ModalRotor, guess: Array | None = None) -> Rest:
-    """Return where a rotor rests, from a guess of its journals' positions if there is one.
+def rest_of(mounted: MountedRotor, modal: ModalRotor) -> Rest:
+    """Return where a rotor rests.
 
     Raises
     ------
     EquilibriumError
         If it is not found.
     """
-    start = first_guess(mounted, modal) if guess is None else guess
-    try:
-        position = _newton(modal, start)
-    except EquilibriumError:
-        if guess is None:
-            raise
-        position = _newton(modal, first_guess(mounted, modal))
+    position = _newton(modal, first_guess(mounted, modal))
     _, stiffness, damping = film_forces(modal, position[:, None], np.zeros((len(position), 1)))
-    stiffness, damping = stiffness[..., 0], damping[..., 0]
+    forced = _by_state(modal, np.concatenate([stiffness, damping], axis=1)[..., 0])
+    return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced)
+
+
+def _by_state(modal: ModalRotor, slopes: Array) -> Array:
+    """Return the derivatives of forces (2 n, 4) by each bearing's own motion by the state of the rotor."""
     rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
-    by_motion = np.concatenate([stiffness, damping], axis=1).reshape(-1, 2, 4)
-    forced = np.einsum("bij,bjn->bin", by_motion, rows).reshape(-1, len(modal.shapes))
-    return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced, stiffness, damping)
+    return np.asarray(np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1))
 
 
 def shifted_matrix(modal: ModalRotor) -> Array:
@@ -504,9 +494,7 @@ class RotorAnswers(NamedTuple):
         """Samples over a turn that these harmonics stand for."""
         return 2 * self.harmonics + 1
 
-    def on(
-        self, bearings: Mapping[str, Reaction], sloped: Mapping[str, Reaction] | None = None
-    ) -> Balance[DrivenRotor]:
+    def on(self, bearings: Bearings, sloped: Bearings | None = None) -> Balance[DrivenRotor]:
         """Return the equations of the orbit on these bearings, their slopes those of others where given."""
         rotor = DrivenRotor(self, bearings, bearings if sloped is None else sloped)
         return Balance(rotor=rotor, harmonics=self.harmonics, periods=1, collocated=True)
@@ -576,8 +564,8 @@ class DrivenRotor(NamedTuple):
     """
 
     answers: RotorAnswers
-    bearings: Mapping[str, Reaction]
-    sloped: Mapping[str, Reaction]
+    bearings: Bearings
+    sloped: Bearings
 
     @property
     def clearances(self) -> Array:
@@ -646,7 +634,7 @@ def rest_on_film(rotor: RigidRotor, bearing: Reaction) -> RotorEquilibrium:
     )
 
 
-def distance(balance: Balance[DrivenRotor], others: Mapping[str, Reaction], orbit: Array) -> Array:
+def distance(balance: Balance[DrivenRotor], others: Bearings, orbit: Array) -> Array:
     """Return how much the forces of other bearings than its own change an orbit [m], to first order."""
     rotor = balance.rotor
     other = rotor.answers.on(others, sloped=rotor.sloped).residual(orbit, balance.frequency)
@@ -654,9 +642,7 @@ def distance(balance: Balance[DrivenRotor], others: Mapping[str, Reaction], orbi
     return balance.in_length(np.asarray(np.linalg.solve(other.by_series, -missing)))
 
 
-def propagated(
-    balance: Balance[DrivenRotor], orbit: Array, own: Mapping[str, Reaction] | None
-) -> tuple[Array, Array]:
+def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None) -> tuple[Array, Array]:
     """Return the change of an orbit that makes up for what it lacks, by two slopes.
 
     The slopes of the balance's own, and those of other bearings along the orbit, or K0 and C0 where none are
@@ -671,7 +657,7 @@ def propagated(
     return balance.in_length(step), balance.in_length(other)
 
 
-def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, Reaction]) -> float:
+def reach_of(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
     """Return how far the journals go towards contact at the samples; see `contact_place.reach`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
     return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from scipy.linalg import block_diag, matrix_balance
 
 from ..bearings.reaction import MemoryCoefficients, added_mass
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes, both_planes, is_sparse
@@ -415,9 +415,7 @@ BESIDE = 1e-9
 """Distance of the shift from the eigenvalue / (its size + speed)."""
 
 
-def value_error(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, value: complex
-) -> float:
+def value_error(rotor: FlexibleRotor, bearings: Bearings, speed: float, value: complex) -> float:
     """Return the estimated error of an eigenvalue by the shapes that were left out [1/s]; 0 without such.
 
     Parameters

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
@@ -28,8 +28,7 @@ from .rotor_matrices import (
     second_order,
     whirl_near,
 )
-from .rotor_modes import RotorModes, critical_speeds, rotor_modes
-from .rotor_threshold import NEUTRAL, rotor_threshold
+from .rotor_modes import NEUTRAL, RotorModes, critical_speeds, rotor_modes, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
@@ -64,11 +63,11 @@ class SpeedEvent(NamedTuple):
     lead: Callable[[complex, float], float]
     rate: Callable[[complex], float]
     frequency: Callable[[complex, float], float]
-    sightings: Callable[[FlexibleRotor, Mapping[str, Reaction], Array], list[Sighting]]
+    sightings: Callable[[FlexibleRotor, Bearings, Array], list[Sighting]]
     missed: Callable[[RotorModes, RotorModes], str]
 
 
-def _critical_speeds(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array) -> list[Sighting]:
+def _critical_speeds(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Sighting]:
     """Return the first critical speed, and those near it."""
     found = critical_speeds(rotor, bearings, speeds)
     if not found:
@@ -100,7 +99,7 @@ CRITICAL = SpeedEvent(
 """A whirl has the frequency of the rotation."""
 
 
-def _threshold(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array) -> list[Sighting]:
+def _threshold(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Sighting]:
     """Return the threshold of stability."""
     span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
     found = rotor_threshold(rotor, bearings, speeds)
@@ -204,18 +203,6 @@ STEP = 1e-3
 _STEPS = 25
 
 
-class RotorFilms(Protocol):
-    """Bearings of a rotor, some of them films."""
-
-    @property
-    def reaction(self) -> dict[str, Reaction]:
-        """All bearings by station."""
-
-    @property
-    def turning(self) -> dict[str, Reaction]:
-        """Those whose K and C change with the speed."""
-
-
 class Start(NamedTuple):
     """Where a whirl is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
 
@@ -247,11 +234,14 @@ def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquil
     return replace(at, coefficients=found)
 
 
-def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
-    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s)."""
+def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex:
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s).
+
+    `turning` are the bearings whose K and C change with the speed.
+    """
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
-    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, s, STEP).items():
+    for name, (stiffness, damping) in coefficient_rates(turning, whirl.at, s, STEP).items():
         rows = journal_rows(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
     _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
@@ -259,14 +249,14 @@ def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex
 
 
 def coefficient_rates(
-    films: RotorFilms, at: RotorEquilibrium, s: complex, step: float
+    turning: Bearings, at: RotorEquilibrium, s: complex, step: float
 ) -> dict[str, tuple[Array, Array]]:
     """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart.
 
     Of a film with K(s) they are those of its matrices near the exponent s.
     """
     rates = {}
-    for name, film in films.turning.items():
+    for name, film in turning.items():
         low, high = (
             coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
@@ -276,7 +266,9 @@ def coefficient_rates(
     return rates
 
 
-def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: Start) -> tuple[Whirl, int]:
+def whirl_of(
+    event: SpeedEvent, rotor: FlexibleRotor, bearings: Bearings, turning: Bearings, start: Start
+) -> tuple[Whirl, int]:
     """Return the whirl to which something happens, near another one, and how many speeds that took.
 
     Raises
@@ -284,16 +276,15 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: 
     ConvergenceError
         If Newton's method in the speed does not end.
     """
-    reactions = films.reaction
     speed, value, load = start
     for count in range(1, _STEPS + 1):
-        at = rotor_equilibrium(rotor, reactions, speed)
+        at = rotor_equilibrium(rotor, bearings, speed)
         whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
         lead = event.lead(whirl.value, speed)
         if abs(lead) < CONVERGED * speed:
             return whirl, count
         value, load = whirl.value, whirl.right
-        step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
+        step = -lead / event.rate(value_rate(rotor.structure, whirl, turning))
         if count > PATIENCE and abs(step) < ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))

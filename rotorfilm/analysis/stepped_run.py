@@ -42,7 +42,7 @@ HALVINGS = 12
 
 def simulate_steps(
     rotor: Dynamic,
-    films: SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+    films: Mapping[str, Reaction | SteppedReaction],
     times: Array,
     duration: float,
     initial_state: ArrayLike | None,
@@ -213,14 +213,11 @@ class Moment(NamedTuple):
     outputs: Array
 
 
-def stations_of(
-    rotor: Dynamic, films: SteppedReaction | Mapping[str, Reaction | SteppedReaction]
-) -> tuple[FilmStation, ...]:
+def stations_of(rotor: Dynamic, films: Mapping[str, Reaction | SteppedReaction]) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
-    named: Mapping[str, Any] = films if isinstance(films, Mapping) else {"": films}
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
-    for name, film in named.items():
+    for name, film in films.items():
         said = f"reaction[{name!r}]" if name else "reaction"
         require_kind(said, film, SteppedReaction, "a film that steps, as a JFOFilm, as all others of it are")
         motion, force = station_names(name)
@@ -229,7 +226,7 @@ def stations_of(
         found.append(FilmStation(name, film, places, pushed))
     if len(inputs) > 2 * len(found):
         raise InputError(
-            f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}"
+            f"reaction must be films in all stations of the rotor, got {list(films)} for {inputs}"
         )
     return tuple(found)
 

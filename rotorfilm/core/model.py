@@ -191,6 +191,10 @@ class Reaction(JournalForce, Model, Protocol):
     """
 
 
+Bearings = Mapping[str, Reaction]
+"""Reactions by the names of the stations in which they are."""
+
+
 def require_reaction(name: str, value: object, kind: Any = Reaction, *, heavy: bool = False) -> None:
     """Raise InputError unless `value` is a Reaction or of a lesser kind, with added mass only if `heavy`."""
     require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")

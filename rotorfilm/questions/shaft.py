@@ -143,7 +143,8 @@ class ShaftRung(BaseRung):
         # Static shapes may be so far off that another whirl is nearer to theirs.
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
-        found = [whirl_of(self.event, self.model.rotor, self.films, start) for start in starts]
+        bearings = self.films.reaction, self.films.turning
+        found = [whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
@@ -172,7 +173,7 @@ class ShaftRung(BaseRung):
         """
         solution: ShaftSpeed = found.solution
         structure, steps = self.model.rotor.structure, {WorkUnit(f"steps for {self.name}"): 3}
-        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
+        rates = [self.event.rate(value_rate(structure, one, self.films.turning)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
         own, doubt = self._change(found, rates, trusted=True) if math.isfinite(bound) else (0.0, "")
@@ -236,7 +237,7 @@ class ShaftRung(BaseRung):
     def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
         """Return the speed [rad/s] on these K and C, for small changes."""
         whirl: Whirl = found.solution.whirls[0]
-        rate = self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
+        rate = self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
         return self._stepped(whirl, rate, coefficients, "").speed
 
     def distance(self, value: float, better: float) -> float:
@@ -253,7 +254,9 @@ class ShaftRung(BaseRung):
     def mesh_error(self, found: Found) -> ErrorEstimate:
         """Return the change in elements half as long, on the same K and C."""
         structure = self.model.rotor.structure
-        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in found.solution.whirls]
+        rates = [
+            self.event.rate(value_rate(structure, one, self.films.turning)) for one in found.solution.whirls
+        ]
         error, doubt = self._change(found, rates, trusted=True)
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
         return ErrorEstimate(error, method, doubt=doubt)

@@ -511,7 +511,7 @@ class FieldSpeedRung(BaseRung):
             found = Found(speed, {}, rung.solution(whirl))
             return event.lead(whirl.value, speed), FieldSpeed(found, rests)
 
-        rate = event.rate(value_rate(structure, whirl, rung.films))
+        rate = event.rate(value_rate(structure, whirl, rung.films.turning))
         near = secant_speed(lead_at, whirl.at.speed, rate, near=NEAR, farthest=FARTHEST, most=RESTS)
         return Found(near.speed, {self.unit: 1}, near.solution)
 

@@ -21,8 +21,8 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization
-from .jeffcott import JeffcottRotor
 from .profile import SpeedProfile
+from .rigid import JeffcottRotor
 from .shaft_elements import ShaftElement
 from .shaft_rotor import ShaftRotor
 from .structure import AroundRotor

@@ -155,11 +155,7 @@ class ShaftRotor(FlexibleRotor):
         coordinates = [
             *_node_coordinates(elements),
             *_inner_coordinates(elements, self.beam),
-            *(
-                Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH)
-                for s in stations
-                if s.support
-            ),
+            *((station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
         ]
         size, supported = len(coordinates), [s for s in stations if s.support]
         mass, polar, stiffness, geometric, twist = chain_matrices(elements, self.disks, self.beam, size)
@@ -204,15 +200,15 @@ class ShaftRotor(FlexibleRotor):
 def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for node in range(len(elements) + 1):
-        yield Coordinate(f"{{}}_{node}", "m", NOMINAL_LENGTH)
-        yield Coordinate(f"tilt_{{}}_{node}", "rad", tilt)
+        yield f"{{}}_{node}", "m", NOMINAL_LENGTH
+        yield f"tilt_{{}}_{node}", "rad", tilt
 
 
 def _inner_coordinates(elements: Sequence[ShaftPiece], beam: Beam) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for number, element in enumerate(elements):
         for k in range(_inner(element, beam)):
-            yield Coordinate(f"inner_{{}}_{number}_{k}", "rad", tilt)
+            yield f"inner_{{}}_{number}_{k}", "rad", tilt
 
 
 def _inner(element: ShaftPiece, beam: Beam) -> int:

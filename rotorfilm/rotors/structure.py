@@ -44,12 +44,8 @@ QUARTER_TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 """-i on x + i y: the plane pattern of gyroscopic and circulatory matrices."""
 
 
-class Coordinate(NamedTuple):
-    """A coordinate of one plane: name with a place for x or y, unit, nominal value."""
-
-    name: str
-    unit: str
-    nominal: float
+Coordinate = tuple[str, str, float]
+"""A coordinate of one plane: its name with {} for x or y, unit (m or rad) and nominal size."""
 
 
 Readout = tuple[Signal, Array]
@@ -171,10 +167,10 @@ class FlexibleRotor(Turning):
         )
         return signals_of(
             *(
-                (head + c.name.format(axis), c.unit + per, c.nominal * scale, text)
+                (head + name.format(axis), unit + per, nominal * scale, text)
                 for head, per, scale, text in kinds
                 for axis in "xy"
-                for c in self.assembly.coordinates
+                for name, unit, nominal in self.assembly.coordinates
             )
         )
 
@@ -317,7 +313,7 @@ def projected(full: Structure, shapes: Array) -> Structure:
         journals=full.journals @ basis,
         weight=basis.T @ full.weight,
         unbalance=basis.T @ full.unbalance,
-        coordinates=tuple(Coordinate(f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
+        coordinates=tuple((f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
         readouts=tuple((signal, row @ twice) for signal, row in full.readouts),
         housings=None if full.housings is None else full.housings @ basis,
         hysteresis=None if full.hysteresis is None else shapes.T @ (full.hysteresis @ shapes),
