@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analysis import coefficients, equilibrium
-from ..analysis.harmonic_balance import basis, first_wave
-from ..analysis.stateful_orbit import StatefulTurn, TurnEquations, resampled
+from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
 from ..bearings.pads import (
     LobedBearing,
     LobeShare,

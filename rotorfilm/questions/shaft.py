@@ -19,10 +19,10 @@ from ..analysis.rotor_matrices import (
     whirl_near,
 )
 from ..analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     SpeedEvent,
     Start,
-    Threshold,
     Whirl,
     on_films,
     secant_speed,
@@ -70,7 +70,7 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-EVENTS: dict[str, SpeedEvent] = {"critical_speed": Critical(), "whirl_threshold": Threshold()}
+EVENTS: dict[str, SpeedEvent] = {"critical_speed": CRITICAL, "whirl_threshold": THRESHOLD}
 """What happens at the speeds that may be asked for."""
 
 SHAFT_ROUNDOFF = float(np.finfo(float).eps)
@@ -128,7 +128,8 @@ class ShaftSpeedRung(ShaftRung):
         # Static shapes may be so far off that another whirl is nearer to theirs.
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
-        found = [whirl_of(self.event, self.model.rotor, self.films, start) for start in starts]
+        bearings = self.films.reaction, self.films.turning
+        found = [whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
@@ -220,11 +221,11 @@ class ShaftSpeedRung(ShaftRung):
 
     def rate(self, whirl: Whirl) -> float:
         """Return by how much what must vanish changes with the speed [1]."""
-        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
+        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
 
     def moving(self, found: Found) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
-        if not isinstance(self.event, Threshold):
+        if self.event is not THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)
