@@ -42,6 +42,7 @@ class Partners(Bench):
         outlets = {station: (film.inputs, film.outputs) for station, film in self.films.items()}
         self.wiring = wired((rotor.inputs, rotor.outputs), outlets)
         self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
+        self._all = [rotor, *films.values()]
         self._require(needs)
         # Asked once: names and places are slow.
         self.feeds = {station: self._fed(station, film) for station, film in self.films.items()}
@@ -50,11 +51,9 @@ class Partners(Bench):
         }
         self._at = self.places
         self._motion_at = [*self._at.position, *self._at.velocity]
-        self._known = {
-            name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs]
-            for name, film in films.items()
-        }
-        self._all = [rotor, *films.values()]
+        self._known = [
+            [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs] for film in films.values()
+        ]
         self.laws: list[ForceLaw] | None = None
         """The force laws of all steps of the rotor, if a list is put here."""
         self._probed: tuple[float, Array] | None = None
@@ -114,8 +113,7 @@ class Partners(Bench):
     @property
     def signals(self) -> tuple[list[str], list[str]]:
         """Names of all outputs: those of the rotor, and those of the films with their stations."""
-        films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
-        return list(self.rotor.outputs), films
+        return list(self.rotor.outputs), [name for told in self._told.values() for name in told]
 
     @property
     def places(self) -> JournalPlaces:
@@ -144,7 +142,7 @@ class Partners(Bench):
             If a film has none there.
         """
         found = no_tangents(self.size)
-        for number, (known, film) in enumerate(zip(self._known.values(), self.films.values(), strict=True)):
+        for number, (known, film) in enumerate(zip(self._known, self.films.values(), strict=True)):
             own = slice(2 * number, 2 * number + 2)
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
             whole[:, known] = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
@@ -220,7 +218,7 @@ class Partners(Bench):
                 "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one "
                 f"with inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
             )
-        if needs.rollback and not all(p.restores for p in (self.rotor, *self.films.values())):
+        if needs.rollback and not all(partner.restores for partner in self._all):
             raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 
