@@ -15,7 +15,7 @@ from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name
 from .schemes import Bench, Needs, Sample, StationMotion, Tangents, no_tangents
-from .slaves import JournalPlaces, Slave, sources, wired
+from .slaves import Places, Slave, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
@@ -41,6 +41,8 @@ class Partners(Bench):
         self.rotor, self.films, self._needs = rotor, dict(films), needs
         outlets = {station: (film.inputs, film.outputs) for station, film in self.films.items()}
         self.wiring = wired((rotor.inputs, rotor.outputs), outlets)
+        self.places = self.wiring.places(rotor.inputs, rotor.outputs)
+        """Where the signals of the journals are among those of the rotor."""
         self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
         self._all = [rotor, *films.values()]
         self._require(needs)
@@ -49,8 +51,6 @@ class Partners(Bench):
         self._told = {
             station: [station_name(station, n) for n in film.outputs] for station, film in self.films.items()
         }
-        self._at = self.places
-        self._motion_at = [*self._at.position, *self._at.velocity]
         self._known = [
             [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs] for film in films.values()
         ]
@@ -116,11 +116,6 @@ class Partners(Bench):
         return list(self.rotor.outputs), [name for told in self._told.values() for name in told]
 
     @property
-    def places(self) -> JournalPlaces:
-        """Where the signals of the journals are among those of the rotor."""
-        return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
-
-    @property
     def units(self) -> dict[str, str]:
         """Units of the outputs, of partners that tell them."""
         known = dict(self.rotor.units)
@@ -156,7 +151,8 @@ class Partners(Bench):
         found = self.rotor.linear(t)
         if found is None:
             return None
-        forces, motion = self._at.force, self._motion_at
+        forces, *places = self.places
+        motion = [k for each in places for k in each]
         return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[motion][:, forces])
 
     def _sample(self, t: float, motion: StationMotion, derive: bool) -> Sample:
@@ -246,15 +242,16 @@ class Record:
     ----------
     rotor, films : sequence of str
         Names of the outputs of the rotor and, with those of their stations, of all films.
-    at : JournalPlaces
+    at : (list of int, list of int, list of int)
         The forces, positions and velocities among the inputs and outputs of the rotor.
     derived : bool
         Whether films tell their derivatives at each point.
     """
 
-    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: JournalPlaces, derived: bool) -> None:
-        self.rotor, self.films, self.at = list(rotor), list(films), at
-        self.size, self.count = len(at.force), 0
+    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: Places, derived: bool) -> None:
+        self.rotor, self.films = list(rotor), list(films)
+        force, self.position_at, self.velocity_at = at
+        self.size, self.count = len(force), 0
         self.speed_at = self.rotor.index("speed") if "speed" in self.rotor else None
         columns = 2 * self.size**2 + self.size if derived else 0
         self.time, self.outputs = np.empty(FIRST_ROOM), np.empty((FIRST_ROOM, len(rotor) + len(films)))
@@ -292,7 +289,7 @@ class Record:
         """Return position, velocity, shape (n, m), and speed, shape (n,), of some points."""
         outputs = self.outputs[rows]
         speed = np.zeros(len(outputs)) if self.speed_at is None else outputs[:, self.speed_at]
-        return outputs[:, self.at.position], outputs[:, self.at.velocity], speed
+        return outputs[:, self.position_at], outputs[:, self.velocity_at], speed
 
     def derivatives(self, rows: slice) -> tuple[Array, Array, Array]:
         """Return stiffness, damping, shape (n, m, m), and by_speed, shape (n, m), of some points."""

@@ -240,7 +240,7 @@ def _reference(export: Export, variables: tuple[Variable, ...]) -> bytes:
 
 
 def _pictures(export: Export) -> dict[str, bytes]:
-    name = f"{kernel_row(export.spec.kernel).picture}.png"
+    name = f"{kernel_row(export.spec.kernel)[1]}.png"
     picture = files(__package__ or "").joinpath("data", name)
     if not picture.is_file():
         raise FmuError(f"the picture {name} of the package is missing; install {PACKAGE} again")
