@@ -12,16 +12,15 @@ import numpy as np
 from ..analysis import coefficients
 from ..bearings.pads import (
     LobedBearing,
-    LobeShare,
     PadFilm,
     PadGridFilm,
     PadMapFilm,
     PadResolution,
     PressureDamBearing,
     TiltingPadBearing,
-    TiltingPads,
     differenced_slopes,
     is_pad_mappable,
+    lobe_share,
 )
 from ..core.answers import WorkUnit
 from ..core.model import Array, settled
@@ -79,12 +78,13 @@ class LobedCandidate(FilmCandidate):
         film = self.reaction.film
         if not isinstance(film, PadMapFilm):
             return math.inf
-        shares = [LobeShare(self.reaction, film, lobe, at.position, at.speed) for lobe in self.reaction.lobes]
+        state, lobes = (at.position, at.speed), self.reaction.lobes
+        shares = (lobe_share(self.reaction, film, lobe, *state) for lobe in lobes)
+        force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
-            return sum(share.force for share in shares) / math.hypot(*at.load)
+            return force / math.hypot(*at.load)
         found = coefficients(self.reaction, at.position, at.speed)
-        stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
-        return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
+        return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
 def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandidate, ...]:
@@ -339,7 +339,7 @@ class TiltingCandidate(FilmCandidate):
         return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
     return differenced_slopes(bearing, e, w, STEP)
 
