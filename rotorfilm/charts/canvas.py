@@ -6,7 +6,7 @@ import io
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -32,6 +32,50 @@ def new_figure(*, size: tuple[float, float]) -> Figure:
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def new_grid(
+    count: int, *, columns: int, size: tuple[float, float], title: str = "", more: float = 0.0
+) -> list[Axes]:
+    """Return so many Axes of one figure, row by row.
+
+    Parameters
+    ----------
+    count, columns : int
+        Of all, and in a row.
+    size : (float, float) [inch]
+        Of one of them.
+    title : str
+        Of the figure.
+    more : float [inch]
+        Height beside that of the Axes.
+    """
+    columns = min(columns, count)
+    rows = math.ceil(count / columns)
+    figure = new_figure(size=(columns * size[0], rows * size[1] + more))
+    figure.suptitle(title, fontsize=10)
+    return [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
+
+
+def labeled(axes: Axes, x: str, y: str, *, legend: float = 8.0, **more: Any) -> Axes:
+    """Return Axes with labels, a legend in type of this size [points], and more as of `Axes.set`."""
+    axes.set(xlabel=x, ylabel=y, **more)
+    axes.legend(fontsize=legend)
+    return axes
+
+
+def with_grids(*shown: Axes) -> None:
+    """Give several Axes a grid and a legend each."""
+    for axes in shown:
+        axes.grid(visible=True, alpha=0.3)
+        axes.legend(fontsize=8)
+
+
+def add_color_bar(axes: Axes, mesh: Any, label: str) -> None:
+    """Draw the scale of the colors of a mesh beside it."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    figure.colorbar(mesh, ax=axes, label=label)
 
 
 def legend_beside(axes: Axes) -> None:

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from ..analysis import VariableCompliance
 from ..studies import BallCurves
-from .canvas import new_axes, new_figure
+from .canvas import new_axes, new_grid, with_grids
 
 RPM = 30.0 / math.pi
 SHOWN = 8
@@ -23,8 +23,7 @@ def plot_ball_curves(result: BallCurves) -> list[Axes]:
     ----------
     result : BallCurves
     """
-    figure = new_figure(size=(12.5, 8.6))
-    shown = list(figure.subplots(2, 2).ravel())
+    shown = new_grid(4, columns=2, size=(6.25, 4.3))
     _draw_loads(result, shown[0])
     _draw_angles(result, shown[1])
     _draw_stiffness(result, shown[2])
@@ -56,7 +55,7 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
         title=f"Swing under {math.hypot(*result.load):.4g} N as balls pass, {passing:.4g} Hz",
     )
     axes.set_ylim(1e-3 * 1e9 * result.swing_amplitude.max(), 3e9 * result.swing_amplitude.max())
-    _finish(axes)
+    with_grids(axes)
     return axes
 
 
@@ -76,7 +75,7 @@ def _draw_loads(result: BallCurves, axes: Axes) -> None:
         ylabel="contact load [N]",
         title=f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y",
     )
-    _finish(axes)
+    with_grids(axes)
 
 
 def _draw_angles(result: BallCurves, axes: Axes) -> None:
@@ -87,7 +86,7 @@ def _draw_angles(result: BallCurves, axes: Axes) -> None:
         ylabel="contact angle [deg]",
         title=f"Contact angles under {result.thrust:g} N of thrust",
     )
-    _finish(axes)
+    with_grids(axes)
 
 
 def _draw_stiffness(result: BallCurves, axes: Axes) -> None:
@@ -102,12 +101,7 @@ def _draw_stiffness(result: BallCurves, axes: Axes) -> None:
         title="Pairs back to back by their preload as clamped",
     )
     axes.set_ylim(bottom=0.0)
-    _finish(axes)
-
-
-def _finish(axes: Axes) -> None:
-    axes.grid(visible=True, alpha=0.3)
-    axes.legend(fontsize=8)
+    with_grids(axes)
 
 
 def _rpm(speed: float) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -21,12 +19,8 @@ COLUMNS = (0.0, 0.33, 0.515, 0.69, 0.865, 1.0)
 HEADINGS = ("film", "off by at most", "wrong at eps", "tension in\nlarge motion", "|Cxy - Cyx|\n/ max |C|")
 
 
-class Cell(NamedTuple):
-    """Text of a cell and its background."""
-
-    text: str
-    color: str
-
+Cell = tuple[str, str]
+"""Text of a cell and its background."""
 
 REFERENCE_MARKS = 12
 """Dots on the curve of the reference, about; few, so that they do not hide the films."""
@@ -135,48 +129,33 @@ def _draw_table(axes: Axes, result: JournalStability) -> None:
         axes.text(left + 0.01, -0.25, text, va="bottom", fontsize=9, weight="bold")
     for row, rung in enumerate(result.rungs):
         axes.text(0.01, row + 0.5, rung.name, va="center", fontsize=8.5, color=color_of(rung))
-        for cell, left, right in zip(verdicts(result, rung), COLUMNS[1:-1], COLUMNS[2:], strict=True):
+        for (text, color), left, right in zip(
+            verdicts(result, rung), COLUMNS[1:-1], COLUMNS[2:], strict=True
+        ):
             corner, size = (left + 0.003, row + 0.05), (right - left - 0.006, 0.9)
-            axes.add_patch(Rectangle(corner, *size, color=cell.color, linewidth=0.0))
-            axes.text(left + 0.012, row + 0.5, cell.text, va="center", fontsize=8.5)
+            axes.add_patch(Rectangle(corner, *size, color=color, linewidth=0.0))
+            axes.text(left + 0.012, row + 0.5, text, va="center", fontsize=8.5)
 
 
 def verdicts(result: JournalStability, rung: RungStability) -> tuple[Cell, Cell, Cell, Cell]:
     """Return what the table says of a rung: deviation, where it is wrong, tension, symmetry of damping."""
-    return (
-        _deviation_cell(result, rung),
-        _where_cell(result, rung),
-        _tension_cell(rung),
-        _symmetry_cell(result, rung),
-    )
-
-
-def _deviation_cell(result: JournalStability, rung: RungStability) -> Cell:
-    largest = result.largest_deviation(rung)
-    if largest is None:
-        reason = "rank-1 damping" if all(rung.rank_one) else "no threshold"
-        return Cell(reason, BAD)
-    return Cell(f"{100.0 * largest:.2g} %", BAD if largest > result.tolerance else GOOD)
-
-
-def _where_cell(result: JournalStability, rung: RungStability) -> Cell:
+    largest, asymmetry = result.largest_deviation(rung), max(rung.asymmetry)
     masks = zip(result.wrong(rung), result.missing(rung), result.invented(rung), strict=True)
     wrong = [ratio for ratio, bad in zip(result.eccentricity_ratio, map(any, masks), strict=True) if bad]
-    if not wrong:
-        return Cell("nowhere", GOOD)
-    return Cell(f"{wrong[0]:.2g} to {wrong[-1]:.2g}" if len(wrong) > 1 else f"{wrong[0]:.2g}", BAD)
-
-
-def _tension_cell(rung: RungStability) -> Cell:
-    if not rung.in_tension:
-        return Cell("none", GOOD)
-    return Cell(f"{100.0 * rung.tension_share:.0f} % of states", BAD)
-
-
-def _symmetry_cell(result: JournalStability, rung: RungStability) -> Cell:
-    largest = max(rung.asymmetry)
-    text = "0" if largest < 1e-9 else f"{100.0 * largest:.2g} %"
-    return Cell(text, DOUBTFUL if largest > result.asymmetry_tolerance else GOOD)
+    if largest is None:
+        deviation = "rank-1 damping" if all(rung.rank_one) else "no threshold", BAD
+    else:
+        deviation = f"{100.0 * largest:.2g} %", BAD if largest > result.tolerance else GOOD
+    where = " to ".join(f"{ratio:.2g}" for ratio in wrong[:: max(1, len(wrong) - 1)])
+    return (
+        deviation,
+        (where, BAD) if wrong else ("nowhere", GOOD),
+        (f"{100.0 * rung.tension_share:.0f} % of states", BAD) if rung.in_tension else ("none", GOOD),
+        (
+            "0" if asymmetry < 1e-9 else f"{100.0 * asymmetry:.2g} %",
+            DOUBTFUL if asymmetry > result.asymmetry_tolerance else GOOD,
+        ),
+    )
 
 
 def color_of(rung: RungStability) -> str:

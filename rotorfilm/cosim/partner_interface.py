@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -80,23 +80,28 @@ class Sample(NamedTuple):
     outputs: dict[str, float]
 
 
-class Bench(Protocol):
+class Bench:
     """What a scheme may do with rotor and films."""
 
     def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor from t to t + dt [s] under a force law."""
+        raise NotImplementedError
 
     def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
         """Step the films from t to t + dt [s] with this motion at the end; derivatives if asked."""
+        raise NotImplementedError
 
     def sensitivity(self, t: float, dt: float) -> Array:
         """Return d(position, velocity at t + dt)/d(held force) of the rotor, shape (2 m, m)."""
+        raise NotImplementedError
 
     def save(self) -> Any:
         """Return the state of rotor and films."""
+        raise NotImplementedError
 
     def restore(self, state: Any) -> None:
         """Return to a state; it is forgotten."""
+        raise NotImplementedError
 
     def release(self, state: Any) -> None:
         """Forget a state."""
@@ -123,16 +128,8 @@ class Needs(NamedTuple):
 # How rotor and films are connected: by the names of their signals.
 
 
-class Ports(Protocol):
-    """What has inputs and outputs by name."""
-
-    @property
-    def inputs(self) -> Sequence[str]:
-        """Names of the inputs."""
-
-    @property
-    def outputs(self) -> Sequence[str]:
-        """Names of the outputs."""
+Names = tuple[Sequence[str], Sequence[str]]
+"""Of the inputs and of the outputs of a partner."""
 
 
 class JournalPlaces(NamedTuple):
@@ -167,13 +164,14 @@ class Wiring(NamedTuple):
         )
 
 
-def wired(rotor: Ports, films: Mapping[str, Ports]) -> Wiring:
+def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
     """Return the signals of the journals, having checked that rotor and films have all that connects them.
 
     Parameters
     ----------
-    rotor : Ports
-    films : mapping of str to Ports
+    rotor : (sequence of str, sequence of str)
+        Names of its inputs and outputs.
+    films : mapping of str to the same
         By station.
 
     Raises
@@ -184,13 +182,13 @@ def wired(rotor: Ports, films: Mapping[str, Ports]) -> Wiring:
     if not films:
         raise InputError("films must be one at least, got none")
     motions, forces = zip(*(station_names(station) for station in films), strict=True)
-    for (station, film), motion, force in zip(films.items(), motions, forces, strict=True):
-        indices("rotor must have the inputs", rotor.inputs, force)
-        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
-        require_no_mass(film.outputs, rotor.inputs)
-        fed = sources(rotor.outputs, station, film.inputs)
-        indices("rotor must have the outputs", rotor.outputs, list(fed.values()))
-        indices("rotor must have the outputs", rotor.outputs, motion)
+    taken, told = rotor
+    for (station, (inputs, outputs)), motion, force in zip(films.items(), motions, forces, strict=True):
+        indices("rotor must have the inputs", taken, force)
+        indices("film must have the outputs", outputs, FORCE_OUTPUTS)
+        require_no_mass(outputs, taken)
+        indices("rotor must have the outputs", told, list(sources(told, station, inputs).values()))
+        indices("rotor must have the outputs", told, motion)
     return Wiring(
         tuple(films),
         tuple(name for own in forces for name in own),

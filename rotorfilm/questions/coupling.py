@@ -152,7 +152,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
             f"cosimulation.revolutions must be at most {MOST * math.radians(ANGLES[0]) / math.tau:.4g} for "
             f"{quantity}, got {case.revolutions:.6g}"
         )
-    least = case.predicted(case.pilot.scheme, angles[-1])  # which goes at shorter steps too
+    least = case.predicted(case.pilot[0].outcome.scheme, angles[-1])  # which goes at shorter steps too
     tolerance = scene.question.tolerance
     worst = max(HOPELESS * tolerance, least)
     rungs = [

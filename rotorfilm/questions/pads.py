@@ -1,51 +1,413 @@
-"""What bearings of fixed pads bring to scenes and questions."""
+"""What bearings of pads bring to scenes and questions: the films that may answer, and their ladders."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import equilibrium
+from ..analysis import coefficients, equilibrium
 from ..analysis.harmonic_balance import basis, first_wave
 from ..analysis.stateful_orbit import StatefulTurn, TurnEquations, resampled
-from ..bearings.pads import TiltingPadBearing
+from ..bearings.pads import (
+    LobedBearing,
+    PadFilm,
+    PadGridFilm,
+    PadMapFilm,
+    PadResolution,
+    PressureDamBearing,
+    TiltingPadBearing,
+    differenced_slopes,
+    is_pad_mappable,
+    lobe_share,
+)
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
-from ..core.model import Array
+from ..core.model import Array, settled
+from ..core.results import Equilibrium
 from ..scenes.export_scene import film_models
 from ..scenes.families import Family, SceneModels
-from ..scenes.pad_candidates import (
-    DamCandidate,
-    LobedCandidate,
-    TiltingCandidate,
-    dam_candidates,
-    few_forces,
-    lobed_candidates,
-    many_forces,
-    tilting_candidates,
-)
-from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, quick_pads
+from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
+from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, dam_film_name, pad_film_name, quick_pads
 from .coupling import coupling_ladder
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
-    SampledOrbitRung,
+    OrbitRung,
     blade_loss_ladder,
     orbit_ladder,
     wave_change,
     wave_value,
 )
-from .film_statics import Films, static_ladder
-from .film_thresholds import whirl_ladder
+from .film_statics import Films, static_ladder, whirl_ladder
 from .quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
+
+# The films that may answer for a bearing of fixed pads, the cheapest first, and what is richer.
+
+
+COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
+"""Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
+
+GRIDS = (((48, 4), 1e-4, 2e-3), ((96, 8), 1e-5, 1e-3), ((192, 16), 2e-6, 5e-4))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+TURN_GRIDS = ((48, 4), (96, 8))
+"""Those for states all round a turn."""
+
+FINE, FINEST = (192, 16), (384, 32)
+"""Cells of richer films."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LobedCandidate(FilmCandidate):
+    """A film of pads that may answer for a bearing of fixed ones.
+
+    Attributes
+    ----------
+    reaction : LobedBearing
+        With this film.
+    rich : LobedBearing
+        With the richer one.
+    """
+
+    reaction: LobedBearing
+    rich: LobedBearing
+
+    @property
+    def call_time(self) -> float:
+        """About what a force with derivatives takes [s]."""
+        film = self.reaction.film
+        cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
+        return len(self.reaction.lobes) * (CELL_TIME * cells or CALL_TIME)
+
+    def on_grid(self, bearing: LobedBearing) -> bool:
+        """Return whether the film of one of both bearings lives on a grid in two dimensions."""
+        return isinstance(bearing.film, PadGridFilm)
+
+    def wedge(self, position: Array) -> float:
+        """Return the distance [m] from the center of curvature of the pad that has the least film."""
+        c = self.reaction.clearance
+        near = min(self.reaction.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
+        return float(np.hypot(*(position - c * np.array(near.center))))
+
+    def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
+        """Return the bounds of the maps of all pads together in an equilibrium; infinite without maps."""
+        film = self.reaction.film
+        if not isinstance(film, PadMapFilm):
+            return math.inf
+        state, lobes = (at.position, at.speed), self.reaction.lobes
+        shares = (lobe_share(self.reaction, film, lobe, *state) for lobe in lobes)
+        force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
+        if not slopes:
+            return force / math.hypot(*at.load)
+        found = coefficients(self.reaction, at.position, at.speed)
+        return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
+
+
+def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandidate, ...]:
+    """Return the films that can answer for a bearing of fixed pads: maps that are there, grids, other maps.
+
+    Parameters
+    ----------
+    bearing : LobedBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    if fixed:
+        film = bearing.film
+        fine = isinstance(film, PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
+        return (_lobed_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, 0.0, 0.0),)
+    maps = _maps(bearing)
+    ready = [film for film in maps if not film.makes_map]
+    grids = [
+        _lobed_candidate(
+            bearing,
+            PadGridFilm(cells=cells),
+            f"2-D {cells[0]} x {cells[1]} extr.",
+            FINEST if cells == FINE else FINE,
+            *priors,
+        )
+        for cells, *priors in GRIDS
+    ]
+    return (*ready, *grids, *(film for film in maps if film.makes_map))
+
+
+def few_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[LobedCandidate, ...]:
+    """Return the candidates for some equilibria: a map that must be made first costs more than any grid."""
+    return tuple(film for film in candidates if fixed or not film.makes_map)
+
+
+def many_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[LobedCandidate, ...]:
+    """Return the candidates for states all round a turn: the finest grid costs more than any map."""
+    kept = [PadGridFilm(cells=cells) for cells in TURN_GRIDS]
+    return tuple(
+        film
+        for film in candidates
+        if fixed or isinstance(film.reaction.film, PadMapFilm) or film.reaction.film in kept
+    )
+
+
+def _maps(bearing: LobedBearing) -> list[LobedCandidate]:
+    """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
+    extents = {lobe.extent for lobe in bearing.lobes}
+    if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
+        return []
+    coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
+    fine = _lobed_candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
+    return [coarse, fine] if fine.makes_map else [fine]
+
+
+def _lobed_candidate(
+    bearing: LobedBearing,
+    film: PadFilm,
+    name: str,
+    rich: tuple[int, int],
+    position_prior: float,
+    prior: float,
+) -> LobedCandidate:
+    making = 0.0
+    if isinstance(film, PadMapFilm):
+        extents = {lobe.extent for lobe in bearing.lobes}
+        making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
+    return LobedCandidate(
+        name=name,
+        reaction=replace(bearing, film=film),
+        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
+        position_prior=position_prior,
+        prior=prior,
+        making=making,
+    )
+
+
+# The films that may answer for a bearing of pads with recesses: grids of ever more cells.
+
+
+LEVELS = (((32, 8), 2e-4, 5e-3), ((64, 16), 5e-5, 1e-3), ((128, 32), 5e-6, 5e-4))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
+"""Cells of richer films."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamCandidate(FilmCandidate):
+    """A film on so many cells that may answer for a bearing of pads with recesses.
+
+    Attributes
+    ----------
+    reaction : PressureDamBearing
+        With these cells.
+    rich : PressureDamBearing
+        With more.
+    """
+
+    reaction: PressureDamBearing
+    rich: PressureDamBearing
+
+    @property
+    def call_time(self) -> float:
+        """About what a force with derivatives takes [s]."""
+        return len(self.reaction.pads) * CELL_TIME * math.prod(self.reaction.cells)
+
+    def on_grid(self, bearing: PressureDamBearing) -> bool:
+        """Return that the films of both bearings live on grids in two dimensions."""
+        return True
+
+    def wedge(self, position: Array) -> float:
+        """Return the distance [m] from the farthest center of curvature."""
+        c, pads = self.reaction.clearance, self.reaction.pads
+        return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in pads))
+
+
+def dam_candidates(
+    bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
+) -> tuple[DamCandidate, ...]:
+    """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
+
+    Parameters
+    ----------
+    bearing : PressureDamBearing
+    fixed : bool
+        Whether the scene names the cells.
+    turns : bool
+        Whether they are for states all round a turn, which are too many for the most cells.
+    """
+    if fixed:
+        return (_dam_candidate(bearing, DAM_FINEST, 0.0, 0.0),)
+    levels = LEVELS[:-1] if turns else LEVELS
+    return tuple(
+        _dam_candidate(replace(bearing, cells=cells), DAM_FINE if turns or not k else DAM_FINEST, *priors)
+        for k, (cells, *priors) in enumerate(levels)
+    )
+
+
+def _dam_candidate(
+    bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
+) -> DamCandidate:
+    rich = replace(bearing, cells=cells)
+    return DamCandidate(
+        name=dam_film_name(bearing),
+        reaction=bearing,
+        rich=rich,
+        rich_name=dam_film_name(rich),
+        position_prior=position_prior,
+        prior=prior,
+    )
+
+
+# The films that may answer for a bearing of tilting pads, the cheapest first, and what is richer.
+
+
+TILTING_GRIDS = (((48, 4), 1e-4, 1e-3), ((96, 8), 1e-5, 2e-4), ((192, 16), 1e-6, 5e-5))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+MAP_CALL = 2e-4
+"""About what the force of pads at rest takes by a map [s]: each is looked for in all its tilts."""
+
+LOOKS, CALLS = 60, 8
+"""Films of one pad in the search for its tilt at rest, and forces with derivatives of an equilibrium."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltingCandidate(FilmCandidate):
+    """A film of pads that may answer for a bearing of tilting ones.
+
+    Attributes
+    ----------
+    reaction : TiltingPadBearing
+        With this film.
+    rich : TiltingPadBearing
+        With the richer one.
+    """
+
+    reaction: TiltingPadBearing
+    rich: TiltingPadBearing
+
+    @property
+    def call_time(self) -> float:
+        """About what a force with derivatives of pads at rest takes [s]."""
+        film = self.reaction.film
+        if not isinstance(film, PadGridFilm):
+            return MAP_CALL
+        return LOOKS * len(self.reaction.pivots) * CELL_TIME * math.prod(film.cells)
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One answer."""
+        return WorkUnit(f"answers of {self.name}", ("answers", self), nominal=self.time(CALLS))
+
+    def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
+        """Return none: work is timed while it is done."""
+        return {}
+
+    batch_units = units
+
+    def asked(self, equilibria: int = 1) -> tuple[Any, Callable[[], dict[WorkUnit, int]]]:
+        """Return the bearing to solve with, and a call for the work of so many equilibria."""
+        return self.reaction, lambda: {self.tangents: equilibria}
+
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
+        """Return one answer."""
+        return {self.tangents: 1}
+
+    def judged(self, *, smooth: bool, defects: int, tangents: int = 2) -> dict[WorkUnit, int]:
+        """Return one estimate."""
+        return {WorkUnit(f"estimates by {self.rich_name}", ("estimates", self)): 1}
+
+    @property
+    def speed_prior(self) -> float:
+        """Order of magnitude of the error of a threshold."""
+        return self.prior
+
+    @property
+    def is_close(self) -> bool:
+        """Return that all films of tilting pads are close enough to say that something does not exist."""
+        return True
+
+    def growth(self, at: Equilibrium, mass: float) -> float:
+        """Return the growth rate [1/s] of the least stable mode of a rigid rotor [kg] with the pads."""
+        film = settled(self.reaction, at.position, at.speed)
+        return float(film.at_rest().modes(at.position, at.speed, mass)[0].real)
+
+    def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:
+        """Return that by the richer film at its own equilibrium, and why not to trust it."""
+        moved = self.corrected(at, smooth=False)
+        return float(self.rich.at_rest().modes(moved.position, at.speed, mass)[0].real), moved.doubt
+
+    def least_film(self, bearing: TiltingPadBearing, position: Array, speed: float) -> float:
+        """Return the least film [m] over all pads, each in its tilt."""
+        return float(bearing.at_rest().pad_states(position, speed).film_thickness.min())
+
+    def corrected(self, at: Equilibrium, *, smooth: bool) -> Corrected:
+        """Return the equilibrium of the richer film; smooth slopes are those once a turn."""
+        resting = FilmCandidate(
+            name=self.name,
+            reaction=self.reaction.at_rest(),
+            rich=self.rich.at_rest(),
+            rich_name=self.rich_name,
+            position_prior=self.position_prior,
+            prior=self.prior,
+        )
+        found = corrected(resting, at, np.array(at.load), smooth=False)
+        if not smooth:
+            return found
+        pads = self.rich.at_rest().matrices(found.position, at.speed, smooth_slopes).reduced(abs(at.speed))
+        return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
+
+
+def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
+    """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
+    return differenced_slopes(bearing, e, w, STEP)
+
+
+def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
+    """Return the films that can answer for a bearing of tilting pads: the map if it is there, and grids.
+
+    Parameters
+    ----------
+    bearing : TiltingPadBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    film = bearing.film
+    if fixed:
+        return (_tilting_candidate(bearing, film, pad_film_name(film), 0.0, 0.0),)
+    grids = [
+        _tilting_candidate(bearing, PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors)
+        for cells, *priors in TILTING_GRIDS
+    ]
+    if not is_pad_mappable(bearing.extent, bearing.slenderness):
+        return tuple(grids)
+    fine = _tilting_candidate(bearing, PadMapFilm(), "pad map", 2e-5, 1e-3)
+    return tuple(grids) if fine.makes_map else (fine, *grids)
+
+
+def _tilting_candidate(
+    bearing: TiltingPadBearing, film: PadFilm, name: str, position_prior: float, prior: float
+) -> TiltingCandidate:
+    making, rich = 0.0, (96, 8)
+    if isinstance(film, PadGridFilm):
+        rich = 2 * film.cells[0], 2 * film.cells[1]
+    elif isinstance(film, PadMapFilm):
+        making = film.making_time(bearing.extent, bearing.slenderness)
+    return TiltingCandidate(
+        name=name,
+        reaction=replace(bearing, film=film),
+        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
+        position_prior=position_prior,
+        prior=prior,
+        making=making,
+    )
+
 
 # Ladders of bearings of fixed pads: those of journals, by films of pads.
 
@@ -148,7 +510,7 @@ ORBIT_STEPS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class StatefulOrbitRung(SampledOrbitRung[TiltingCandidate]):
+class StatefulOrbitRung(OrbitRung):
     """The orbit on tilting pads of one film, by its equations over a turn."""
 
     @property

@@ -48,7 +48,7 @@ from ..scenes.families import Family
 from ..scenes.shaft_table import ShaftTable
 from ..scenes.solve_shaft import shaft_remarks, solve_rotor
 from .film_motions import ORBIT_UNITS as ORBITS
-from .film_thresholds import moving_heat
+from .film_statics import moving_heat
 from .shaft_films import (
     ShaftFilms,
     at_supply,

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -328,22 +328,33 @@ def heat_error(
     return HeatError(error, False) if error >= unsure else HeatError(error + unsure, True)
 
 
-class _Judge(Protocol):
-    @property
-    def value(self) -> Callable[[WarmRest], Any]: ...
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RestJudge:
+    """What judges rests under one load at one speed: by the distance of the values that they have.
 
-    @property
-    def distance(self) -> Callable[[Any, Any], float]: ...
+    Attributes
+    ----------
+    load : (float, float) [N]
+    speed : float [rad/s]
+    value : callable
+        Takes a rest and returns the quantity.
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    moving : callable
+        Takes the bearing and returns the error by heat that moves with the journal; 0 of one at rest.
+    """
 
+    load: tuple[float, float]
+    speed: float
+    value: Callable[[Any], Any]
+    distance: Callable[[Any, Any], float]
+    moving: Callable[[Any], float] = lambda bearing: 0.0
 
-class JudgedRest:
-    """What judges rests by the `value` of each, and by the `distance` of one value from a better one."""
-
-    def apart(self: _Judge, own: WarmRest, other: WarmRest) -> float:
+    def apart(self, own: Any, other: Any) -> float:
         """Return how far the quantity of one rest is from that of a better one."""
         return self.distance(self.value(own), self.value(other))
 
-    def error(self: _Judge, own: WarmRest, steps: HeatSteps) -> HeatError:
+    def error(self, own: Any, steps: HeatSteps) -> HeatError:
         """Return how far the quantity of a rest is off by heat."""
         start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
         coarse, fine, long = bases

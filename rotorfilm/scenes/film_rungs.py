@@ -418,6 +418,11 @@ class FilmCandidate:
         return 0.0 if cooling is None else float(cooling.supply_temperature)
 
 
+def any_candidate(film: Any) -> FilmCandidate:
+    """Return a film as a candidate of which nothing is known beforehand."""
+    return FilmCandidate(name="", reaction=film, rich=film, rich_name="", position_prior=0.0, prior=0.0)
+
+
 # The whirl of a rigid rotor on K and C.
 
 

@@ -24,7 +24,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Reaction, prepared_tangent
 from ..core.progress import Report, silent
 from ..core.readable import Readable
-from .study import Study, StudyCase, StudyModel, StudyResult, run_study, shortest_time, spread
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study, shortest_time, spread, table
 
 SEED, ROUNDS = 1907, 200
 VISCOSITY, COEFFICIENT = 0.02, 18e-9
@@ -208,7 +208,7 @@ class BallCurves(Readable):
             for m, preload in enumerate(self.preloads)
             for k, speed in enumerate(self.speeds.tolist())
         ]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+        return table(rows)
 
 
 def usual_bearing() -> BallBearing:

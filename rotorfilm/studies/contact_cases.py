@@ -8,9 +8,7 @@ says of its figures is asked of all three.
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
 from functools import partial
 from itertools import pairwise
@@ -22,7 +20,6 @@ from scipy.signal import find_peaks
 
 from ..bearings.contact import (
     AdaptiveSteps,
-    ContactGrid,
     ContactRun,
     ContactScheme,
     ContactState,
@@ -34,9 +31,10 @@ from ..bearings.contact import (
     UpwindScheme,
     perturbed,
 )
-from ..core.errors import ConvergenceError, ValidityWarning
+from ..core.errors import ConvergenceError
 from ..core.model import Array
 from ..core.progress import Report, silent
+from .contact_precision import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
 
 # What the text of Panovko (2011), section 4, says of its figures, asked of a solution of the cases.
 
@@ -232,9 +230,6 @@ def _second_largest(row: Sequence[float]) -> bool:
 # The published cases of a ball on a lubricated plane, by the published scheme and converged.
 
 
-SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
-PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
-
 SAME_GRID_STEP = 0.05
 """Of second order; the staggered scheme is blind to what alternates, the more so the shorter the steps."""
 
@@ -314,13 +309,6 @@ def contact_cases(
     return ContactCases(solutions, curves, [Statement.judged(*row) for row in zip(*found, strict=True)])
 
 
-@contextmanager
-def as_published() -> Iterator[None]:
-    """Silence what the published scheme is warned of: that its pressure alternates."""
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        yield
-
-
 def _curves(
     solutions: tuple[CaseSolution, ...], settle: float, report: Report
 ) -> dict[CaseSection, list[CaseRun]]:
@@ -382,12 +370,6 @@ def case_plan(settle: float) -> dict[CaseSection, list[tuple[str, Callable[[Case
             for w in SWEEP
         ],
     }
-
-
-def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
-    """Return the contact of the published cases on cells x cells."""
-    grid = ContactGrid(cells=(cells, cells))
-    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
 
 
 def _solution(

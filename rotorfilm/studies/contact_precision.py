@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
+from functools import partial
 from time import process_time
 from typing import NamedTuple
 
@@ -12,6 +15,8 @@ from scipy.interpolate import CubicSpline
 from ..bearings.contact import (
     HERTZ_LOAD,
     AdaptiveSteps,
+    ContactGrid,
+    ContactLaw,
     ContactScheme,
     ContactState,
     FixedSteps,
@@ -24,11 +29,14 @@ from ..bearings.contact import (
     reduce_contact,
     ride,
 )
-from ..core.errors import ConvergenceError
+from ..core.errors import ConvergenceError, ValidityWarning
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
-from .contact_cases import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
+
+SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
+PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
+"""Of the cases of Panovko (2011), section 4."""
 
 LOAD = SineLoad(amplitude=0.5, frequency=2.0)
 INERTIA = 1.0
@@ -116,16 +124,14 @@ def _full_models(cells: int, duration: float) -> Iterator[StudyModel]:
 def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterator[StudyModel]:
     contact = published_contact(cells, UpwindScheme())
     for order in orders:
-        law = reduce_contact(contact, order)
-
-        def run(law=law) -> Series:  # type: ignore[no-untyped-def]
-            motion = ride(
-                law, mass=INERTIA / HERTZ_LOAD, load=LOAD, start=law.operating, duration=duration,
-                samples=401, rtol=1e-4,
-            )  # fmt: skip
-            return motion.time, motion["z"]
-
+        run = partial(_ridden, reduce_contact(contact, order), duration)
         yield _model("reduced law", f"order {order}", run, RIDES)
+
+
+def _ridden(law: ContactLaw, duration: float) -> Series:
+    mass = INERTIA / HERTZ_LOAD
+    motion = ride(law, mass=mass, load=LOAD, start=law.operating, duration=duration, samples=401, rtol=1e-4)
+    return motion.time, motion["z"]
 
 
 def _full(
@@ -140,6 +146,17 @@ def _full(
         return motion.time, motion.delta
 
     return run
+
+
+def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
+    """Return the contact of the published cases on cells x cells."""
+    grid = ContactGrid(cells=(cells, cells))
+    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+
+
+def as_published() -> AbstractContextManager[object]:
+    """Silence what the published scheme is warned of: that its pressure alternates."""
+    return warnings.catch_warnings(action="ignore", category=ValidityWarning)
 
 
 # Where the published scheme of a rolling ball fails: load steps it cannot take, decay it makes up itself.

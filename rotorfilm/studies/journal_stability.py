@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +23,7 @@ from .journal_accuracy import (
     random_states,
     require_cells,
 )
-from .study import States, StudyModel
+from .study import States, StudyModel, table
 
 THRESHOLD_CELLS = (384, 16)
 """Finer grid of the reference; each derivative is a mean of eight solutions on it."""
@@ -75,32 +74,27 @@ def journal_stability(
     bearing = comparison_bearing(slenderness)
     report(0.0, "two-dimensional reference")
     around, along = cells
-    exact, rough = (_curve(_averaged(bearing, grid), ratios) for grid in (cells, (around // 2, along // 2)))
+    exact, rough = (
+        _curve(fitted_bearing(bearing, AveragedFilm(film=ReynoldsFilm(cells=grid))), ratios)[0]
+        for grid in (cells, (around // 2, along // 2))
+    )
     sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
     judged = []
     for number, rung in enumerate(rungs):
         report((number + 1) / (len(rungs) + 1), f"whirl threshold by {rung.name}")
-        judged.append(_judged(rung, bearing, ratios, exact.parameters, sample))
+        judged.append(_judged(rung, bearing, ratios, exact, sample))
     return JournalStability(
         slenderness=slenderness,
         eccentricity_ratio=tuple(ratios.tolist()),
-        speed_parameter=exact.parameters,
+        speed_parameter=exact,
         reference=f"2-D film, {around} x {along} cells, averaged over {PLACES} positions within a cell",
-        reference_error=_largest_gap(rough.parameters, exact.parameters),
+        reference_error=_largest_gap(rough, exact),
         rungs=tuple(judged),
     )
 
 
-class _Curve(NamedTuple):
-    """Thresholds, why there is none, and the coefficients behind them, one entry for each ratio."""
-
-    parameters: tuple[float | None, ...]
-    reasons: tuple[str, ...]
-    coefficients: tuple[Coefficients, ...]
-
-
-def _averaged(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
-    return fitted_bearing(bearing, AveragedFilm(film=ReynoldsFilm(cells=cells)))
+Parameters = tuple[float | None, ...]
+"""Speed parameters at the onset of whirl, one for each ratio; None where there is none."""
 
 
 def _required_ratios(eccentricity_ratio: Sequence[float]) -> Array:
@@ -115,50 +109,49 @@ def _static_states(bearing: JournalBearing, ratios: Array) -> States:
     return States(position, np.zeros_like(position), np.full(len(ratios), SPEED))
 
 
-def _curve(bearing: JournalBearing, ratios: Array) -> _Curve:
+def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[str, ...], list[Coefficients]]:
+    """Return thresholds, why there is none, and the coefficients behind them, one entry for each ratio."""
     states = _static_states(bearing, ratios)
     force, slopes = bearing.force(*states), bearing.jacobian(*states)
-    parameters, reasons, matrices = [], [], []
-    for k in range(len(ratios)):
-        at = Coefficients(
+    matrices = [
+        Coefficients(
             stiffness=-slopes[:, :2, k],
             damping=-slopes[:, 2:4, k],
             position=states.position[:, k],
             speed=SPEED,
         )
-        border = critical_mass(at)
-        parameters.append(_parameter(border.mass, bearing.clearance, force[:, k]))
-        reasons.append(border.reason)
-        matrices.append(at)
-    return _Curve(tuple(parameters), tuple(reasons), tuple(matrices))
-
-
-def _parameter(mass: float | None, clearance: float, load: Array) -> float | None:
-    if mass is None:
-        return None
-    return speed_parameter(speed=SPEED, clearance=clearance, mass=mass, load=load)
+        for k in range(len(ratios))
+    ]
+    borders = [critical_mass(at) for at in matrices]
+    parameters = tuple(
+        None
+        if border.mass is None
+        else speed_parameter(speed=SPEED, clearance=bearing.clearance, mass=border.mass, load=load)
+        for border, load in zip(borders, force.T, strict=True)
+    )
+    return parameters, tuple(border.reason for border in borders), matrices
 
 
 def _judged(
     rung: StudyModel,
     bearing: JournalBearing,
     ratios: Array,
-    exact: tuple[float | None, ...],
+    exact: Parameters,
     sample: States,
 ) -> RungStability:
     own = fitted_bearing(bearing, rung.law)
-    curve = _curve(own, ratios)
+    parameters, reasons, matrices = _curve(own, ratios)
     at_rest = tension(rung.law, *own.kinematics(*_static_states(own, ratios)), own.slenderness)
     moving = tension(rung.law, *own.kinematics(*sample), own.slenderness)
     return RungStability(
         name=rung.name,
         family=rung.family,
         label=rung.label,
-        speed_parameter=curve.parameters,
-        deviation=_deviation(curve.parameters, exact),
-        reasons=curve.reasons,
-        rank_one=tuple(damping_has_rank_one(at) for at in curve.coefficients),
-        asymmetry=tuple(_asymmetry(at.damping) for at in curve.coefficients),
+        speed_parameter=parameters,
+        deviation=_deviation(parameters, exact),
+        reasons=reasons,
+        rank_one=tuple(damping_has_rank_one(at) for at in matrices),
+        asymmetry=tuple(_asymmetry(at.damping) for at in matrices),
         static_tension=tuple(at_rest.tolist()),
         tension_share=float(np.mean(moving > TENSION)),
     )
@@ -168,13 +161,13 @@ def _asymmetry(damping: Array) -> float:
     return float(abs(damping[0, 1] - damping[1, 0]) / np.max(np.abs(damping)))
 
 
-def _largest_gap(rough: tuple[float | None, ...], exact: tuple[float | None, ...]) -> float:
+def _largest_gap(rough: Parameters, exact: Parameters) -> float:
     pairs = zip(_deviation(rough, exact), exact, strict=True)
     gaps = [abs(gap) for gap, x in pairs if gap is not None and x is not None and x <= HIGHEST]
     return max(gaps, default=0.0)
 
 
-def _deviation(values: tuple[float | None, ...], exact: tuple[float | None, ...]) -> tuple[float | None, ...]:
+def _deviation(values: Parameters, exact: Parameters) -> Parameters:
     pairs = zip(values, exact, strict=True)
     return tuple(None if v is None or x is None else v / x - 1.0 for v, x in pairs)
 
@@ -304,8 +297,7 @@ class JournalStability(Readable):
 
     def columns(self) -> dict[str, list[object]]:
         """Return one row for each rung and eccentricity ratio, headings with units."""
-        rows = [row for rung in self.rungs for row in self._rows(rung)]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+        return table([row for rung in self.rungs for row in self._rows(rung)])
 
     def _rows(self, rung: RungStability) -> list[dict[str, object]]:
         wrong, missing, invented = self.wrong(rung), self.missing(rung), self.invented(rung)

@@ -4,8 +4,7 @@ import pytest
 
 from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.film_statics import StaticRung
-from rotorfilm.questions.film_thresholds import WhirlRung
+from rotorfilm.questions.film_statics import StaticRung, WhirlRung
 from rotorfilm.questions.quantities import QUANTITIES, TEMPERATURES
 from rotorfilm.scenes.scene import read_scene
 

@@ -26,38 +26,40 @@ pytest.importorskip("pandas")
 pytest.importorskip("xarray")
 
 NO_RESULTS = {
-    "what a chart is drawn from": {"HeatAnswer", "HeatModel", "StudyStyle"},
+    "what a chart is drawn from": {"HeatModel", "StudyStyle"},
     "what a caller gives": {
         "OperatingPoint",
         "DamperGroups",
         "Span",
         "Axis",
         "StateRange",
-        "RungPoint",
         "PadResolution",
     },
     "a part of the machinery": {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
-        *("FilmField", "StudyCase", "FilmCase", "Study", "BushRun"),
-        *("RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
+        *("FilmField", "StudyCase", "Study", "BushRun"),
+        *("RossRotor", "DemoResult", "PublishedStage"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("RestingBalls", "BuiltDamperFilm"),
+        *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
-        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
+        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate"),
         *(
             "RestingFilms",
             "DamperFilm",
-            "ConservedDamperFilm",
             "FilmRung",
-            "Limit",
             "Panel",
-            "LimitAtlas",
         ),
     },
 }
 """Classes with attributes that nobody is answered with, by the reason."""
 
-READERS = ("scenes.reading", "questions.", "core.answers.Ladder", "core.answers.CandidateRung")
+READERS = (
+    "scenes.reading",
+    "questions.",
+    "core.answers.Ladder",
+    "core.answers.CandidateRung",
+    "core.answers.MadeRung",
+)
 """Where classes hold what they were made from: readers of files, and rungs."""
 
 BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

@@ -20,9 +20,9 @@ from rotorfilm.bearings.pads import (
 )
 from rotorfilm.core.errors import SceneError
 from rotorfilm.fmu import describe_fmu
+from rotorfilm.questions.pads import COARSE_MAP
 from rotorfilm.scenes import pad_tables as lobed_table, pad_tables as tilting_table
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.pad_candidates import COARSE_MAP
 from rotorfilm.scenes.pad_tables import pad_numbers
 from rotorfilm.scenes.scene import parse_scene
 

@@ -18,9 +18,8 @@ from ...core.model import Array
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native.film_kernels import Status
 from ...native.library import loops
-from ...native.master_structs import MessageStruct
 from ...native.spec import NativeParameter, NativeSpec, parameter
-from ...native.structs import OilFilmStruct, OilFoundStruct, OilGapStruct, OilPastStruct, OilShapeStruct
+from ...native.structs import structure
 from ..reaction import NOMINAL_SPEED, StepTrial, input_vector
 from .mass_conserving import (
     FILM,
@@ -110,7 +109,7 @@ def oil_step(
     """
     like = memory if near is None else near
     content, before = contiguous(memory.content), contiguous(memory.before)
-    history = OilPastStruct(content.ctypes.data, before.ctypes.data, memory.length)
+    history = structure("rf_oil_past")(content.ctypes.data, before.ctypes.data, memory.length)
     return _solved(film, gap, rate, (like.theta, like.full), "rf_oil_step", byref(history), dt)
 
 
@@ -262,7 +261,7 @@ class SteppedFilm:
             If the search for the cavity does not end.
         """
         motion, cells = contiguous(self._inside(input_vector(u), "")), self.film.cells.opening.size
-        block, why = np.empty(HEAD + len(ROWS) * cells), MessageStruct()
+        block, why = np.empty(HEAD + len(ROWS) * cells), structure("rf_message")()
         places = motion.ctypes.data, block.ctypes.data, byref(why)
         _report(loops()["rf_oil_begin"](byref(self._struct), *places), why)
         return self._remembered(block)
@@ -288,7 +287,7 @@ class SteppedFilm:
         rows = [getattr(state.oil, name) for name in ROWS]
         heads = state.oil.length, state.motion, state.output, state.passed
         block = np.concatenate([np.ravel(part) for part in (*heads, *rows)])
-        work, why, at = (c_int64 * 2)(), MessageStruct(), contiguous(target)
+        work, why, at = (c_int64 * 2)(), structure("rf_message")(), contiguous(target)
         places = at.ctypes.data, dt, block.ctypes.data, work, byref(why)
         _report(loops()["rf_oil_travel"](byref(self._struct), t, *places), why)
         end = self._remembered(block)
@@ -328,10 +327,12 @@ class SteppedFilm:
         return FilmMemory(oil, further["motion"], further["output"], further["passed"])
 
     @property
-    def _struct(self) -> OilFilmStruct:
+    def _struct(self) -> Any:
         """The film in SI units that the compiled library steps."""
         share, limits = self.carrying(UNIT_SPEED), (LARGEST_ANGLE, LARGEST_WAY)
-        return OilFilmStruct(shape_of(self.film)[0], self.clearance, share, *self.scales, *limits)
+        return structure("rf_oil_film_si")(
+            shape_of(self.film)[0], self.clearance, share, *self.scales, *limits
+        )
 
     def _remembered(self, block: Array) -> FilmMemory:
         """Return the memory in the numbers that the compiled library goes on from."""
@@ -555,7 +556,7 @@ ROWS = ("content", "before", "pressure", "theta", "full")
 
 
 @lru_cache(maxsize=64)
-def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, list[np.ndarray]]:
+def shape_of(film: ConservedFilm) -> tuple[Any, list[np.ndarray]]:
     """Return a film as C reads it, and the arrays that it must outlive.
 
     Raises
@@ -577,7 +578,9 @@ def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, list[np.ndarray]]:
     ]
     ends = float(cells.center[0]), supply.center_pressure, supply.end_pressure
     places = [row.ctypes.data for row in kept]
-    return OilShapeStruct(*cells.opening.shape, len(supply.fed), *places, *ends, film.slenderness), kept
+    return structure("rf_oil_shape")(
+        *cells.opening.shape, len(supply.fed), *places, *ends, film.slenderness
+    ), kept
 
 
 def sharpened_oil(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
@@ -607,8 +610,8 @@ def oil_sums(film: ConservedFilm, state: ConservedState) -> Array:
     return sums
 
 
-def _gap(rows: list[Array]) -> OilGapStruct:
-    return OilGapStruct(*(row.ctypes.data for row in rows))
+def _gap(rows: list[Array]) -> Any:
+    return structure("rf_oil_gap")(*(row.ctypes.data for row in rows))
 
 
 def _solved(
@@ -618,7 +621,7 @@ def _solved(
     shape, rows = film.cells.opening.shape, [contiguous(row) for row in gap]
     theta, full = np.array(near[0], dtype=float, order="C"), np.array(near[1], dtype=np.uint8, order="C")
     pressure, old = np.empty(shape), np.empty(shape)
-    made = OilFoundStruct(*(row.ctypes.data for row in (pressure, theta, full, old)))
+    made = structure("rf_oil_found")(*(row.ctypes.data for row in (pressure, theta, full, old)))
     report_search(loops()[search](byref(shape_of(film)[0]), byref(_gap(rows)), rate, *further, byref(made)))
     equations = film.equations(gap, rate, (made.rate, np.zeros(shape)))._replace(old=old)
     solution = OilSolution(pressure, theta, full, made.work.solutions, made.work.newton)

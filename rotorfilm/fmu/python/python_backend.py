@@ -38,7 +38,7 @@ LIBRARY = {
 }
 """What a module imports that calls the compiled library."""
 
-COMPANIONS = "bearings/journal/map/data/*"
+COMPANIONS = ("bearings/journal/map/data/*", "native/**/*.h")
 """Files, below the package, that such a module reads at run time, beside the library.
 
 They go along where the model, or a user's module, names such a module, not wherever the import closure holds
@@ -104,7 +104,7 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
     sources = {name: source_of(name) for name in modules}
     if all(LIBRARY.isdisjoint(imported_names(name, source)) for name, source in sources.items()):
         return {}
-    found = sorted(path for path in ROOT.glob(COMPANIONS) if path.is_file())
+    found = sorted(path for names in COMPANIONS for path in ROOT.glob(names) if path.is_file())
     libraries = [library_path(name) for name in (FILMS, LOOPS)]
     return {
         **{path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found},

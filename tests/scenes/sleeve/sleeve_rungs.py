@@ -50,7 +50,7 @@ class SleeveFilm:
         return {}
 
 
-class SleeveRung(CandidateRung[SleeveFilm]):
+class SleeveRung(CandidateRung):
     """The damping by one film."""
 
     @property
