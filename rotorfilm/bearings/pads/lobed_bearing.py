@@ -369,7 +369,7 @@ class LobedBearing(FilmReaction, PadBearing):
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, self.dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
-        """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
+        """Return this bearing with a film that carries the maps it needs; see `model.Reaction`."""
         return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
 
 

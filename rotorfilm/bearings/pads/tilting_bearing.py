@@ -339,7 +339,7 @@ class TiltingPadBearing(Called, PadBearing):
         )
 
     def portable(self) -> TiltingPadBearing:
-        """Return this bearing with a film that carries the map it needs; see `model.Portable`."""
+        """Return this bearing with a film that carries the map it needs; see `model.Reaction`."""
         return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
 
     @property
