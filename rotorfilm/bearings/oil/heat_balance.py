@@ -37,7 +37,7 @@ from ...core.results import BearingLosses
 from ...core.signals import Signal
 from ...native.loss_kernels import LossKernel
 from ..films.kernel_film import BoundKernel
-from ..reaction import Size
+from ..reaction import Dimensions
 from .oil import Cooling, Oil, require_absolute
 
 _STEPS = 60
@@ -206,7 +206,7 @@ def _unheated(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
 
 
 @runtime_checkable
-class Cooled(Size, Protocol):
+class Cooled(Dimensions, Protocol):
     """What a bearing with an oil and cooling offers, as `JournalBearing` and `LobedBearing` do."""
 
     @property
