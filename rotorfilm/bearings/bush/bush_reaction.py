@@ -1,4 +1,12 @@
-"""A bush with a worn profile: displacement of the shaft in, force and friction torque out."""
+"""A bush with a worn profile: displacement of the shaft in, force and friction torque out.
+
+The contact of a shaft with a liner whose worn profile is given at nodes, and how melting wears it. The liner
+yields a_1 q = d at the depth d of the shaft in it, where d > 0, and carries nothing elsewhere (Evtushenko &
+Kovalenko 1993, (1.4), (1.13)). Between neighboring nodes d is linear; its positive part is integrated exactly
+against the nodes' hat functions, so that loads and stiffness are continuous while the ends of the contact
+pass from node to node. Second order in the distance of the nodes. Lengths are in units of the liner radius,
+pressures in the shear modulus; nodes come first, batch axes trail.
+"""
 
 from __future__ import annotations
 

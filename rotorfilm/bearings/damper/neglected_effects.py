@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,14 +51,14 @@ class JudgedDamper(SharedReaction):
         """
         q, v, a = position, velocity, acceleration
         e, w, b = q / self.clearance, v / self.clearance, a / self.clearance
-        found = self._short.force(e, w, b, self.frequency)
+        found = self._short(e, w, b, self.frequency)
         if self._ruptured:
             pushed = self.damper.convection(q, v)
             if self.has_inertia:
                 pushed = pushed - np.einsum("ij...,j...->i...", self.damper.mass(q, v), a)
             return found + self._growth * np.sum(e**2, axis=0) * pushed + self._around(q, v)
         more, added = self._small
-        centered = self._short.force(np.zeros_like(e), w, b, self.frequency)
+        centered = self._short(np.zeros_like(e), w, b, self.frequency)
         return np.asarray(found - centered - more * v - added * a)
 
     def force_along(
@@ -87,14 +87,18 @@ class JudgedDamper(SharedReaction):
         return math.isfinite(self.damper.slenderness_limit)
 
     @cached_property
-    def _short(self) -> Neglected:
-        """The short film, with what of its length counts."""
+    def _short(self) -> Callable[[Array, Array, Array, float], Array]:
+        """What a short film leaves out, with what of its length counts."""
         damper = self.damper
         share = 1.0 if self._is_short else parabola_mean(damper.slenderness)
         leak = damper.squeeze_case.end_leak * damper.slenderness
-        inertial = damper.density * damper.radius * damper.length**3
-        seal = 3.0 / leak if self._ruptured else 0.0
-        return Neglected(share * damper.force_scale, share * inertial, seal, self._ruptured)
+        return partial(
+            neglected_force,
+            viscous=share * damper.force_scale,
+            inertial=share * damper.inertia_scale,
+            seal=3.0 / leak if self._ruptured else 0.0,
+            cavitated=self._ruptured,
+        )
 
     @cached_property
     def _small(self) -> tuple[float, float]:
@@ -142,11 +146,25 @@ NODES = 1440
 """Around a film that is cut off: within 1e-3 of its force to eps = .9."""
 
 
-class Neglected(NamedTuple):
-    """The numbers of a film that its left-out forces need; lengths in clearances.
+def neglected_force(
+    e: Array,
+    w: Array,
+    b: Array,
+    frequency: float,
+    *,
+    viscous: float,
+    inertial: float,
+    seal: float = 0.0,
+    cavitated: bool = False,
+) -> Array:
+    """Return the force that a film leaves out, shape (2, n) [N].
 
-    Attributes
+    Parameters
     ----------
+    e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
+        Position, velocity and acceleration / clearance.
+    frequency : float [rad/s]
+        Of the motion.
     viscous : float [N s]
         viscosity radius length^3/clearance^2, that of the length which counts.
     inertial : float [kg m]
@@ -155,32 +173,16 @@ class Neglected(NamedTuple):
         What the seals of a short film add to h^-3: clearance^3/(2 viscosity G_s length).
     cavitated : bool
     """
-
-    viscous: float
-    inertial: float
-    seal: float
-    cavitated: bool
-
-    def force(self, e: Array, w: Array, b: Array, frequency: float) -> Array:
-        """Return the force that is left out, shape (2, n) [N].
-
-        Parameters
-        ----------
-        e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
-            Position, velocity and acceleration / clearance.
-        frequency : float [rad/s]
-            Of the motion.
-        """
-        if self.cavitated:
-            theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
-            m = np.stack([np.cos(theta), np.sin(theta)])
-            # Film thickness and its first and second derivative in time, each (NODES, n).
-            h, s, t = 1.0 + m.T @ e, m.T @ w, m.T @ b
-            pressure = -self.viscous * (h**-3 + self.seal) * s
-            pressure -= self.inertial * (0.1 * t / h - CONVECTION * (s / h) ** 2)
-            # 1 where only the whole pressure presses, -1 where only the viscous one does.
-            moved = (pressure > 0.0) * 1.0 - (s < 0.0)
-            return np.asarray(2.0 * np.pi / NODES * m @ (pressure * moved))
-        # density radius length^3 Re frequency; Re is frequency inertial/viscous.
-        second = self.inertial**2 / self.viscous * frequency**2
-        return second * np.polynomial.polynomial.polyval(np.sum(e * e, axis=0), SECOND) * w
+    if cavitated:
+        theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
+        m = np.stack([np.cos(theta), np.sin(theta)])
+        # Film thickness and its first and second derivative in time, each (NODES, n).
+        h, s, t = 1.0 + m.T @ e, m.T @ w, m.T @ b
+        pressure = -viscous * (h**-3 + seal) * s
+        pressure -= inertial * (0.1 * t / h - CONVECTION * (s / h) ** 2)
+        # 1 where only the whole pressure presses, -1 where only the viscous one does.
+        moved = (pressure > 0.0) * 1.0 - (s < 0.0)
+        return np.asarray(2.0 * np.pi / NODES * m @ (pressure * moved))
+    # density radius length^3 Re frequency; Re is frequency inertial/viscous.
+    second = inertial**2 / viscous * frequency**2
+    return second * np.polynomial.polynomial.polyval(np.sum(e * e, axis=0), SECOND) * w

@@ -496,17 +496,9 @@ class LubricatedBalls:
         film = self.shares * (states @ self.C[0] + self.D[0, 0] * self._geometry(u)[1])
         acts = pressed * (film > -load)
         place = kernel.each["by_place"].reshape(-1, 2, 2)
-        return _Balls(
-            wrench=kernel.wrench,
-            slopes=kernel.slopes[:, :5],
-            direction=direction,
-            load=load,
-            moved=place @ self._moves,
-            film=film,
-            gained=pressed * np.maximum(film, -load),
-            acts=acts,
-            pressed=pressed,
-        )
+        gained = pressed * np.maximum(film, -load)
+        moved, slopes = place @ self._moves, kernel.slopes[:, :5]
+        return _Balls(kernel.wrench, slopes, direction, load, moved, film, gained, acts, pressed)
 
     def _geometry(self, u: ArrayLike) -> tuple[Array, Array, Array]:
         """Return the approach of both grooves at each ball, what drives its films, and d(that)/d(motion)."""
