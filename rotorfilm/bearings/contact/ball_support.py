@@ -29,7 +29,7 @@ from ...core.results import Trajectory
 from ...core.signals import Signal, force_outputs, journal_inputs, signals_of
 from ...native.library import loops
 from ...native.spec import NativeSpec
-from ...native.structs import RideStruct
+from ...native.structs import structure
 from ..formulas import cubic
 from ..reaction import Called, Complex, ReducedCoefficients, StatesStiffness, coefficients_of
 from .contact_law import MOST_CONTACTS, ContactLaw, contact_spec
@@ -321,7 +321,9 @@ class _Rider(NamedTuple):
         parts = law.A, law.B[:, 0], law.C[0]
         matrices = [np.ascontiguousarray(matrix, dtype=float) for matrix in parts]
         static = float(law.D[0, 0]), law.offset, law.span, law.exponent, law.operating
-        numbers = RideStruct(law.order, *(matrix.ctypes.data for matrix in matrices), *static, self.W)
+        numbers = structure("rf_ride_law")(
+            law.order, *(matrix.ctypes.data for matrix in matrices), *static, self.W
+        )
         first, loads = np.ascontiguousarray(start, dtype=float), np.ascontiguousarray(pushes, dtype=float)
         y = np.empty((n + 1, len(first)))
         arguments = first.ctypes.data, (end - begin) / n, n, loads.ctypes.data, y.ctypes.data

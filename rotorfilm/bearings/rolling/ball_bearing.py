@@ -23,8 +23,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.results import Coefficients
 from ...native import Status
-from ...native.ball_kernel import BallKernel
-from ...native.structs import ROW, WAVE
+from ...native.ball_kernel import ROW, WAVE, BallKernel
 from .ball_element import BallElement, BallLaw, EllipticContact, RunningBalls, require_balls
 
 # What balls and rings are made of.

@@ -25,7 +25,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization
 from ...core.readable import Readable
 from ...core.signals import Signal, signals_of
-from ...native.structs import ROW
+from ...native.ball_kernel import ROW
 from ..contact import (
     BarusViscosity,
     ContactGrid,
