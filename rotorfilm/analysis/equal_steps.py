@@ -220,7 +220,7 @@ class ShakenRotor(NamedTuple):
             )
         by_motion = heavy.mass_slopes(q, v, speeds)[:, :, :4]
         slopes = slopes - np.einsum("ijk...,j...->ik...", by_motion, a)
-        force = film.force_along(q, v, a, speeds)  # type: ignore[misc]  # heavy and film are one
+        force = film.force_along(q, v, a, speeds)  # heavy and film are one
         mass = heavy.mass(q, v, speeds)
         return RestTangent(force, -slopes[:, :2], -slopes[:, 2:], mass)
 

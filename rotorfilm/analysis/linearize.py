@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import Complex, MemoryCoefficients, StateSpaceStiffness
+from ..bearings.reaction import Complex, MemoryCoefficients
 from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Dynamic, Linearization, Model, Remembering, settled
@@ -257,8 +257,8 @@ def film_states(film: MemoryCoefficients) -> Linearization:
         As `film_system`.
     """
     motion = film.dynamic_stiffness
-    if isinstance(motion, StateSpaceStiffness):
-        A, B, C, D = motion.at
+    if at := getattr(motion, "at", None):
+        A, B, C, D = at
         return Linearization(A, B[:, :4], C[:2], D[:2, :4])
     return _fitted(film, None, TOLERANCE).linearization
 

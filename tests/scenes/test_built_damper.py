@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 from rotorfilm import EndSeal, FiniteSqueeze, FullFilm, RigidRotor, SqueezeFilmDamper, synchronous_orbits
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.assemblies import Sprung
-from rotorfilm.bearings.damper.neglected_effects import JudgedDamper, Neglected
+from rotorfilm.bearings.damper.neglected_effects import JudgedDamper, neglected_force
 from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene
@@ -133,7 +133,7 @@ def test_what_is_left_out_of_a_full_film_is_the_second_order(eps):
         right = (
             exact["exact_orbit"](eps, reynolds, nodes=21, steps=400) - exact["film_orbit"](eps, reynolds)[0]
         )
-        found = Neglected(1.0 / reynolds, 1.0, 0.0, False).force(e, w, -e, 1.0)[:, 0]
+        found = neglected_force(e, w, -e, 1.0, viscous=1.0 / reynolds, inertial=1.0)[:, 0]
         assert np.linalg.norm(found - right) < 0.25 * np.linalg.norm(right)
 
 
@@ -142,7 +142,7 @@ def test_what_is_left_out_of_a_ruptured_film_is_its_edge(eps):
     exact = runpy.run_path(EXACT)
     e, w = np.array([[eps], [0.0]]), np.array([[0.0], [eps]])
     right = exact["cut_off"](eps, 4.0) - exact["film_orbit"](eps, 4.0, ruptured=True)[0]
-    found = Neglected(0.25, 1.0, 0.0, True).force(e, w, -e, 1.0)[:, 0]
+    found = neglected_force(e, w, -e, 1.0, viscous=0.25, inertial=1.0, cavitated=True)[:, 0]
     assert_allclose(found, right, rtol=0.01)
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
 from rotorfilm.bearings.bush.bearing import Friction
+from rotorfilm.bearings.bush.bush_reaction import LocalMelting
 from rotorfilm.bearings.bush.melting import ApproximateShaft, GlobalBalance
-from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import parse_scene
 

@@ -933,7 +933,7 @@ class PadsStiffness:
 
     @property
     def at(self) -> Linearization:
-        """The pads as states; see `StateSpaceStiffness`."""
+        """The pads as states; see `DynamicStiffness`."""
         return self.matrices.linearization()
 
     def __call__(self, s: complex) -> tuple[Complex, Complex]:
