@@ -32,8 +32,8 @@ from .heat_levels import field_rung
 from .variants import VariantRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.schema import JournalTable
 
 CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.film_rungs import FilmRung, point_films, turn_films
-from ..scenes.schema import JournalTable
 from .film_motions import film_ladders
 from .quantities import QUANTITIES
 
@@ -25,18 +22,4 @@ def journal_turns(scene: Scene) -> tuple[FilmRung, ...]:
     return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
-FAMILY = Family(
-    table=JournalTable,
-    ladders=film_ladders(journal_points, journal_turns, QUANTITIES),
-    models=film_models,
-    example={
-        "journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "clearance": "80 um",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+LADDERS = film_ladders(journal_points, journal_turns, QUANTITIES)

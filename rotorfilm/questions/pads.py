@@ -11,29 +11,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analysis import coefficients, equilibrium
-from ..analysis.harmonic_balance import basis, first_wave
-from ..analysis.stateful_orbit import StatefulTurn, TurnEquations, resampled
+from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
 from ..bearings.pads import (
     LobedBearing,
-    LobeShare,
     PadFilm,
     PadGridFilm,
     PadMapFilm,
     PadResolution,
     PressureDamBearing,
     TiltingPadBearing,
-    TiltingPads,
     differenced_slopes,
     is_pad_mappable,
+    lobe_share,
 )
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array, settled
 from ..core.results import Equilibrium
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family, SceneModels
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
-from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, dam_film_name, pad_film_name, quick_pads
+from ..scenes.pad_tables import pad_film_name, settled_scene
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
@@ -100,13 +96,13 @@ class PadCandidate(FilmCandidate):
         bearing = self.reaction
         if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
             return math.inf
-        film, place = bearing.film, (at.position, at.speed)
-        shares = [LobeShare(bearing, film, lobe, *place) for lobe in bearing.lobes]
+        place, film = (at.position, at.speed), bearing.film
+        shares = (lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
+        force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
-            return sum(share.force for share in shares) / math.hypot(*at.load)
+            return force / math.hypot(*at.load)
         found = coefficients(bearing, at.position, at.speed)
-        stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
-        return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
+        return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
 def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
@@ -224,10 +220,10 @@ def _dam_candidate(
 ) -> PadCandidate:
     rich = replace(bearing, cells=cells)
     return PadCandidate(
-        name=dam_film_name(bearing),
+        name=pad_film_name(bearing),
         reaction=bearing,
         rich=rich,
-        rich_name=dam_film_name(rich),
+        rich_name=pad_film_name(rich),
         position_prior=position_prior,
         prior=prior,
         call_time=len(bearing.pads) * CELL_TIME * math.prod(bearing.cells),
@@ -326,7 +322,7 @@ class TiltingCandidate(FilmCandidate):
         return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
     return differenced_slopes(bearing, e, w, STEP)
 
@@ -385,26 +381,10 @@ def _all(scene: Scene) -> tuple[PadCandidate, ...]:
     return lobed_candidates(scene.table("lobed_journal").build(), fixed=scene.film_is_given)
 
 
-LOBED = Family(
-    table=LobedTable,
-    ladders=film_ladders(
-        lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
-        lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
-        PAD_STATICS,
-    ),
-    models=film_models,
-    example={
-        "lobed_journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "preset": "elliptical",
-            "assembled_clearance": "70 um",
-            "preload": 0.5,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
+LOBED = film_ladders(
+    lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
+    lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
+    PAD_STATICS,
 )
 
 
@@ -416,24 +396,7 @@ def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-PRESSURE_DAM = Family(
-    table=DamTable,
-    ladders=film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"]),
-    models=film_models,
-    example={
-        "pressure_dam": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "pad_clearance": "80 um",
-            "depth": "140 um",
-            "end": "145 deg",
-            "share": 0.75,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+PRESSURE_DAM = film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"])
 
 
 # Questions about tilting pads: K and C are those at the shaft's frequency.
@@ -524,58 +487,10 @@ class StatefulOrbitRung(OrbitRung):
 # What tilting pads bring to scenes and questions.
 
 
-def tilting_models(scene: Scene) -> SceneModels:
-    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
-    scene = settled_scene(scene)
-    models = film_models(scene)
-    bearing = scene.table("tilting_pad").build()
-    rest = np.array([models.start["x"], models.start["y"]])
-    pads = bearing.at_rest().pad_states(rest, scene.speed)
-    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
-    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
-
-
-TILTING = Family(
-    table=TiltingTable,
-    ladders={
-        **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
-        **dict.fromkeys(
-            ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
-        ),
-        "whirl_threshold": partial(whirl_ladder, _films, levels=False),
-    },
-    models=tilting_models,
-    example={
-        "tilting_pad": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "assembled_clearance": "70 um",
-            "preload": 0.3,
-            "pad_count": 5,
-            "loading": "between_pads",
-            "extent": "60 deg",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
-
-
-# Pads on an oil: in motion their films keep the temperature that they have at rest.
-
-
-def is_warm(scene: Scene) -> bool:
-    """Return whether the bearing of a scene runs on an oil, as warm as its films get."""
-    return bool(scene.film_table.build().is_warming)
-
-
-def settled_scene(scene: Scene) -> Scene:
-    """Return a scene whose films keep the temperature that they have with the journal at rest."""
-    if not is_warm(scene):
-        return scene
-    bearing: Any = scene.bearing
-    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
-    name = next(name for name, table in scene.others.items() if table is scene.film_table)
-    kept: Any = replace(scene.film_table, temperature=at.temperature)  # type: ignore[type-var]
-    return replace(scene, others={**scene.others, name: kept})
+TILTING = {
+    **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
+    **dict.fromkeys(
+        ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
+    ),
+    "whirl_threshold": partial(whirl_ladder, _films, levels=False),
+}
