@@ -411,6 +411,9 @@ class WhirlQuestion(FilmQuestion):
     ----------
     mass : float [kg]
         Of the rotor.
+    levels : tuple of FieldLevel
+    rests, field_rests : float
+        As of any question.
     """
 
     mass: float
