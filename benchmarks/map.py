@@ -167,17 +167,14 @@ def print_rivals() -> None:
     }
     bearings = {name: fitted_bearing(bearing, film) for name, film in films.items()}
     costs = film_costs(bearings, states, rounds=5)
-    print(f"L/D 0.5, {STATES} random states, {LARGE.describe()}")
+    print(f"L/D 0.5, {STATES} random states, {LARGE}")
     print(f"reference: {REFERENCE_CELLS} cells, extrapolated; its error (99 %) {np.quantile(own, 0.99):.1e}")
     print(f"{'film':46s}{'99 % error':>11s}{'batch':>12s}{'/ map':>10s}{'alone':>12s}{'/ map':>10s}")
     best = costs["map"]
     for name, film in films.items():
-        error, cost = high_error(film, bearing, states, reference), costs[name]
-        batch, alone = cost.force_time / best.force_time, cost.call_time / best.call_time
-        print(
-            f"{name:46s}{error:11.1e}{1e6 * cost.force_time:9.2f} us{batch:10.3g}"
-            f"{1e6 * cost.call_time:9.2f} us{alone:10.3g}"
-        )
+        error, (force, call, _) = high_error(film, bearing, states, reference), costs[name]
+        batch, alone = force / best[0], call / best[1]
+        print(f"{name:46s}{error:11.1e}{1e6 * force:9.2f} us{batch:10.3g}{1e6 * call:9.2f} us{alone:10.3g}")
 
 
 def described(film: FilmLaw) -> str:

@@ -38,7 +38,7 @@ from rotorfilm import (
     even_pivots,
 )
 from rotorfilm.bearings.pads import Lobe, PadMapFilm
-from rotorfilm.studies import PadFamily, bearing_types, pad_accuracy, pad_rungs
+from rotorfilm.studies import bearing_types, pad_accuracy, pad_rungs
 from rotorfilm.studies.pad_accuracy import compared_bearings, lobe_states
 
 ROSS = Path(__file__).parent / "results" / "ross_pads.json"
@@ -53,7 +53,7 @@ def forces() -> None:
     sys.stdout.write("## Force of a bearing, 400 states\n\n")
     head = ("L/D", "film", "median", "90 %", "99 %", "reference 90 %", "99 %")
     table_head(head)
-    kept = [rung for rung in pad_rungs() if rung.family is PadFamily.MAP][1:]
+    kept = [rung for rung in pad_rungs() if rung.family == "map"][1:]
     for slenderness in SLENDERNESS:
         found = pad_accuracy(slenderness, states=100, rungs=kept, rounds=1)
         for rung in found.rungs:
@@ -114,17 +114,17 @@ def times() -> None:
     """Print times of equilibria with coefficients, and of maps that are made."""
     sys.stdout.write("\n## Equilibrium with coefficients, 6 loads of S .1 to 2, L/D .5\n\n")
     table_head(("bearing", "time [us]", "Newton steps"))
-    for one in bearing_types(0.5):
-        loads = [-one.bearing.force_scale * SPEED / (math.pi * S) for S in SOMMERFELD]
+    for name, one in bearing_types(0.5).items():
+        loads = [-one.force_scale * SPEED / (math.pi * S) for S in SOMMERFELD]
 
-        def solve(bearing=one.bearing, loads=loads) -> list[int]:
+        def solve(bearing=one, loads=loads) -> list[int]:
             found = [equilibrium(bearing, (0.0, load), SPEED) for load in loads]
             for at in found:
                 coefficients(bearing, at.position, SPEED)
             return [at.iterations for at in found]
 
         steps = np.mean(solve())
-        row(one.name, f"{1e6 * cpu_time(solve, 9) / len(loads):.0f}", f"{steps:.1f}")
+        row(name, f"{1e6 * cpu_time(solve, 9) / len(loads):.0f}", f"{steps:.1f}")
     batch_times()
     sys.stdout.write("\n## Making of a map\n\n")
     table_head(("extent [deg]", "L/D", "time [s]", "CPU time [s]"))

@@ -5,7 +5,7 @@ The public names load on first use, so that `import rotorfilm` costs nothing tha
 
 from typing import TYPE_CHECKING
 
-from .core.sources import show
+from .core.sources import offer, show
 
 if TYPE_CHECKING:
     from .analysis import *
@@ -57,3 +57,7 @@ if TYPE_CHECKING:
     __version__: str
 else:
     show(__name__)
+
+offer("plot_result", f"{__name__}.charts")  # which `plot()` of results calls
+offer("ask", f"{__name__}.questions")  # which scenes with a question call
+offer("ladders_of", f"{__name__}.questions")  # which a new scene lists

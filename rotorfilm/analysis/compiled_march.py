@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator
-from ctypes import byref, c_int32, c_int64
+from ctypes import addressof, byref, c_int32, c_int64
 from dataclasses import replace
 from enum import IntEnum
 from functools import lru_cache, partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,17 +30,7 @@ from ..core.model import Array, Dynamic, breakpoints
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
 from ..native.library import loops
-from ..native.structs import (
-    SLOTS,
-    STEPS,
-    GroundStruct,
-    MarchStruct,
-    ModesStruct,
-    SchemeStruct,
-    SpeedsStruct,
-    SpinStruct,
-    StepTableStruct,
-)
+from ..native.structs import constant, structure
 from ..rotors import MountedRotor, SpeedProfile
 from .compiled_rotor import (
     Complex,
@@ -245,9 +235,9 @@ class Collocation(NamedTuple):
     lagrange: Array
     remainder: Array
 
-    def struct(self) -> SchemeStruct:
+    def struct(self) -> Any:
         """Return it as the C library reads it, while this object lives."""
-        return SchemeStruct(len(self.nodes), *(numbers.ctypes.data for numbers in self))
+        return structure("rf_scheme")(len(self.nodes), *(numbers.ctypes.data for numbers in self))
 
 
 @lru_cache(maxsize=8)
@@ -280,10 +270,10 @@ class ModalArrays(NamedTuple):
         rows = modal.values, modal.push, modal.sense
         return cls(*(np.ascontiguousarray(row, dtype=complex) for row in rows))
 
-    def struct(self) -> ModesStruct:
+    def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
         places = (numbers.ctypes.data for numbers in self)
-        return ModesStruct(*self.push.shape, len(self.sense), *places)
+        return structure("rf_modes")(*self.push.shape, len(self.sense), *places)
 
 
 class StepTable(NamedTuple):
@@ -339,9 +329,9 @@ class StepTable(NamedTuple):
             raise MemoryError("no memory for the tables of a step")
         return table
 
-    def struct(self) -> StepTableStruct:
+    def struct(self) -> Any:
         """Return it as the C library reads it, while this object lives."""
-        return StepTableStruct(*(None if part is None else part.ctypes.data for part in self))
+        return structure("rf_step_table")(*(None if part is None else part.ctypes.data for part in self))
 
 
 # The driver of the compiled integration: scheme, tables, what ends a run.
@@ -423,11 +413,14 @@ class March:
         self._spin = spin_rates(modal) if spins else None
         base = modal.parts.base
         self._ground = None if base is None else base.rows
-        self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(SLOTS + 1)]
+        slots, steps = constant("RF_SLOTS"), constant("RF_STEPS")
+        self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(slots + 1)]
+        rows = structure("rf_step_table") * (slots + 1)
+        self._table_rows = rows(*(table.struct() for table in self._tables))
         times = len(self._numbers[0])
-        self._struct = MarchStruct(
+        self._struct = structure("rf_march")(
             *(of.struct() for of in self._kept),
-            SpeedsStruct(times, *(row.ctypes.data for row in self._numbers[:4])),
+            structure("rf_speeds")(times, *(row.ctypes.data for row in self._numbers[:4])),
             spin_struct(speed, self._spin),
             ground_struct(self._ground),
             self._numbers[4].ctypes.data,
@@ -435,9 +428,9 @@ class March:
             SHORTEST * duration,
             rtol,
             max(NEWTON * rtol, 1e-12),
-            (StepTableStruct * (SLOTS + 1))(*(table.struct() for table in self._tables)),
-            (c_int32 * STEPS)(*[-1] * STEPS),
-            (c_int32 * SLOTS)(*[-1] * SLOTS),
+            addressof(self._table_rows),
+            (c_int32 * steps)(*[-1] * steps),
+            (c_int32 * slots)(*[-1] * slots),
         )
         # A first step that the error control need not believe in: a hundredth of a turn or less.
         first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / duration)
@@ -501,14 +494,15 @@ class March:
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
 
 
-def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> SpinStruct:
+def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> Any:
     """Return what the speed changes as the C library reads it, while the arrays live."""
-    return SpinStruct(speed or 0.0, *(part.ctypes.data for part in rates or ()))
+    return structure("rf_spin_rates")(speed or 0.0, *(part.ctypes.data for part in rates or ()))
 
 
-def ground_struct(rows: Array | None) -> GroundStruct:
+def ground_struct(rows: Array | None) -> Any:
     """Return times and acceleration of the ground as the C library reads them, while the array lives."""
-    return GroundStruct() if rows is None else GroundStruct(rows.shape[1], *(row.ctypes.data for row in rows))
+    ground = structure("rf_ground")
+    return ground() if rows is None else ground(rows.shape[1], *(row.ctypes.data for row in rows))
 
 
 def rate_of(modal: ModalRotor) -> float:

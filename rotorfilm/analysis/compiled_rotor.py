@@ -39,7 +39,7 @@ from ..core.results import Trajectory
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel
 from ..native.library import functions, loops
-from ..native.structs import BothStruct, JournalsStruct, SprungStruct
+from ..native.structs import structure
 from ..rotors import (
     BaseMotion,
     FlexibleRotor,
@@ -94,7 +94,7 @@ class FilmCall(NamedTuple):
 
     def beside(self, stiffness: float, *, still: bool) -> FilmCall:
         """Return this force beside equal springs [N/m], of a journal that does not spin where it is still."""
-        both = SprungStruct(self.address, self.data, stiffness, still)
+        both = structure("rf_sprung")(self.address, self.data, stiffness, still)
         return self._replace(
             address=_address("rf_sprung_at"), data=ctypes.addressof(both), owner=(both, self.owner)
         )
@@ -168,7 +168,7 @@ def _summed(calls: Sequence[FilmCall | None]) -> FilmCall | None:
     for call in calls[1:]:
         if total is None or call is None:
             return None
-        both = BothStruct(total.address, total.data, call.address, call.data)
+        both = structure("rf_both")(total.address, total.data, call.address, call.data)
         total = FilmCall(
             address=_address("rf_both_at"),
             data=ctypes.addressof(both),
@@ -521,9 +521,9 @@ class JournalFilms(NamedTuple):
         rows = rest, modal.spring, modal.damper, modal.parts.lengths, walls
         return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
 
-    def struct(self) -> JournalsStruct:
+    def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
-        return JournalsStruct(len(self.lengths), *(numbers.ctypes.data for numbers in self))
+        return structure("rf_journals")(len(self.lengths), *(numbers.ctypes.data for numbers in self))
 
     def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
         """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).

@@ -15,7 +15,7 @@ from ..core.errors import ConvergenceError, FilmContactError, RotorfilmError, Un
 from ..core.model import Array, Reaction, inertial
 from ..native import Status
 from ..native.library import loops
-from ..native.structs import ShakenStruct
+from ..native.structs import structure
 from .compiled_rotor import heavy_call, raise_foreign, warn_beyond
 
 ORDER = 2
@@ -64,7 +64,7 @@ def march(
     motion = np.zeros((count + 1, 4))
     motion[0, :2] = rest
     wall = (FAR if isinstance(reaction, WalledReaction) else 1.0) * reaction.clearance
-    rotor = ShakenStruct(call.address, call.data, mass, speed, wall, step)
+    rotor = structure("rf_shaken")(call.address, call.data, mass, speed, wall, step)
     rotor.heavy, rotor.loaded = heavy
     status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)
     raise_foreign([call])

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from .ladder_charts import plot_study as plot_study
     from .page import write_page as write_page
     from .result_charts import (
-        RungPoint as RungPoint,
         plot_contact_run as plot_contact_run,
         plot_film as plot_film,
         plot_question as plot_question,
@@ -52,10 +51,7 @@ if TYPE_CHECKING:
         plot_unbalance_response as plot_unbalance_response,
     )
     from .study_charts import (
-        plot_bearing_coefficients as plot_bearing_coefficients,
         plot_bearing_thresholds as plot_bearing_thresholds,
-        plot_contact_cases as plot_contact_cases,
-        plot_contact_limits as plot_contact_limits,
         plot_coupling_error as plot_coupling_error,
         plot_coupling_limits as plot_coupling_limits,
         plot_limit_summary as plot_limit_summary,

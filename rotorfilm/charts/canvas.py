@@ -6,7 +6,7 @@ import io
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -32,6 +32,56 @@ def new_figure(*, size: tuple[float, float]) -> Figure:
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def new_grid(
+    count: int, *, columns: int, size: tuple[float, float], title: str = "", more: float = 0.0
+) -> list[Axes]:
+    """Return so many Axes of one figure, row by row.
+
+    Parameters
+    ----------
+    count, columns : int
+        Of all, and in a row.
+    size : (float, float) [inch]
+        Of one of them.
+    title : str
+        Of the figure.
+    more : float [inch]
+        Height beside that of the Axes.
+    """
+    columns = min(columns, count)
+    rows = math.ceil(count / columns)
+    figure = new_figure(size=(columns * size[0], rows * size[1] + more))
+    figure.suptitle(title, fontsize=10)
+    return [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
+
+
+def labeled(axes: Axes, x: str, y: str, *, legend: float = 8.0, **more: Any) -> Axes:
+    """Return Axes with labels, a legend in type of this size [points], and more as of `Axes.set`."""
+    axes.set(xlabel=x, ylabel=y, **more)
+    axes.legend(fontsize=legend)
+    return axes
+
+
+def with_grids(*shown: Axes) -> None:
+    """Give several Axes a grid and a legend each."""
+    for axes in shown:
+        axes.grid(visible=True, alpha=0.3)
+        axes.legend(fontsize=8)
+
+
+def add_color_bar(axes: Axes, mesh: Any, label: str) -> None:
+    """Draw the scale of the colors of a mesh beside it."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    figure.colorbar(mesh, ax=axes, label=label)
+
+
+def draw_circle(axes: Axes, label: str | None = None) -> None:
+    """Draw the clearance circle, in clearances."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label=label)
 
 
 def legend_beside(axes: Axes) -> None:
@@ -161,31 +211,21 @@ def _outside(box: Bbox, frame: Bbox) -> float:
 # Colors of the charts: one for each family of films, the same in every chart.
 
 
-FAMILY_COLORS: dict[str, str] = {
-    FilmFamily.SHORT: "#8c564b",
-    FilmFamily.PUBLISHED: "#e377c2",
-    FilmFamily.FIXED: "#d62728",
-    FilmFamily.ROTATING: "#ff7f0e",
-    FilmFamily.REYNOLDS: "#a08000",
-    FilmFamily.FREE: "#2ca02c",
-    FilmFamily.GRID: "#17a0b8",
-    FilmFamily.EXTRAPOLATED: "#1f4fb4",
-    FilmFamily.MAP: "#000000",
+FAMILIES: dict[str, tuple[str, float]] = {
+    FilmFamily.SHORT: ("#8c564b", 7.0),
+    FilmFamily.PUBLISHED: ("#e377c2", 3.8),
+    FilmFamily.FIXED: ("#d62728", 2.4),
+    FilmFamily.ROTATING: ("#ff7f0e", 1.3),
+    FilmFamily.REYNOLDS: ("#a08000", 3.4),
+    FilmFamily.FREE: ("#2ca02c", 2.8),
+    FilmFamily.GRID: ("#17a0b8", 5.2),
+    FilmFamily.EXTRAPOLATED: ("#1f4fb4", 4.2),
+    FilmFamily.MAP: ("#000000", 1.1),
 }
-"""Colors by the family of a rung."""
+"""Colors and widths of lines [points] by family: of curves that coincide the wider shows beside the other."""
 
-FAMILY_WIDTHS: dict[str, float] = {
-    FilmFamily.SHORT: 7.0,
-    FilmFamily.PUBLISHED: 3.8,
-    FilmFamily.FIXED: 2.4,
-    FilmFamily.ROTATING: 1.3,
-    FilmFamily.REYNOLDS: 3.4,
-    FilmFamily.FREE: 2.8,
-    FilmFamily.GRID: 5.2,
-    FilmFamily.EXTRAPOLATED: 4.2,
-    FilmFamily.MAP: 1.1,
-}
-"""Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
+FAMILY_COLORS = {family: color for family, (color, _) in FAMILIES.items()}
+FAMILY_WIDTHS = {family: width for family, (_, width) in FAMILIES.items()}
 
 DASHES: dict[str | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
 """Dashes of lines by family, in widths; of all others the first is solid."""

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ..analysis import BistableMap, OrbitBranch, SynchronousOrbits
@@ -16,7 +14,7 @@ from ..bearings.journal import HeatedState
 from ..core.errors import InputError
 from ..core.model import Array
 from ..core.units import CELSIUS
-from .canvas import new_axes, new_figure
+from .canvas import add_color_bar, labeled, new_axes, new_grid
 
 Curves = Mapping[str, tuple[np.ndarray, np.ndarray]]
 
@@ -34,9 +32,7 @@ def plot_critical_speed(curves: Curves, *, axes: Axes | None = None) -> Axes:
     axes = axes or new_axes("Critical speed of the bush as it wears")
     for label, (angle, ratio) in curves.items():
         axes.plot(angle, ratio, label=label, linewidth=1.5)
-    axes.set(xlabel="half contact angle [rad]", ylabel="critical speed / that of the unworn bush")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "half contact angle [rad]", "critical speed / that of the unworn bush")
 
 
 def plot_contact_pressure(
@@ -61,9 +57,7 @@ def plot_contact_pressure(
         if assumed is not None and label in assumed:
             x, y = assumed[label]
             axes.plot(x, y / modulus, "--", color=line.get_color(), linewidth=1.0)
-    axes.set(xlabel="angle from the load line [rad]", ylabel="pressure / shear modulus")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "angle from the load line [rad]", "pressure / shear modulus")
 
 
 # Charts of an unbalanced rotor on a damper: response to the unbalance, transient, bistable region.
@@ -126,9 +120,7 @@ def plot_transmitted(runs: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes:
     axes = axes or new_axes("Transmitted force over time")
     for label, (angle, ratio) in runs.items():
         axes.plot(angle, ratio, label=label, linewidth=1.3)
-    axes.set(xlabel="speed * time, rad", ylabel="force on housing / unbalance force")
-    axes.legend(fontsize=7)
-    return axes
+    return labeled(axes, "speed * time, rad", "force on housing / unbalance force", legend=7)
 
 
 def plot_damper_run(
@@ -173,15 +165,11 @@ def plot_damper_turn(turn: DamperTurn, *, axes: Axes | None = None) -> Axes:
     place, turned = np.degrees(turn.angle[order]), turn.time / turn.time[-1]
     middle = turn.oil_content[:, order, turn.axial.size // 2]
     shown = axes.pcolormesh(place, turned, middle, shading="nearest", vmin=0.0, vmax=1.0, cmap="YlGnBu")
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.colorbar(shown, ax=axes, label="share of the gap that is oil")
+    add_color_bar(axes, shown, "share of the gap that is oil")
     nearest = np.degrees(np.arctan2(turn.position[1], turn.position[0]) % (2.0 * np.pi))
     jump = np.abs(np.diff(nearest, append=nearest[0])) > 180.0
     axes.plot(np.where(jump, np.nan, nearest), turned, "C1", linewidth=1.3, label="least gap")
-    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="turns", xlim=(0.0, 360.0))
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "angle from +x towards +y [deg]", "turns", xlim=(0.0, 360.0))
 
 
 def plot_bistable(found: BistableMap, *, axes: Axes | None = None) -> Axes:
@@ -199,9 +187,7 @@ def plot_bistable(found: BistableMap, *, axes: Axes | None = None) -> Axes:
         (line,) = axes.plot(found.squeeze_number, jump_up, label=f"spring ratio {spring:g}")
         axes.plot(found.squeeze_number, jump_down, "--", color=line.get_color())
         axes.fill_between(found.squeeze_number, jump_down, jump_up, color=line.get_color(), alpha=0.15)
-    axes.set(xlabel="squeeze number", ylabel="unbalance / (mass * clearance)")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "squeeze number", "unbalance / (mass * clearance)")
 
 
 def _response(
@@ -220,9 +206,7 @@ def _response(
                     y = np.where(kept, value(branch), np.nan)
                     axes.plot(branch.unbalance / unit, y, style, color=color, label=shown, linewidth=1.3)
                     shown = "_" + label
-    axes.set(xlabel="unbalance / (mass * clearance)", ylabel=ylabel)
-    axes.legend(fontsize=7)
-    return axes
+    return labeled(axes, "unbalance / (mass * clearance)", ylabel, legend=7)
 
 
 # Pictures of a film that warms: temperature and pressure over it, and the temperature across it.
@@ -292,7 +276,7 @@ def plot_temperature_across(state: HeatedState, *, axes: Axes | None = None) -> 
     mesh = axes.pcolormesh(
         np.degrees(bounds)[:, None] + np.zeros(edges.size), at_bounds[:, None] * edges, T, cmap=WARM
     )
-    _color_bar(axes, mesh, "temperature [degC]")
+    add_color_bar(axes, mesh, "temperature [degC]")
     axes.set(xlim=(0.0, 360.0), xlabel="angle [deg]", ylabel="distance from the bush [um]")
     axes.set_xticks(range(0, 361, 60))
     axes.grid(visible=False)
@@ -313,15 +297,13 @@ def plot_heated_film(state: HeatedState, *, title: str = "") -> list[Axes]:
         Of one figure.
     """
     across = state.oil_temperature.ndim == 3
-    figure = new_figure(size=(9.0, 9.6 if across else 6.6))
-    shown = [figure.add_subplot(2 + across, 1, k + 1) for k in range(2 + across)]
+    shown = new_grid(2 + across, columns=1, size=(9.0, 3.2), title=title)
     plot_temperature_field(state, axes=shown[0]).set_title(
         "Temperature, mean across; white: edge of the full film"
     )
     plot_pressure_field(state, axes=shown[1]).set_title("Pressure")
     if across:
         plot_temperature_across(state, axes=shown[2]).set_title("Temperature in the middle of the bearing")
-    figure.suptitle(title, fontsize=11)
     return shown
 
 
@@ -337,18 +319,12 @@ def _field(axes: Axes, state: HeatedState, values: Array, label: str, colors: st
         return np.concatenate([half[order, mirrored], half[order]], axis=1).T
 
     mesh = axes.pcolormesh(np.degrees(_bounds(angle)), sides, whole(values), cmap=colors)
-    _color_bar(axes, mesh, label)
+    add_color_bar(axes, mesh, label)
     axes.contour(np.degrees(angle), z, whole(state.filled), levels=[0.999], colors="white", linewidths=0.9)
     axes.set(xlim=(0.0, 360.0), ylim=(z[0], z[-1]), xlabel="angle [deg]", ylabel="axial position [mm]")
     axes.set_xticks(range(0, 361, 60))
     axes.grid(visible=False)
     return axes
-
-
-def _color_bar(axes: Axes, mesh: Any, label: str) -> None:
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.colorbar(mesh, ax=axes, label=label)
 
 
 def _around(state: HeatedState) -> tuple[Array, NDArray[np.intp]]:

@@ -1,4 +1,4 @@
-"""Error over cost of the models of a study: one function draws all, from a record of each."""
+"""Charts of studies: one function draws all, from a record of each."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
+from itertools import cycle, islice, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,12 +15,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..studies import FilmFamily, HeatModel, PadFamily, SqueezeFamily, StudyResult, StudyRung, pareto_front
-from .canvas import FAMILY_COLORS, FRONT, Label, new_figure, place_labels
-from .study_charts import SCHEME_LINES, draw_bush_angles, draw_shaft_flux
+from ..studies import FilmFamily, HeatModel, StudyResult, StudyRung, pareto_front
+from .canvas import FAMILY_COLORS, FRONT, Label, new_grid, place_labels
 
-MARKS = "osD^v<>"
-"""Of families that have none of their own, in turn."""
+Line = tuple[str, str, str]
+"""Color, line and mark."""
+
+IN_TURN = tuple((f"C{number}", "-", mark) for number, mark in enumerate("osD^v<>"))
+"""Lines of families that have none of their own."""
 
 
 class StudyPanel(NamedTuple):
@@ -36,6 +38,8 @@ class StudyPanel(NamedTuple):
         Those drawn; all if empty.
     crossed : bool
         Whether runs without an error are drawn as crosses at the top.
+    scale : str
+        Of the second axis; that of the first is logarithmic.
     """
 
     x: str
@@ -43,6 +47,7 @@ class StudyPanel(NamedTuple):
     median: str = ""
     families: Sequence[str] = ()
     crossed: bool = False
+    scale: str = "log"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,10 +61,14 @@ class StudyStyle:
         Drawn for each case of the study.
     lines : mapping
         Color, or color, line and mark, by the family of a rung.
+    in_turn : sequence of (str, str, str)
+        Color, line and mark of families that are not among these.
     dots : (str, str)
         What a filled and an open dot mean.
     joined : bool
         Whether the rungs of a family are joined by a line, over all cases.
+    legend_below : bool
+        Whether the legend of joined rungs is below all panels.
     labels : bool
         Whether marks have labels.
     band : str
@@ -76,9 +85,11 @@ class StudyStyle:
 
     title: str
     panels: Sequence[StudyPanel]
-    lines: Mapping[Any, str | tuple[str, str, str]] = field(default_factory=dict)
+    lines: Mapping[Any, str | Line] = field(default_factory=dict)
+    in_turn: Sequence[Line] = IN_TURN
     dots: tuple[str, str] = ("99 % of the states", "median")
     joined: bool = False
+    legend_below: bool = False
     labels: bool = True
     band: str = ""
     champion: str = ""
@@ -99,13 +110,16 @@ class DrawnPanel(NamedTuple):
     @property
     def shown(self) -> list[StudyRung]:
         """Rungs that have an error and a cost."""
-        return [rung for rung in self.rungs if rung[self.panel.y] and rung[self.panel.x]]
+        x, y = self.panel.x, self.panel.y
+        least = 0.0 if self.panel.scale == "log" else -math.inf
+        return [rung for rung in self.rungs if rung[x] and rung[y] is not None and rung[y] > least]
 
-    def line(self, family: str) -> tuple[str, str, str]:
+    def line(self, family: str) -> Line:
         """Return color, line and mark of a family."""
         number = list(dict.fromkeys(rung.family for rung in self.rungs)).index(family)
-        found = self.style.lines.get(family, f"C{number}")
-        return (found, "-", MARKS[number % len(MARKS)]) if isinstance(found, str) else found
+        color, line, mark = next(islice(cycle(self.style.in_turn), number, None))
+        found = self.style.lines.get(family, color)
+        return (found, line, mark) if isinstance(found, str) else found
 
 
 def plot_study(result: StudyResult, *, axes: Axes | None = None) -> list[Axes]:
@@ -145,16 +159,12 @@ def plot_study(result: StudyResult, *, axes: Axes | None = None) -> list[Axes]:
 
 def _new_axes(result: StudyResult, style: StudyStyle, panels: int) -> list[Axes]:
     count = panels + len(style.further)
-    columns = min(style.columns, count)
-    rows = math.ceil(count / columns)
-    width = columns * style.size[0]
-    figure = new_figure(size=(width, rows * style.size[1] + 1.2))
     numbers = {name: value for name, value in result.notes.items() if isinstance(value, float)}
     told = {"reference [-]": result.reference, **result.conditions, **numbers}
     texts = (f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
+    width = style.size[0] * min(style.columns, count)
     lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * width))]
-    figure.suptitle("\n".join(lines), fontsize=10)
-    return [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
+    return new_grid(count, columns=style.columns, size=style.size, title="\n".join(lines), more=1.2)
 
 
 def _text(value: object) -> str:
@@ -163,7 +173,8 @@ def _text(value: object) -> str:
 
 def _draw_panel(drawn: DrawnPanel) -> None:
     axes, panel, style, _, band = drawn
-    axes.set(xscale="log", yscale="log", xlabel=panel.x, ylabel=panel.y)
+    axes.set(xscale="log", xlabel=panel.x, ylabel=panel.y)
+    axes.set_yscale(panel.scale, **({"linthresh": 1.0} if panel.scale == "symlog" else {}))
     axes.grid(visible=True, which="major", alpha=0.3)
     if style.joined:
         _draw_families(drawn)
@@ -192,13 +203,13 @@ def _draw_rung(axes: Axes, panel: StudyPanel, rung: StudyRung, color: str) -> No
 
 def _draw_families(drawn: DrawnPanel) -> None:
     axes, panel, _, rungs, _ = drawn
-    top = 3.0 * max(rung[panel.y] for rung in drawn.shown)
     for family in dict.fromkeys(rung.family for rung in rungs):
         good = [rung for rung in drawn.shown if rung.family == family]
         color, line, mark = drawn.line(family)
         points = ([rung[name] for rung in good] for name in (panel.x, panel.y))
         axes.plot(*points, line, marker=mark, color=color, label=family)
         if panel.crossed:
+            top = 3.0 * max(rung[panel.y] for rung in drawn.shown)
             bad = [rung[panel.x] for rung in rungs if rung.family == family and rung[panel.y] is None]
             axes.plot(bad, [top] * len(bad), "x", color=color)
 
@@ -263,8 +274,14 @@ def _rounded(ratio: float) -> str:
 
 def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
     axes, style = drawn.axes, drawn.style
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    below = {"loc": "outside lower center", "fontsize": 8.5, "frameon": False}
     if style.joined:
-        axes.legend(fontsize=8)
+        if style.legend_below:
+            figure.legend(*axes.get_legend_handles_labels(), ncols=4, **below)
+        else:
+            axes.legend(fontsize=8)
         return
     dot = partial(Line2D, [], [], marker="o", linestyle="")
     families = dict.fromkeys(rung.family for rung in result.rungs if rung.family in style.lines)
@@ -282,9 +299,36 @@ def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
     if alone:
         axes.legend(handles=handles, fontsize=7.5, loc="upper right", framealpha=1.0)
     else:
-        figure = axes.get_figure()
-        assert isinstance(figure, Figure)
-        figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=8.5, frameon=False)
+        figure.legend(handles=handles, ncols=6, **below)
+
+
+# Further panels of the melting bush: the runs of its models, the closed form of the shaft.
+
+
+def _draw_bush_angles(axes: Axes, result: StudyResult) -> None:
+    """Draw the contact angle by the last model of each family, and by the reference."""
+    for rung in {rung.family: rung for rung in result.rungs}.values():
+        assert rung.answer is not None
+        axes.plot(result.notes["times"], rung.answer, label=rung.name)
+    axes.plot(result.notes["times"], result.notes["exact"], "k:", label="reference")
+    axes.set(xlabel="time [s]", ylabel="half contact angle [rad]", title="Growing load")
+    axes.grid(visible=True, alpha=0.3)
+    axes.legend(fontsize=7.5)
+
+
+def _draw_shaft_flux(axes: Axes, result: StudyResult) -> None:
+    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length."""
+    cooling, ratio, error = (np.array(column) for column in result.notes["shaft"].values())
+    for one in dict.fromkeys(ratio.tolist()):
+        axes.plot(cooling[ratio == one], 100.0 * error[ratio == one], label=f"R_1/l = {one:g}")
+    axes.set(
+        title="Closed form of the shaft heat (2.13)",
+        xlabel="Biot number of the shaft",
+        ylabel="error against the mixed problem [%]",
+        ylim=(0.0, None),
+    )
+    axes.grid(visible=True, alpha=0.3)
+    axes.legend(fontsize=7.5)
 
 
 # The record of each study.
@@ -292,7 +336,32 @@ def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
 
 HIGH, MEDIAN = "99 % error [1]", "median error [1]"
 BATCH, ALONE = "force in a batch [s]", "force alone, prepare() [s]"
+PAD_BATCH, PAD_ALONE = "force of a pad in a batch [s]", "force of a pad alone, prepare() [s]"
+SHORT = "99 % error against the short film [1]"
 BAND = "reference error, 99 % [1]"
+S = "S over the assembled clearance [1]"
+
+ENTRIES = {"xx": "log", "xy": "symlog", "yx": "symlog", "yy": "log"}
+"""Scales of the entries of a matrix: some change their sign."""
+
+TYPE_LINES = (
+    *((color, "-", "") for color in ("C0", "C1", "C2", "C3", "C4", "C8")),
+    *((color, "--", "") for color in ("k", "C5")),
+)
+"""Of the types of bearings in turn; those of tilting pads are dashed."""
+
+SCHEME_LINES: dict[str, Line] = {
+    "Gauss-Seidel 0": ("#1f4fb4", "-", "o"),
+    "Gauss-Seidel 1": ("#1f4fb4", "--", "s"),
+    "Gauss-Seidel 2": ("#1f4fb4", ":", "^"),
+    "Jacobi 0": ("#d62728", "-", "o"),
+    "Jacobi 1": ("#d62728", "--", "s"),
+    "Jacobi 2": ("#d62728", ":", "^"),
+    "SI-exp": ("#2ca02c", "-", "D"),
+    "SI-exp3": ("#000000", "-", "D"),
+    "Newton": ("#ff7f0e", "-", "D"),
+}
+"""Of the coupling schemes: kinds by color, degrees by line."""
 
 STYLES = {
     "journal": StudyStyle(
@@ -304,29 +373,22 @@ STYLES = {
     ),
     "pads": StudyStyle(
         title="Films of pads: relative error of the force of a bearing against its cost",
-        panels=(
-            StudyPanel("force of a pad in a batch [s]", HIGH, MEDIAN),
-            StudyPanel("force of a pad alone, prepare() [s]", HIGH, MEDIAN),
-        ),
-        lines={PadFamily.MAP: "#000000", PadFamily.GRID: "#1f4fb4"},
+        panels=(StudyPanel(PAD_BATCH, HIGH, MEDIAN), StudyPanel(PAD_ALONE, HIGH, MEDIAN)),
+        lines={"map": "#000000", "grid": "#1f4fb4"},
         band=BAND,
     ),
     "damper": StudyStyle(
         title="Squeeze films: relative error of the force against its cost",
         panels=(
             StudyPanel(BATCH, HIGH, MEDIAN),
-            StudyPanel(
-                BATCH,
-                "99 % error against the short film [1]",
-                families=(SqueezeFamily.SERIES, SqueezeFamily.MAP, SqueezeFamily.REDUCED),
-            ),
+            StudyPanel(BATCH, SHORT, families=("series", "map", "reduced")),
         ),
         lines={
-            SqueezeFamily.SERIES: "#2ca02c",
-            SqueezeFamily.FINITE: "#1f4fb4",
-            SqueezeFamily.MAP: "#000000",
-            SqueezeFamily.PUBLISHED: "#e377c2",
-            SqueezeFamily.REDUCED: "#d62728",
+            "series": "#2ca02c",
+            "finite length": "#1f4fb4",
+            "map": "#000000",
+            "published": "#e377c2",
+            "reduced": "#d62728",
         },
     ),
     "heat": StudyStyle(
@@ -354,7 +416,7 @@ STYLES = {
         panels=(StudyPanel("time of the run [s]", "angle error [1]"),),
         joined=True,
         labels=False,
-        further=(draw_bush_angles, draw_shaft_flux),
+        further=(_draw_bush_angles, _draw_shaft_flux),
         columns=3,
         size=(5.0, 4.4),
     ),
@@ -374,6 +436,20 @@ STYLES = {
         joined=True,
         labels=False,
         size=(5.5, 4.4),
+    ),
+    "bearings": StudyStyle(
+        title="Bearings of one bore, load along -y; tilting pads at the frequency of the shaft",
+        panels=(
+            *(StudyPanel(S, f"K{ij} c/W [1]", scale=scale) for ij, scale in ENTRIES.items()),
+            *(StudyPanel(S, f"C{ij} c speed/W [1]", scale=ENTRIES[ij]) for ij in ("xx", "xy", "yy")),
+            StudyPanel(S, "least film/c [1]", scale="linear"),
+        ),
+        in_turn=TYPE_LINES,
+        joined=True,
+        legend_below=True,
+        labels=False,
+        columns=4,
+        size=(3.75, 3.6),
     ),
 }
 """How each study is drawn, by its name."""

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..bearings.contact import ContactRun
 from ..bearings.damper import JFOOrbit
@@ -18,7 +16,7 @@ from ..core.errors import InputError
 from ..core.model import Array
 from ..core.readable import Drawable, label_of
 from ..core.results import Trajectory
-from .canvas import new_axes, new_figure
+from .canvas import add_color_bar, labeled, new_axes, new_figure, with_grids
 from .film_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
 from .rolling_charts import plot_compliance
 from .rotor_charts import (
@@ -81,9 +79,7 @@ def plot_trajectory(run: Trajectory, *, axes: Sequence[Axes] | None = None) -> t
     if stations:
         beside.set(xlabel="x [um]", ylabel="y [um]", aspect="equal", adjustable="datalim")
     below.set(xlabel="time [s]", ylabel=f"displacement [{unit}]", title="Over time")
-    for part in (beside, below):
-        part.grid(visible=True, alpha=0.3)
-        part.legend(fontsize=8)
+    with_grids(beside, below)
     return beside, below
 
 
@@ -111,9 +107,7 @@ def plot_film(state: FilmState | JFOState | JFOOrbit, *, axes: Axes | None = Non
 
     places = np.degrees(state.angle[order]), 1e3 * ends
     shown = axes.pcolormesh(*places, 1e-6 * both_halves(state.pressure), shading="nearest")
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.colorbar(shown, ax=axes, label="pressure [MPa]")
+    add_color_bar(axes, shown, "pressure [MPa]")
     if isinstance(state, JFOState | JFOOrbit) and state.oil_content.min() < 1.0:
         axes.contour(*places, both_halves(state.oil_content), levels=[0.999], colors="white", linewidths=1.0)
     turning = isinstance(state, JFOOrbit)
@@ -132,7 +126,7 @@ def plot_question(answer: QuestionAnswer, *, axes: Axes | None = None) -> Axes:
         Where to draw; a new figure by default.
     """
     points = [
-        RungPoint(name=one.name, error_estimate=error, cost=cost, chosen=one.name == answer.model)
+        (one.name, error, cost, one.name == answer.model)
         for one in answer.rungs
         if (error := one.error_estimate) is not None and (cost := one.cost) is not None
     ]
@@ -152,9 +146,7 @@ def plot_contact_run(run: ContactRun, *, axes: Axes | None = None) -> Axes:
     axes = axes or new_axes("Film of the contact")
     axes.plot(run.time, run.central_film, label="central film")
     axes.plot(run.time, run.minimum_film, "--", label="smallest film")
-    axes.set(xlabel="time", ylabel="film thickness")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "time", "film thickness")
 
 
 def _synchronous(orbits: Any, *, axes: Axes | None) -> Axes:
@@ -194,44 +186,28 @@ PICTURES: dict[str, Callable[..., Any]] = {
 # Chart of the models that could answer a scene's question: estimated error against cost.
 
 
-@dataclass(frozen=True, kw_only=True)
-class RungPoint:
-    """One model on the chart.
-
-    Attributes
-    ----------
-    name : str
-    error_estimate : float [1]
-    cost : float [s]
-        Of its answer.
-    chosen : bool
-    """
-
-    name: str
-    error_estimate: float
-    cost: float
-    chosen: bool
-
-
 def plot_scene_ladder(
-    points: Sequence[RungPoint], *, title: str, tolerance: float, axes: Axes | None = None
+    points: Sequence[tuple[str, float, float, bool]],
+    *,
+    title: str,
+    tolerance: float,
+    axes: Axes | None = None,
 ) -> Axes:
     """Draw the estimated error of each model over its cost, the tolerance, and the model that answers.
 
     Parameters
     ----------
-    points : sequence of RungPoint
+    points : sequence of (str, float, float, bool)
+        Name of a model, its estimated error [1], the cost of its answer [s], and whether it is chosen.
     title : str
     tolerance : float [1]
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
     axes = axes or new_axes(title, size=(7.5, 5.0))
-    for number, point in enumerate(points):
-        style = {"marker": "*", "markersize": 16} if point.chosen else {"marker": "o"}
-        name = f"{point.name}, chosen" if point.chosen else point.name
-        axes.plot(1e3 * point.cost, point.error_estimate, color=f"C{number % 10}", ls="", label=name, **style)
+    for number, (name, error, cost, chosen) in enumerate(points):
+        style = {"marker": "*", "markersize": 16} if chosen else {"marker": "o"}
+        label = f"{name}, chosen" if chosen else name
+        axes.plot(1e3 * cost, error, color=f"C{number % 10}", ls="", label=label, **style)
     axes.axhline(tolerance, color="k", linewidth=1.0, linestyle="--", label="tolerance")
-    axes.set(xscale="log", yscale="log", xlabel="cost of the answer [ms]", ylabel="estimated error")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "cost of the answer [ms]", "estimated error", xscale="log", yscale="log")

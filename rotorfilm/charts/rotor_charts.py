@@ -36,9 +36,12 @@ from .canvas import (
     FAMILY_WIDTHS,
     GOOD,
     WITHIN,
+    draw_circle,
+    labeled,
     legend_beside,
     new_axes,
     new_figure,
+    with_grids,
 )
 
 RPM = math.pi / 30.0
@@ -83,10 +86,8 @@ def plot_campbell(
     if critical:
         places = np.array([one.speed for one in critical])
         axes.plot(places / RPM, places / HERTZ, "ko", fillstyle="none", label="critical speed")
-    axes.set(xlabel="speed [rpm]", ylabel="damped frequency [Hz]", xlim=(speeds[0], speeds[-1]))
     axes.set_ylim(bottom=0.0)
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "speed [rpm]", "damped frequency [Hz]", xlim=(speeds[0], speeds[-1]))
 
 
 def plot_log_decrement(chart: Campbell, *, axes: Axes | None = None) -> Axes:
@@ -100,9 +101,7 @@ def plot_log_decrement(chart: Campbell, *, axes: Axes | None = None) -> Axes:
         axes.plot(chart.speeds / RPM, decrement, label=f"from {first:.3g} Hz")
     axes.axhline(0.0, color="k", linewidth=0.8)
     axes.set_yscale("symlog", linthresh=0.1)
-    axes.set(xlabel="speed [rpm]", ylabel="logarithmic decrement")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "speed [rpm]", "logarithmic decrement")
 
 
 def plot_critical_speed_map(
@@ -125,9 +124,7 @@ def plot_critical_speed_map(
         axes.loglog(stiffness, curve / RPM, label=f"critical speed {number}")
     if bearing is not None:
         axes.loglog(bearing[1], bearing[0] / RPM, "k--", label="bearing")
-    axes.set(xlabel="bearing stiffness [N/m]", ylabel="critical speed [rpm]")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "bearing stiffness [N/m]", "critical speed [rpm]")
 
 
 def plot_unbalance_response(
@@ -203,14 +200,9 @@ def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int, *, axes: 
     axes.plot(along[[s.node for s in rotor.stations]], np.zeros(len(rotor.stations)), "k^", label="bearing")
     axes.axhline(0.0, color="k", linewidth=0.8)
     frequency, decrement = modes.frequency[number] / HERTZ, modes.log_decrement[number]
-    axes.set(
-        xlabel="along the shaft [m]",
-        ylabel="deflection / the largest",
-        title=f"{frequency:.4g} Hz at {modes.speed / RPM:.0f} rpm, decrement {decrement:.3g}, "
-        f"direction {modes.direction[number]:+.2f}",
-    )
-    axes.legend(fontsize=8)
-    return axes
+    title = f"{frequency:.4g} Hz at {modes.speed / RPM:.0f} rpm, decrement {decrement:.3g}, "
+    title += f"direction {modes.direction[number]:+.2f}"
+    return labeled(axes, "along the shaft [m]", "deflection / the largest", title=title)
 
 
 def _deflection(rotor: ShaftRotor, plane: np.ndarray) -> np.ndarray:
@@ -280,9 +272,7 @@ def plot_stability_level_one(
     needed = "required" if result.level_two_required else "not required"
     beside.set(xlabel="applied cross-coupling [MN/m]", ylabel="log decrement", title=f"Level II is {needed}")
     _screening(result, screening)
-    for part in (beside, screening):
-        part.grid(visible=True, alpha=0.3)
-        part.legend(fontsize=8)
+    with_grids(beside, screening)
     return beside, screening
 
 
@@ -327,13 +317,8 @@ def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = No
         mark = "kv" if peak.acceptable else "rv"
         axes.plot([peak.speed / RPM], [1e6 * peak.peak_amplitude], mark, fillstyle="none")
         axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.peak_amplitude))
-    axes.set(
-        xlabel="speed [rpm]",
-        ylabel="amplitude [um]",
-        title="Separation margins are kept" if result.acceptable else "Separation margins are not kept",
-    )
-    axes.legend(fontsize=8)
-    return axes
+    title = "Separation margins are kept" if result.acceptable else "Separation margins are not kept"
+    return labeled(axes, "speed [rpm]", "amplitude [um]", title=title)
 
 
 def plot_shaft_statics(
@@ -361,9 +346,7 @@ def plot_shaft_statics(
     above.set(ylabel="sag [um]", title="Under its weight")
     middle.set(ylabel="shear force [N]")
     below.set(ylabel="bending moment [N m]", xlabel="along the shaft [m]")
-    for part in (above, middle, below):
-        part.grid(visible=True, alpha=0.3)
-        part.legend(fontsize=8)
+    with_grids(above, middle, below)
     return above, middle, below
 
 
@@ -389,9 +372,7 @@ def plot_polar_response(
         size = np.abs(phasor)
         for k in {0, int(np.argmax(size)), len(speeds) - 1}:
             axes.annotate(f"{speeds[k]:.0f} rpm", (phasor[k].real, phasor[k].imag), fontsize=8)
-    axes.set(xlabel="real [um]", ylabel="imaginary [um]", aspect="equal", adjustable="datalim")
-    axes.legend(fontsize=8)
-    return axes
+    return labeled(axes, "real [um]", "imaginary [um]", aspect="equal", adjustable="datalim")
 
 
 # Charts of whirl: curves of periodic orbits with their stability, and basins.
@@ -436,14 +417,8 @@ def plot_orbit_curves(
         for event in curve.events:
             name = None if event.kind in marked else event.kind.value
             marked.add(event.kind)
-            axes.plot(
-                event.parameter / scale,
-                event.orbit.amplitude,
-                MARKS[event.kind],
-                color="k",
-                markersize=5,
-                label=name,
-            )
+            place = event.parameter / scale, event.orbit.amplitude
+            axes.plot(*place, MARKS[event.kind], color="k", markersize=5, label=name)
     axes.set(ylabel="largest distance of the journal from its mean / clearance")
     axes.legend(fontsize=8)
     return axes
@@ -462,11 +437,8 @@ def plot_periodic_orbit(orbit: PeriodicOrbit, *, axes: Axes | None = None) -> Ax
     paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
     for station, (x, y) in zip(orbit.stations, paths, strict=True):
         axes.plot(x, y, label=station or "journal")
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
-    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
-    axes.legend(fontsize=8)
-    return axes
+    draw_circle(axes)
+    return labeled(axes, "x / clearance", "y / clearance", aspect="equal")
 
 
 def plot_basin(scan: BasinScan, *, clearance: float, axes: Axes | None = None) -> Axes:
@@ -487,8 +459,7 @@ def plot_basin(scan: BasinScan, *, clearance: float, axes: Axes | None = None) -
     for chosen, color, label in ((whirls, BAD, "into whirl"), (~whirls, GOOD, "to rest")):
         here = chosen & inside
         axes.plot(x[here], y[here], "s", color=color, markersize=4.5, label=label)
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    draw_circle(axes)
     axes.plot(*(scan.rest[:2] / clearance), "k+", label="rest")
     axes.set(xlabel="x / clearance (load)", ylabel="y / clearance", aspect="equal")
     axes.legend(fontsize=8, loc="upper right")

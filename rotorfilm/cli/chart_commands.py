@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from enum import StrEnum
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from ..core.errors import visible
-from ..core.limits import CHART_STATES, CONTACT_CELLS, TRANSITS
+from ..core.limits import CHART_STATES, CONTACT_CELLS
 from ..core.progress import Report, part_of
 from ..core.results import write_csv
 from ..core.units import parse_quantity
@@ -52,29 +51,18 @@ Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if a
 Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
 States = Annotated[int, Option(help="Random states, of each bearing.", min=1, max=CHART_STATES)]
 Seed = Annotated[int, Option(help="Seed of the random states.", min=0)]
+Motion = Annotated[Literal["large", "small"], Option(help="Range of the states' velocities.")]
 
 
-class MotionOption(StrEnum):
-    """Ranges of random states."""
-
-    LARGE = "large"
-    SMALL = "small"
-
-
-class Printed(NamedTuple):
-    """What is printed: headings, rows, and files and remarks below them."""
-
-    headings: Sequence[str]
-    rows: Iterable[Sequence[str]]
-    remarks: Sequence[tuple[str, str]] = ()
-
-    def show(self) -> None:
-        """Print a table, without headings if there are none."""
-        if self.headings:
-            console.print_columns(self.headings, self.rows)
-        else:
-            console.print_rows("", self.rows)
-        console.print_rows("", self.remarks)
+def show_table(
+    headings: Sequence[str], rows: Iterable[Sequence[str]], remarks: Sequence[tuple[str, str]] = ()
+) -> None:
+    """Print a table, without headings if there are none, and files and remarks below it."""
+    if headings:
+        console.print_columns(headings, rows)
+    else:
+        console.print_rows("", rows)
+    console.print_rows("", remarks)
 
 
 def write_chart(
@@ -107,8 +95,8 @@ def write_study(out: Path, result: StudyResult, data: object = None) -> Files:
     return write_chart(out, result.study, result.columns(), plot_study(result), data)
 
 
-def printed_study(result: StudyResult, files: Files) -> Printed:
-    """Return what is printed of a study: a row for each rung, below the name of its case if it has one."""
+def shown_study(result: StudyResult, files: Files) -> Callable[[], None]:
+    """Return what prints a study: a row for each rung, below the name of its case if it has one."""
     headings, rows = COLUMNS[result.study], []
     for case, rungs in groupby(result.rungs, key=lambda rung: rung.case):
         if case:
@@ -120,12 +108,12 @@ def printed_study(result: StudyResult, files: Files) -> Printed:
         ("reference", result.reference),
         *([] if floor is None else [("its error, 99 %", f"{floor:.1e}")]),
     ]
-    return Printed(("model", *headings), rows, [*remarks, *files])
+    return partial(show_table, ("model", *headings), rows, [*remarks, *files])
 
 
 def said_study(out: Path, result: StudyResult) -> Said:
     """Write a study, and return what is said of it."""
-    return Said(result, printed_study(result, write_study(out, result)).show)
+    return Said(result, shown_study(result, write_study(out, result)))
 
 
 # Studies of error against cost.
@@ -136,13 +124,13 @@ def journal(
     ld: Slenderness = 0.5,
     states: States = 300,
     seed: Seed = 1978,
-    motion: Annotated[MotionOption, Option(help="Range of the states' velocities.")] = MotionOption.LARGE,
+    motion: Motion = "large",
     out: Folder = OUT,
 ) -> Said:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
     from .. import studies
 
-    ranges = studies.LARGE if motion is MotionOption.LARGE else studies.SMALL
+    ranges = studies.LARGE if motion == "large" else studies.SMALL
     found = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
     return said_study(out, found)
 
@@ -167,7 +155,7 @@ def damper(
     from .. import studies
 
     result = studies.damper_accuracy(ld, permeability, states=states, report=report)
-    return Said(result, printed_study(result, write_study(out, result, result)).show)
+    return Said(result, shown_study(result, write_study(out, result, result)))
 
 
 def contact(
@@ -186,16 +174,15 @@ def contact(
 def bush(report: Report, out: Folder = OUT) -> Said:
     """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
     from .. import studies
-    from ..studies.bush_tiers import shaft_columns
 
     result = studies.bush_tiers(report=report)
     files, shaft = write_study(out, result), result.notes["shaft"]
-    errors = [100.0 * row.error for row in shaft]
+    *_, errors = shaft.values()
     files += [
-        ("closed form of the shaft", f"{min(errors):.2f} to {max(errors):.2f} % high"),
-        ("its table", str(write_csv(out / "chart_bush_shaft.csv", shaft_columns(shaft)))),
+        ("closed form of the shaft", f"{100.0 * min(errors):.2f} to {100.0 * max(errors):.2f} % high"),
+        ("its table", str(write_csv(out / "chart_bush_shaft.csv", shaft))),
     ]
-    return Said(result, printed_study(result, files).show)
+    return Said(result, shown_study(result, files))
 
 
 def heat(report: Report, out: Folder = OUT) -> Said:
@@ -210,7 +197,7 @@ def heat(report: Report, out: Folder = OUT) -> Said:
     case = studies.HEAT_CASES[1]
     pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files += write_picture(out, "heat_film", pictures, "film")
-    return Said(result, printed_study(result, files).show)
+    return Said(result, shown_study(result, files))
 
 
 def rolling(
@@ -234,11 +221,11 @@ def rolling(
         (number(preload), *(number(one[k, -1].item()) for one in last))
         for k, preload in enumerate(curves.preloads)
     ]
-    below = printed_study(ladder, [*files, *write_study(out, ladder)])
+    below = shown_study(ladder, [*files, *write_study(out, ladder)])
 
     def show() -> None:
-        Printed(headings, rows).show()
-        below.show()
+        show_table(headings, rows)
+        below()
 
     return Said({"curves": curves, "ladder": ladder}, show)
 
@@ -250,8 +237,7 @@ def cosim(report: Report, out: Folder = OUT) -> Said:
     limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
     files = write_chart(out, "cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
-    show = printed_study(cost, [*files, *write_study(out, cost)]).show
-    return Said({"limits": limits, "cost": cost}, show)
+    return Said({"limits": limits, "cost": cost}, shown_study(cost, [*files, *write_study(out, cost)]))
 
 
 # Where models fail, and bearings side by side.
@@ -261,12 +247,13 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
     from .. import charts, studies
     from ..charts.whirl_verdicts import verdicts
+    from ..studies.journal_stability import by_film
 
     result = studies.journal_stability(ld, report=report)
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
-    return Said(result, Printed(headings, rows, [("reference", result.reference), *files]).show)
+    rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
+    return Said(result, partial(show_table, headings, rows, [("reference", result.reference), *files]))
 
 
 def limits(
@@ -286,46 +273,10 @@ def limits(
     for name, axes in charts.plot_limits(atlas).items():
         files += write_picture(out, f"limits_{name}", axes, name)
     rows: list[tuple[str, str]] = []
-    for panel, curves in groupby(studies.failures(atlas), key=lambda one: one[0].panel):
+    for panel, found in studies.failures(atlas).items():
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
-        rows += [(f"  {limit.name}", "nowhere" if at is None else f"{at:.3g}") for limit, at in curves]
-    return Said(table, Printed((), rows, files).show)
-
-
-def contact_limits(report: Report, out: Folder = OUT) -> Said:
-    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
-    from .. import charts, studies
-
-    result = studies.contact_limits(report=report)
-    table = result.columns()
-    files = write_chart(out, "contact_limits", table, charts.plot_contact_limits(result))
-    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, Printed(tuple(table), rows, files).show)
-
-
-def contact_cases(
-    report: Report,
-    cells: Annotated[
-        int, Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
-    ] = 40,
-    tolerance: Annotated[float, Option(help="Of the steps of converged runs.")] = 1e-4,
-    settle: Annotated[
-        float, Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
-    ] = 60.0,
-    out: Folder = OUT,
-) -> Said:
-    """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
-    from .. import charts, studies
-
-    result = studies.contact_cases(cells, tolerance, settle, report=report)
-    files = write_chart(out, "contact_cases", result.columns(), charts.plot_contact_cases(result))
-    files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
-    headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
-    rows = [
-        (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
-        for row in result.statements
-    ]
-    return Said([row._asdict() for row in result.statements], Printed(headings, rows, files).show)
+        rows += [(f"  {name}", "nowhere" if at is None else f"{at:.3g}") for name, at in found.items()]
+    return Said(table, partial(show_table, (), rows, files))
 
 
 def bearings(
@@ -340,20 +291,22 @@ def bearings(
     film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
     carried = parse_quantity(mass, "kg")
     whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
-    files = write_chart(out, "bearings", film.columns(), charts.plot_bearing_coefficients(film))
+    files = write_study(out, film)
     files += write_chart(out, "whirl", whirl.columns(), [charts.plot_bearing_thresholds(whirl)])
-    shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
-    headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
-    rows = [(one.name, *(_speed(one, k) for k in shown)) for one in whirl.types]
-    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
-    said = [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
-    show = Printed(headings, rows, [("convention", film.convention), *said, *files]).show
+    types = {name: list(rungs) for name, rungs in groupby(whirl.rungs, key=lambda rung: rung.family)}
+    count = len(whirl.rungs) // len(types)
+    shown = (0, count // 2, count - 1)
+    headings = ("threshold [rpm] on", *(f"at {whirl.rungs[k]['load [N]']:.4g} N" for k in shown))
+    rows = [(name, *(_speed(rungs[k].values) for k in shown)) for name, rungs in types.items()]
+    met = dict.fromkeys(rung["whirl [-]"] for rung in whirl.rungs if rung["threshold [rad/s]"] is None)
+    said = [(outcome, studies.WHIRL_OUTCOMES[outcome]) for outcome in met]
+    show = partial(show_table, headings, rows, [("convention", film.reference), *said, *files])
     return Said({"coefficients": film, "thresholds": whirl}, show)
 
 
-def _speed(one: Any, k: int) -> str:
-    speed = one.threshold_speed[k]
-    return one.outcomes[k] if speed is None else f"{RPM * speed:.4g}"
+def _speed(row: Mapping[str, object]) -> str:
+    speed = row["threshold [rad/s]"]
+    return f"{RPM * speed:.4g}" if isinstance(speed, float) else str(row["whirl [-]"])
 
 
 # The models of a scene, and the page of a folder.
@@ -366,25 +319,26 @@ def scene(
     out: Folder = OUT,
 ) -> Said:
     """Estimated error against cost of all models that could answer a scene, and the one that does."""
-    from ..charts import RungPoint, plot_scene_ladder
+    from ..charts import plot_scene_ladder
     from ..questions.walk import whole_ladder
 
     loaded = load_scene(file, changes)
     report(0.1, "every model of the ladder")
     result = whole_ladder(loaded)
+    title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     points = [
-        RungPoint(name=r.name, error_estimate=r.error_estimate, cost=r.cost, chosen=r.chosen)
+        (r.name, r.error_estimate, r.cost, r.chosen)
         for r in result.rungs
         if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
     ]
-    title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
     files = write_chart(out, file.stem, result.columns(), [axes])
     rows = [
         (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), number(r.cost), r.reason)
         for r in result.rungs
     ]
-    return Said(result, Printed(("model", "estimated error", "cost [s]", "why not"), rows, files).show)
+    headings = ("model", "estimated error", "cost [s]", "why not")
+    return Said(result, partial(show_table, headings, rows, files))
 
 
 def page(out: Folder = OUT) -> Said:

@@ -15,12 +15,11 @@ import sys
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from enum import Enum
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from types import NoneType
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, NoReturn, get_args
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, NoReturn, Union, get_args, get_origin
 
 from ..core.errors import InputError, brief
 from . import printing as console
@@ -34,23 +33,8 @@ FAILED = 1
 NUMBERS: dict[type[Any], str] = {float: "a number", int: "a whole number"}
 
 
-class Argument(NamedTuple):
-    """A parameter that stands in a command line without its name.
-
-    Attributes
-    ----------
-    help : str
-        What it is.
-    metavar : str
-        What stands for it in the help.
-    """
-
-    help: str
-    metavar: str
-
-
 class Option(NamedTuple):
-    """A parameter that stands in a command line behind its name.
+    """A parameter of a command line, which stands there behind its name unless it is positional.
 
     Attributes
     ----------
@@ -62,6 +46,8 @@ class Option(NamedTuple):
         An example in the help.
     min, max : float
         Smallest and largest number.
+    positional : bool
+        Whether it has no name in a command line.
     """
 
     flag: str = ""
@@ -69,6 +55,10 @@ class Option(NamedTuple):
     metavar: str | None = None
     min: float = -math.inf
     max: float = math.inf
+    positional: bool = False
+
+
+Argument = partial(Option, positional=True)
 
 
 class Said(NamedTuple):
@@ -219,7 +209,7 @@ def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> 
     parameters = {**inspect.signature(function, eval_str=True).parameters}
     followed = parameters.pop("report", None) is not None
     arguments = [get_args(each.annotation)[1] for each in parameters.values()]
-    usage = " ".join(["[OPTIONS]", *(each.metavar for each in arguments if isinstance(each, Argument))])
+    usage = " ".join(["[OPTIONS]", *(each.metavar for each in arguments if each.positional)])
     parser = Parser(program, usage, function.__doc__ or "", group.commands[home])
     taking = {flag for each in (*parameters.values(), JSON) for flag in _add(parser, each)}
     given = vars(parser.parse_args(list(_joined(words, taking))))
@@ -249,10 +239,10 @@ def _followed(function: Callable[..., Said], given: dict[str, Any], slow: bool) 
 def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
     """Add a parameter to a parser; return its name if a value follows it."""
     annotation, meant = get_args(parameter.annotation)
-    kind, many = _kind_of(annotation)
+    kind, many, choices = _kind_of(annotation)
     required = parameter.default is parameter.empty
     default = None if required else parameter.default
-    if isinstance(meant, Argument):
+    if meant.positional:
         number = None if required else "?"
         parser.add_argument(
             parameter.name, type=kind, nargs=number, default=default, help=meant.help, metavar=meant.metavar
@@ -263,37 +253,40 @@ def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
     if kind is bool:
         parser.add_argument(flag, dest=parameter.name, action="store_true", help=notes[0])
         return []
-    shown = default.value if isinstance(default, Enum) else default
-    notes += ["[required]"] if required else [f"[default: {shown}]".replace("%", "%%")] * (shown is not None)
-    choices = " | ".join(each.value for each in kind) if issubclass(kind, Enum) else None
+    notes += (
+        ["[required]"] if required else [f"[default: {default}]".replace("%", "%%")] * (default is not None)
+    )
     parser.add_argument(
         flag,
         dest=parameter.name,
-        type=lambda text: _read(kind, meant, text),
+        type=lambda text: _read(kind, choices, meant, text),
         action="append" if many else "store",
         default=default,
         required=required,
         help=" ".join(notes),
-        metavar=(meant.metavar or choices or kind.__name__.upper()).replace("%", "%%"),
+        metavar=(meant.metavar or " | ".join(choices) or kind.__name__.upper()).replace("%", "%%"),
     )
     return [flag]
 
 
-def _kind_of(annotation: Any) -> tuple[type[Any], bool]:
-    """Return the type of a value, and whether there may be many."""
-    one = next((each for each in get_args(annotation) if each is not NoneType), annotation)
-    inner = get_args(one)
-    many = bool(inner) or annotation == list[str]
-    return (inner[0] if inner else one), many
+def _kind_of(annotation: Any) -> tuple[type[Any], bool, tuple[str, ...]]:
+    """Return the type of a value, whether there may be many, and the words that it is one of, if it is."""
+    one = annotation
+    if get_origin(annotation) is UnionType or get_origin(annotation) is Union:
+        one = next(each for each in get_args(annotation) if each is not NoneType)
+    if get_origin(one) is Literal:
+        return str, False, get_args(one)
+    return (get_args(one)[0], True, ()) if get_origin(one) is list else (one, False, ())
 
 
-def _read(kind: type[Any], option: Option, text: str) -> Any:
+def _read(kind: type[Any], choices: Sequence[str], option: Option, text: str) -> Any:
     """Return a value; raise ArgumentTypeError if the text is none, or beyond its bounds."""
     try:
         value = kind(text)
     except ValueError:
-        rule = NUMBERS.get(kind) or f"one of {', '.join(each.value for each in kind)}"
-        raise argparse.ArgumentTypeError(f"must be {rule}, got {text!r}") from None
+        raise argparse.ArgumentTypeError(f"must be {NUMBERS[kind]}, got {text!r}") from None
+    if choices and value not in choices:
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(choices)}, got {text!r}")
     if kind in NUMBERS and (value < option.min or value > option.max):
         raise argparse.ArgumentTypeError(f"must be {option.min:g} to {option.max:g}, got {text!r}")
     return value

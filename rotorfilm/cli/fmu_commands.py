@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from ..core.progress import Report
 from . import printing as console
@@ -14,39 +13,19 @@ from .command import Argument, Option, Said, SceneFile, Settings, inside, load_s
 FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
 
-class FmiVersion(StrEnum):
-    """FMI versions of an export."""
-
-    TWO = "2.0"
-    THREE = "3.0"
-
-
-class Backend(StrEnum):
-    """What runs a model inside an FMU: the C library, or Python."""
-
-    NATIVE = "native"
-    PYTHON = "python"
-
-
-class Platforms(StrEnum):
-    """Machines for which a native FMU carries a library."""
-
-    HOST = "host"
-    ALL = "all"
-
-
 def build(
     scene: SceneFile,
     report: Report,
     changes: Settings = None,
     out: Annotated[Path, Option(help="Folder for the FMUs; made if absent.")] = Path("."),
-    fmi: Annotated[FmiVersion, Option(help="FMI version.")] = FmiVersion.TWO,
+    fmi: Annotated[Literal["2.0", "3.0"], Option(help="FMI version.")] = "2.0",
     backend: Annotated[
-        Backend | None, Option(help="What runs in them; by default native where there is a kernel.")
+        Literal["native", "python"] | None,
+        Option(help="What runs in them; by default native where there is a kernel."),
     ] = None,
-    platforms: Annotated[Platforms, Option(help="This machine's platform, or all of them.")] = (
-        Platforms.HOST
-    ),
+    platforms: Annotated[
+        Literal["host", "all"], Option(help="This machine's platform, or all of them.")
+    ] = "host",
     ssp: Annotated[bool, Option("--ssp", help="Write system.ssp too: film and rotor, connected.")] = False,
 ) -> Said:
     """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it.
@@ -54,28 +33,22 @@ def build(
     So is a rotor on a damper whose oil has mass.
     """
     from ..scenes.export_scene import export_scene, export_scene_system
-    from ..scenes.rotor_runs import export_system
-    from ..scenes.solve_damper import export_damped_rotor
 
     loaded = load_scene(scene, changes)
     with inside(scene):
-        whole = loaded.shaft is not None and not loaded.has_film
         if loaded.has_film and loaded.damper is None:
             loaded.film_table.make_map(report)
-        heavy = loaded.damper is not None and loaded.damper.density > 0.0
-        made = (export_damped_rotor if heavy else export_system if whole else export_scene)(
+        made = export_scene(
             loaded,
             out,
-            version=fmi.value,
-            backend=None if backend is None else backend.value,
-            platforms=platforms.value,
+            version=fmi,
+            backend=backend,
+            platforms=platforms,
         )
-        files = {name: str(path) for name, path in made._asdict().items()}
+        files = {name: str(path) for name, path in made.items()}
         if ssp:
-            system = export_scene_system(
-                loaded, out / "system.ssp", version=fmi.value, platforms=platforms.value
-            )
-            files["ssp"] = str(system)
+            made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)
+            files["ssp"] = str(made_system)
     return Said(files, partial(console.print_rows, "FMUs", files.items()))
 
 

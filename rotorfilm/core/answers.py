@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Generic, NamedTuple, Protocol, Self, TypeVar
+from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -256,32 +256,6 @@ class QuestionAnswer(Drawable):
 # Ladders of a question: rungs, what they have in common, and the candidates that they are made of.
 
 
-class Candidate(Protocol):
-    """A model that may answer, and what is known of it beforehand."""
-
-    @property
-    def name(self) -> str:
-        """What it is called in print."""
-
-    @property
-    def reaction(self) -> Any:
-        """What it answers with: a reaction; those of a rotor with several bearings by their names."""
-
-    @property
-    def rich(self) -> Any:
-        """The richer companion that its defect is sampled with; None if there is none."""
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of its error [1]; 0 where nothing is known."""
-
-    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
-        """Return the verified bound of its error [1], if asked for that of K and C; else infinite."""
-
-    def prepare(self) -> Work:
-        """Make what its first force would make, such as a map, and return the work of that."""
-
-
 class Rung(Protocol):
     """One way to answer a question: any model, discretization or scheme."""
 
@@ -301,19 +275,19 @@ class Rung(Protocol):
     def shares(self) -> object:
         """What its error has a part of: rungs of the same object have the same part. None without."""
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: Found | None, /) -> Found:
         """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
 
         NoAnswerError where none has.
         """
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: Found, before: Found | None, tolerance: float, /) -> ErrorEstimate:
         """Return the error of its answer without running a richer model.
 
         A verified bound is enough where it is below the tolerance. `before` is the answer of a lower rung.
         """
 
-    def expected(self, done: Work) -> Work:
+    def expected(self, done: Work, /) -> Work:
         """Return the work of an answer, where a lower rung has done this much."""
 
 
@@ -348,20 +322,19 @@ class BaseRung:
         return {self.unit: 1}
 
 
-C = TypeVar("C", bound=Candidate)
-
-
 @dataclass(frozen=True, kw_only=True)
-class CandidateRung(BaseRung, Generic[C]):
+class CandidateRung(BaseRung):
     """A rung that differs from its neighbours by the candidate only.
 
     Attributes
     ----------
-    film : Candidate
-        The model.
+    film : object
+        The model that may answer: with a `name`, the `prior` order of magnitude of its error, a `reaction` or
+        several, a `rich` companion that its defect is sampled with, and `prepare()` for what its first force
+        would make.
     """
 
-    film: C
+    film: Any
 
     @property
     def name(self) -> str:

@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache
-from importlib import import_module
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from . import frames
 from .errors import LONGEST, shortened, visible
+from .sources import offered
 from .units import CELSIUS, DISPLAY_UNITS
 
 Row = tuple[str, str]
@@ -189,8 +189,7 @@ class Drawable(Readable):
         -------
         Axes, or several of them
         """
-        # Found late: charts stand above results.
-        return import_module("..charts", __package__).plot_result(self, axes=axes)
+        return offered("plot_result")(self, axes=axes)
 
 
 def _rows(item: Item) -> list[Row]:

@@ -129,6 +129,20 @@ def show(package: str) -> None:
     sys.modules[package].__class__ = LatePackage
 
 
+OFFERED: dict[str, str] = {}
+"""Modules that stand above those that call them, by the name of the function that they offer."""
+
+
+def offer(name: str, module: str) -> None:
+    """Say which module has a function that a module below it calls; it is imported at the first call."""
+    OFFERED[name] = module
+
+
+def offered(name: str) -> Any:
+    """Return a function that a module above the caller offers."""
+    return getattr(import_module(OFFERED[name]), name)
+
+
 @cache
 def homes(package: str) -> dict[str, tuple[str, bool]]:
     """Return the module of each name that a package shows, those behind its stars included.

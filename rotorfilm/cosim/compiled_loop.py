@@ -3,58 +3,128 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from ctypes import addressof, byref
-from dataclasses import dataclass
+from enum import IntEnum
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from ..core.errors import FmuError, UndefinedDerivativeError
-from ..core.model import Array, Linearization, Reaction
-from ..core.results import Trajectory
+from ..core.errors import FmuError
+from ..core.model import Array
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..native.library import master
-from ..native.master_structs import (
-    HELD,
-    INTEGRATED,
-    LAWFUL,
-    Call,
-    CouplingStruct,
-    Ended,
-    RecordStruct,
-    RotorStruct,
-    StationStruct,
-)
+from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from .partner_interface import Bench, Needs, Sample, StationMotion, Tangents
+from .coupling_loop import Loop
 from .partners import WORK, Partners, Record, require_finite_outputs
-from .schemes import MEMORY, NODES, TO_POWERS, GaussSeidel, Jacobi, Scheme, SIExp, SIExp3, started
-from .slaves import Compiled, CompiledPartner, Integrated, KernelPartner, Slave
-from .watch import CHECK, Check, Watch
+from .schemes import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
+from .slaves import NODES, TO_POWERS, Call, CompiledPartner, Integrated
+from .watch import CHECK, Watch
+
+
+class Ended(IntEnum):
+    """rf_coupled of couple.h."""
+
+    COUPLED = 0
+    ROTOR_FAILED = 1
+    FILM_FAILED = 2
+    NOT_NUMBERS = 3
+    ROTOR_WAITING = 4
+    FULL = 5
+
 
 MOST_PAUSE = 64
 """Longest pause, in macro steps, after the rotor could not be integrated in C."""
 
+FIRST_CHUNK, MOST_CHUNK = 32, 1024
+"""Macro steps between two looks at a run."""
+
+PATIENCE = 0.05
+"""Longest chunk [s]: an interrupt waits for its end."""
+
+EXTRA = 8
+"""Most further points of a gentle start."""
+
 
 class CompiledRun:
-    """The macro steps of a run in C, between steps in Python where the rotor needs them.
+    """The macro steps of a run in C, in chunks, between steps in Python where the rotor needs them.
 
     Parameters
     ----------
-    loop : CompiledLoop
     partners : Partners
+        That were started.
+    rotor : CompiledPartner
+    films : list of CompiledPartner
+        In the order of the stations.
+    plan : mapping of str to int
+        The scheme; see `plan_of`.
+    record : Record
+    watch : Watch
+    macro_step : float [s]
+    points : ndarray [s]
+        Of the macro steps.
     """
 
-    def __init__(self, loop: CompiledLoop, partners: Partners) -> None:
-        self.loop, self._partners = loop, partners
-        rotor = partners.rotor
-        self._integrated = rotor if isinstance(rotor, Integrated) else None
+    def __init__(
+        self,
+        partners: Partners,
+        rotor: CompiledPartner,
+        films: list[CompiledPartner],
+        plan: Mapping[str, int],
+        record: Record,
+        watch: Watch,
+        macro_step: float,
+        points: Array,
+    ) -> None:
+        self._partners, self.rotor, self.films = partners, rotor, films
+        self.record, self._watch, self._chunk = record, watch, FIRST_CHUNK
         self._pause, self._waited = 0, 1
+        self._kept: list[Any] = [points]
+        m, n = record.size, len(rotor.states)
+        self._shapes = ((2 * m * m + m,), (n + 2 * m, n + m))
+        most = (MOST_CHUNK + EXTRA) // CHECK + 2
+        self._checked = np.zeros(most, dtype=np.int64)
+        self._check_tangents = np.zeros((most, *self._shapes[0]))
+        self._check_slopes = np.zeros((most, *self._shapes[1]))
+        self._laws = np.zeros((MOST_CHUNK + EXTRA, 1 + 5 * m + 2 * m * m))
+        self._driven = self._rotor_struct()
+        stations = (structure("rf_station") * len(films))(*map(self._station, partners.films, films))
+        self._kept.append(stations)
+        self._struct = structure("rf_coupling")(
+            **plan,
+            stations=len(films),
+            rotor=addressof(self._driven),
+            films=addressof(stations),
+            record=structure("rf_record")(
+                m=m,
+                columns=record.outputs.shape[1],
+                position=self._ints(record.at.position),
+                velocity=self._ints(record.at.velocity),
+                speed=-1 if record.speed_at is None else record.speed_at,
+                derived=record.tangents.shape[1] > 0,
+            ),
+            points=points.ctypes.data,
+            macro_step=macro_step,
+            every=CHECK,
+            checked=self._checked.ctypes.data,
+            check_tangents=self._check_tangents.ctypes.data,
+            check_slopes=self._check_slopes.ctypes.data,
+        )
+        widest = max(len(film.inputs) for film in films) + 10
+        self._struct.work = self._room(master()["rf_coupling_work"](byref(self._struct), widest))
+        self._integrated = partners.rotor if isinstance(partners.rotor, Integrated) else None
         if self._integrated is not None:
-            self._x, base = self._integrated.state.copy(), self._integrated.base[partners.places.force]
-            loop.integrate(self._x, self._integrated.nominals, base)
+            self._integrate(self._integrated)
+
+    def _integrate(self, rotor: Integrated) -> None:
+        """Have the rotor integrated: its state, nominal values, forces where its motion is asked for."""
+        self._x, driven = rotor.state.copy(), self._driven
+        driven.mode, driven.x = constant("RF_INTEGRATED"), self._held(self._x)
+        driven.nominal = self._floats(rotor.nominals)
+        driven.base = self._floats(rotor.base[self._partners.places.force])
+        driven.drive_refs = self._refs([self.rotor.inputs[name] for name in self._partners.wiring.force])
 
     def rests(self) -> bool:
         """Whether the next macro step is one in Python."""
@@ -75,180 +145,26 @@ class CompiledRun:
         FilmContactError, FmuError
             As the partner that failed says it.
         """
-        if self._integrated is not None:
-            self._x[:] = self._integrated.state
-            self.loop.prepare(t, self._x, self._integrated.next_kink(t))
-        count = self.loop.record.count
-        step, t, ended = self.loop.advance(step, t, steps)
-        if self._integrated is not None:
-            self._integrated.resume(float(self.loop.record.time[self.loop.record.count - 1]), self._x)
+        record, rotor, count = self.record, self._integrated, self.record.count
+        if rotor is not None:
+            self._x[:] = rotor.state
+            self.rotor.sync(t, self._x)
+            self._driven.kink, self._driven.known = rotor.next_kink(t), 0
+        ended = self._couple(step, t, min(self._chunk, steps - step))
+        if rotor is not None:
+            rotor.resume(float(record.time[record.count - 1]), self._x)
         self._tell_beyond()
         if ended is Ended.ROTOR_WAITING:
             # Longer each time, where no step was made in between.
-            idle = self.loop.record.count == count
-            self._waited = min(2 * self._waited, MOST_PAUSE) if idle else 1
+            self._waited = min(2 * self._waited, MOST_PAUSE) if record.count == count else 1
             self._pause = self._waited
         elif ended not in (Ended.COUPLED, Ended.FULL):
-            self._raise(ended, t)
-        return step, t
+            self._raise(ended, self._struct.t)
+        return self._struct.step, self._struct.t
 
-    def _tell_beyond(self) -> None:
-        """Have a model warn where its kernel was beyond the verified range."""
-        for slave, partner in self._kernels():
-            beyond = partner.beyond()
-            if beyond is not None:
-                slave.set(beyond)
-                slave.get()
-
-    def _kernels(self) -> list[tuple[Slave, KernelPartner]]:
-        films = zip(self._partners.films.values(), self.loop.films, strict=True)
-        return [(slave, own) for slave, own in films if isinstance(own, KernelPartner)]
-
-    def _raise(self, ended: Ended, t: float) -> None:
-        """Raise what the partner that failed has to say."""
-        who, call, status = self.loop.failure()
-        rotor = who < 0
-        slave = self._partners.rotor if rotor else list(self._partners.films.values())[who]
-        partner = self.loop.rotor if rotor else self.loop.films[who]
-        if isinstance(partner, KernelPartner) and not rotor:
-            slave.set(partner.inputs_now())
-        if ended is not Ended.NOT_NUMBERS and isinstance(slave, Compiled):
-            slave.fail(call, status, t)
-        require_finite_outputs("rotor" if rotor else "film", self.loop.reached, slave.get())
-        raise FmuError(f"a partner failed in call {call.name} at t = {t:.9g} s with status {status}")
-
-
-def compiled_run(
-    partners: Partners,
-    scheme: Scheme,
-    record: Record,
-    watch: Watch,
-    macro_step: float,
-    points: Sequence[float],
-) -> CompiledRun | None:
-    """Return the macro steps in C of partners that were started; None where one needs Python."""
-    plan = plan_of(scheme)
-    slaves = [partners.rotor, *partners.films.values()]
-    if plan is None or not all(isinstance(slave, Compiled) for slave in slaves):
-        return None
-    found = [slave.compiled(film=number > 0) for number, slave in enumerate(slaves)]  # type: ignore[attr-defined]
-    if any(partner is None for partner in found):
-        return None
-    rotor, *films = found
-    times: Array = np.array(points)
-    loop = CompiledLoop(partners, rotor, films, plan, record, watch, macro_step, times)
-    return CompiledRun(loop, partners)
-
-
-# The loop over macro steps in C (`native/master/couple.h`), for partners and schemes that it knows.
-
-
-FIRST_CHUNK, MOST_CHUNK = 32, 1024
-"""Macro steps between two looks at a run."""
-
-PATIENCE = 0.05
-"""Longest chunk [s]: an interrupt waits for its end."""
-
-EXTRA = 8
-"""Most further points of a gentle start."""
-
-
-class CompiledLoop:
-    """The loop over macro steps of partners that were started.
-
-    Parameters
-    ----------
-    partners : Partners
-    rotor : CompiledPartner
-    films : list of CompiledPartner
-        In the order of the stations.
-    plan : Plan
-    record : Record
-    watch : Watch
-    macro_step : float [s]
-    points : ndarray [s]
-        Of the macro steps.
-    """
-
-    def __init__(
-        self,
-        partners: Partners,
-        rotor: CompiledPartner,
-        films: list[CompiledPartner],
-        plan: Plan,
-        record: Record,
-        watch: Watch,
-        macro_step: float,
-        points: Array,
-    ) -> None:
-        self._partners, self.rotor, self.films = partners, rotor, films
-        self.record, self._watch, self._chunk = record, watch, FIRST_CHUNK
-        self._kept: list[Any] = [points]
-        m, n = record.size, len(rotor.states)
-        self._shapes = ((2 * m * m + m,), (n + 2 * m, n + m))
-        most = (MOST_CHUNK + EXTRA) // CHECK + 2
-        self._checked = np.zeros(most, dtype=np.int64)
-        self._check_tangents = np.zeros((most, *self._shapes[0]))
-        self._check_slopes = np.zeros((most, *self._shapes[1]))
-        self._laws = np.zeros((MOST_CHUNK + EXTRA, 1 + 5 * m + 2 * m * m))
-        self._driven = self._rotor_struct()
-        stations = (StationStruct * len(films))(*map(self._station, partners.films, films))
-        self._kept.append(stations)
-        self._struct = CouplingStruct(
-            scheme=plan.scheme,
-            degree=plan.degree,
-            gentle=plan.gentle,
-            third=plan.third,
-            stations=len(films),
-            rotor=addressof(self._driven),
-            films=addressof(stations),
-            record=RecordStruct(
-                m=m,
-                columns=record.outputs.shape[1],
-                position=self._ints(record.at.position),
-                velocity=self._ints(record.at.velocity),
-                speed=-1 if record.speed_at is None else record.speed_at,
-                derived=record.tangents.shape[1] > 0,
-            ),
-            points=points.ctypes.data,
-            macro_step=macro_step,
-            every=CHECK,
-            checked=self._checked.ctypes.data,
-            check_tangents=self._check_tangents.ctypes.data,
-            check_slopes=self._check_slopes.ctypes.data,
-        )
-        widest = max(len(film.inputs) for film in films) + 10
-        self._struct.work = self._room(master()["rf_coupling_work"](byref(self._struct), widest))
-
-    def integrate(self, x: Array, nominal: Array, base: Array) -> None:
-        """Have the rotor integrated: its state, nominal values, forces where its motion is asked for."""
-        self._driven.mode, self._driven.x = INTEGRATED, self._held(x)
-        self._driven.nominal, self._driven.base = self._floats(nominal), self._floats(base)
-        names = self._partners.wiring.force
-        self._driven.drive_refs = self._refs([self.rotor.inputs[name] for name in names])
-
-    def prepare(self, t: float, x: Array, kink: float) -> None:
-        """Take time [s] and state of a rotor that is integrated, and the time of its next kink."""
-        self.rotor.sync(t, x)
-        self._driven.kink, self._driven.known = kink, 0
-
-    @property
-    def reached(self) -> float:
-        """End of the step that failed [s]."""
-        return float(self._struct.reached)
-
-    def advance(self, step: int, t: float, steps: int) -> tuple[int, float, Ended]:
-        """Go on from a macro step, in which the time t [s] is reached, by a chunk, to this one at most.
-
-        Returns
-        -------
-        step : int
-            Macro steps done.
-        t : float [s]
-        ended : Ended
-            Why it ended.
-        """
-        c, record, chunk = self._struct, self.record, min(self._chunk, steps - step)
+    def _couple(self, step: int, t: float, chunk: int) -> Ended:
+        """Make a chunk of macro steps, and return why it ended."""
+        c, record = self._struct, self.record
         record.require_room(chunk + EXTRA)
         self._bind()
         c.step, c.t, c.checks = step, t, 0
@@ -265,13 +181,29 @@ class CompiledLoop:
         record.count = c.record.count
         self._partners.work = Counter(dict(zip(WORK, c.done, strict=True)))
         self._hand_over(first)
-        return c.step, c.t, ended
+        return ended
 
-    def failure(self) -> tuple[int, Call, int]:
-        """Return who failed, -1 for the rotor or the number of a film, in which call, with which status."""
+    def _tell_beyond(self) -> None:
+        """Have a model warn where its kernel was beyond the verified range."""
+        for slave, partner in zip(self._partners.films.values(), self.films, strict=True):
+            beyond = partner.beyond()
+            if beyond is not None:
+                slave.set(beyond)
+                slave.get()
+
+    def _raise(self, ended: Ended, t: float) -> None:
+        """Raise what the partner that failed has to say: the rotor, or the film of this number."""
         who = self._struct.who
-        struct = (self.rotor if who < 0 else self.films[who]).struct
-        return who, Call(struct.failed), struct.status
+        rotor = who < 0
+        slave = self._partners.rotor if rotor else list(self._partners.films.values())[who]
+        partner = self.rotor if rotor else self.films[who]
+        call, status = Call(partner.struct.failed), partner.struct.status
+        if partner.own is not None and not rotor:
+            slave.set(partner.inputs_now())
+        if ended is not Ended.NOT_NUMBERS:
+            slave.fail(call, status, t)
+        require_finite_outputs("rotor" if rotor else "film", float(self._struct.reached), slave.get())
+        raise FmuError(f"a partner failed in call {call.name} at t = {t:.9g} s with status {status}")
 
     def calls(self) -> list[dict[Call, int]]:
         """Return how often each function was called: of the rotor, then of the films."""
@@ -298,27 +230,25 @@ class CompiledLoop:
         square = (c.checks, m, m)
         stiffness = tangents[:, : m * m].reshape(square)
         damping = tangents[:, m * m : 2 * m * m].reshape(square)
-        parts = (slopes[:, :n, :n], slopes[:, :n, n:], slopes[:, n:, :n], slopes[:, n:, n:])
-        linear = map(Linearization, *parts)
-        self._watch.take(list(map(Check, self._checked[: c.checks].tolist(), stiffness, damping, linear)))
+        rotor = slopes[:, :n, :n], slopes[:, :n, n:], slopes[:, n : n + m, :n], slopes[:, n + m :, :n]
+        loops = map(Loop, *rotor, stiffness, damping)
+        self._watch.take(list(zip(self._checked[: c.checks].tolist(), loops, strict=True)))
         if self._partners.laws is not None:
             rows = self._laws[: self.record.count - first].copy()
             self._partners.laws += [_law(row, m) for row in rows]
 
-    def _rotor_struct(self) -> RotorStruct:
+    def _rotor_struct(self) -> Any:
         rotor, record = self.rotor, self.record
         wiring, m = self._partners.wiring, record.size
         motion = [rotor.outputs[name] for name in (*wiring.position, *wiring.velocity)]
         lawful = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
-        mode, driven = HELD, list(wiring.force)
-        if set(lawful) <= set(rotor.inputs):
-            mode, driven = LAWFUL, lawful
-        room = max(
-            master()["rf_rotor_work"](len(rotor.states), m), len(lawful), len(motion) + len(rotor.states)
-        )
-        struct = RotorStruct(
+        takes = set(lawful) <= set(rotor.inputs)
+        mode, driven = ("RF_LAWFUL", lawful) if takes else ("RF_HELD", list(wiring.force))
+        n = len(rotor.states)
+        room = max(master()["rf_rotor_work"](n, m), len(lawful), len(motion) + n)
+        return structure("rf_rotor")(
             partner=addressof(rotor.struct),
-            mode=mode,
+            mode=constant(mode),
             stations=len(wiring.stations),
             outputs=len(record.rotor),
             output_refs=self._refs([rotor.outputs[name] for name in record.rotor]),
@@ -332,14 +262,13 @@ class CompiledLoop:
             slopes=self._room(self._shapes[1][0] * self._shapes[1][1]),
             work=self._room(room),
         )
-        return struct
 
-    def _station(self, station: str, film: CompiledPartner) -> StationStruct:
+    def _station(self, station: str, film: CompiledPartner) -> Any:
         slave, (_, feeds) = self._partners.films[station], self._partners.feeds[station]
         known = [(k, name) for k, name in enumerate(JOURNAL_INPUTS) if name in film.knowns]
         taken = [(name, place, source) for name, place, source in feeds if name in film.inputs]
         outputs = list(slave.outputs)
-        return StationStruct(
+        return structure("rf_station")(
             partner=addressof(film.struct),
             inputs=len(taken),
             outputs=len(outputs),
@@ -374,137 +303,38 @@ class CompiledLoop:
 
 def _law(row: Array, m: int) -> ForceLaw:
     """Return the force law that the loop was driven by; see law.h."""
-    sizes = np.cumsum([m, m, m, m * m, m * m, m])
-    force, slope, curvature, stiffness, damping, position, velocity = np.split(row[1:], sizes)
-    square = (m, m)
-    return ForceLaw(
-        float(row[0]),
-        force,
-        slope,
-        curvature,
-        stiffness.reshape(square),
-        damping.reshape(square),
-        position,
-        velocity,
-    )
+    force, slope, curvature, K, C, q, v = np.split(row[1:], np.cumsum([m, m, m, m * m, m * m, m]))
+    return ForceLaw(float(row[0]), force, slope, curvature, K.reshape(m, m), C.reshape(m, m), q, v)
 
 
-# Which schemes the loop in C knows, and as what.
-
-
-class Plan(NamedTuple):
-    """A scheme as the loop in C knows it; see couple.h."""
-
-    scheme: int
-    degree: int = 0
-    gentle: bool = False
-    third: bool = False
-
-
-def plan_of(scheme: Scheme) -> Plan | None:
-    """Return how the loop in C takes a scheme; None if it does not, as those that go back."""
-    if type(scheme) is Starting:
-        inner = plan_of(scheme.scheme)
-        return None if inner is None else inner._replace(gentle=True)
-    if type(scheme) is GaussSeidel or type(scheme) is Jacobi:
-        return Plan(int(type(scheme) is Jacobi), scheme.degree, scheme.degree > 1)
-    if type(scheme) is SIExp or type(scheme) is SIExp3:
-        return Plan(2, third=type(scheme) is SIExp3)
+def plan_of(scheme: Scheme) -> dict[str, int] | None:
+    """Return how the loop in C takes a scheme (couple.h); None if it does not, as one that goes back."""
+    kind = type(scheme)
+    if isinstance(scheme, GaussSeidel | Jacobi) and kind in (GaussSeidel, Jacobi):
+        named = "RF_JACOBI" if kind is Jacobi else "RF_GAUSS_SEIDEL"
+        return {"scheme": constant(named), "degree": scheme.degree, "gentle": scheme.degree > 1}
+    if kind in (SIExp, SIExp3):
+        return {"scheme": constant("RF_TANGENTIAL"), "third": kind is SIExp3}
     return None
 
 
-# Schemes on a motion known beforehand: the force laws that they would have there.
-
-
-@dataclass(frozen=True, kw_only=True)
-class Starting:
-    """A scheme that begins with short steps, as parabolas do, so that all schemes find their points in it.
-
-    Parameters
-    ----------
-    scheme : Scheme
-    """
-
-    scheme: Scheme
-
-    @property
-    def order(self) -> int:
-        """Order of convergence in the macro step."""
-        return self.scheme.order
-
-    @property
-    def label(self) -> str:
-        """Its name in print."""
-        return self.scheme.label
-
-    @property
-    def needs(self) -> Needs:
-        """What it asks of its partners."""
-        return self.scheme.needs
-
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
-        return self.scheme.step(bench, history, t, started(history, 2, dt))
-
-
-class _Replay:
-    """A `Bench` on which a scheme is given a motion known beforehand, to see its force law."""
-
-    def __init__(self, following: Sample) -> None:
-        self._following = following
-        self.law: ForceLaw | None = None
-
-    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
-        """Keep the law; the motion is the known one."""
-        self.law = law
-        return self._following.motion
-
-    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
-        """Return the known forces."""
-        return self._following
-
-    def sensitivity(self, t: float, dt: float) -> Array:
-        """Not asked for by the schemes here."""
-        raise NotImplementedError
-
-    def save(self) -> None:
-        """Do nothing: no scheme here goes back."""
-
-    def restore(self, state: None) -> None:
-        """Do nothing."""
-
-    def release(self, state: None) -> None:
-        """Do nothing."""
-
-
-def samples_of(reaction: Reaction, run: Trajectory, speed: float) -> list[Sample]:
-    """Return the communication points of a motion at constant speed [rad/s], with the films' derivatives."""
-    time, q, v = run.time, run.position, run.velocity
-    forces = reaction.force(q, v, np.full(time.size, speed))
-    try:
-        slopes = reaction.jacobian(q, v, np.full(time.size, speed))
-    except UndefinedDerivativeError:  # a damper at rest, where the schemes too go without
-        moving = reaction.jacobian(q[:, 1:], v[:, 1:], np.full(time.size - 1, speed))
-        slopes = np.concatenate([np.zeros((2, 5, 1)), moving], axis=2)
-    return [
-        Sample(
-            float(time[n]),
-            StationMotion(q[:, n], v[:, n], speed, {}),
-            forces[:, n],
-            Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
-            {},
-        )
-        for n in range(time.size)
-    ]
-
-
-def laws_on(samples: Sequence[Sample], scheme: Scheme) -> list[ForceLaw]:
-    """Return the force laws of a scheme on a known motion."""
-    laws = []
-    for n in range(len(samples) - 1):
-        bench, now = _Replay(samples[n + 1]), samples[n]
-        length = samples[n + 1].time - now.time
-        scheme.step(bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, length)
-        assert bench.law is not None  # every scheme drives the rotor
-        laws.append(bench.law)
-    return laws
+def compiled_run(
+    partners: Partners,
+    scheme: Scheme,
+    record: Record,
+    watch: Watch,
+    macro_step: float,
+    points: Sequence[float],
+    gentle: bool,
+) -> CompiledRun | None:
+    """Return the macro steps in C of partners that were started; None where one needs Python."""
+    plan = plan_of(scheme)
+    if plan is None:
+        return None
+    slaves = [partners.rotor, *partners.films.values()]
+    found = [slave.compiled(film=number > 0) for number, slave in enumerate(slaves)]
+    known = [partner for partner in found if partner is not None]
+    if len(known) < len(found):
+        return None
+    plan |= {"gentle": True} if gentle else {}
+    return CompiledRun(partners, known[0], known[1:], plan, record, watch, macro_step, np.array(points))

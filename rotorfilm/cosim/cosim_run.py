@@ -22,9 +22,8 @@ from ..core.limits import STEPS
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from .compiled_loop import CompiledRun, compiled_run
-from .partner_interface import Sample
 from .partners import Partners, Record
-from .schemes import MEMORY, GaussSeidel, Scheme
+from .schemes import MEMORY, GaussSeidel, Sample, Scheme, started
 from .slaves import Slave
 from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
 
@@ -128,9 +127,11 @@ def coupled(
     macro_step: float,
     duration: float,
     progress: Callable[[float], None] | None = None,
+    *,
+    gentle: bool = False,
 ) -> CoSimulation:
-    """Couple partners; see `couple`."""
-    run = _Run(partners, scheme, macro_step, duration)
+    """Couple partners; see `couple`. A gentle start has short steps, as parabolas have, for any scheme."""
+    run = _Run(partners, scheme, macro_step, duration, gentle)
     try:
         run.start()
         for times in run.reached():
@@ -166,8 +167,11 @@ def require_times(macro_step: float, duration: float) -> None:
 class _Run:
     """A co-simulation on its way: the partners, and what they have exchanged so far."""
 
-    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float, duration: float) -> None:
+    def __init__(
+        self, partners: Partners, scheme: Scheme, macro_step: float, duration: float, gentle: bool
+    ) -> None:
         self._partners, self._scheme, self._macro_step = partners, scheme, macro_step
+        self._gentle = gentle
         self._history: list[Sample] = []
         self._record = Record(*partners.signals, partners.places, scheme.needs.derivatives)
         self._watch = Watch(partners, scheme, macro_step, self._record)
@@ -179,9 +183,8 @@ class _Run:
         """Start rotor and films."""
         self._keep(self._partners.start())
         self._record.work[0] = list(self._partners.work.values())
-        self._compiled = compiled_run(
-            self._partners, self._scheme, self._record, self._watch, self._macro_step, self._points
-        )
+        kept = self._record, self._watch, self._macro_step, self._points
+        self._compiled = compiled_run(self._partners, self._scheme, *kept, self._gentle)
 
     def reached(self) -> Iterator[Iterator[float]]:
         """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""
@@ -207,7 +210,8 @@ class _Run:
         """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
         end = self._end(number)
         while t < end:
-            found = self._scheme.step(self._partners, self._history, t, end - t)
+            dt = started(self._history, 2, end - t) if self._gentle else end - t
+            found = self._scheme.step(self._partners, self._history, t, dt)
             self._keep(found)
             self._partners.work["steps"] += 1
             self._record.work[self._record.count - 1] = list(self._partners.work.values())

@@ -15,13 +15,24 @@ from scipy.linalg import expm
 from ..core.answers import DISAGREEMENT
 from ..core.errors import PartialResultError, UndefinedDerivativeError
 from ..core.model import Array, Reaction
+from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
-from .compiled_loop import Starting, laws_on, samples_of
 from .cosim_run import CoSimulation, coupled
 from .coupling_loop import coupling_loop, dominant_eigenvalue
 from .partners import Partners
-from .schemes import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
+from .schemes import (
+    MEMORY,
+    Bench,
+    GaussSeidel,
+    Jacobi,
+    Sample,
+    Scheme,
+    SIExp,
+    SIExp3,
+    StationMotion,
+    Tangents,
+)
 from .slaves import InProcessSlave
 from .watch import quietly
 
@@ -69,21 +80,6 @@ class PilotRun(NamedTuple):
     laws: list[ForceLaw]
 
 
-class Pilot(NamedTuple):
-    """The run that all others are predicted from.
-
-    Attributes
-    ----------
-    run : PilotRun
-    scheme : Scheme
-    macro_angle : float [rad]
-    """
-
-    run: PilotRun
-    scheme: Scheme
-    macro_angle: float
-
-
 @dataclass(frozen=True, kw_only=True)
 class CouplingCase:
     """A rigid rotor and the film or damper under it, from where the rotor starts.
@@ -109,8 +105,8 @@ class CouplingCase:
         """Return the number of macro steps [rad] in a run."""
         return math.ceil(2.0 * math.pi * self.revolutions / angle * (1.0 - 1e-12))
 
-    def run(self, scheme: Scheme, angle: float) -> PilotRun:
-        """Return a coupled run at a macro step [rad].
+    def run(self, scheme: Scheme, angle: float, *, gentle: bool = False) -> PilotRun:
+        """Return a coupled run at a macro step [rad]; a gentle start has short steps.
 
         Raises
         ------
@@ -122,7 +118,8 @@ class CouplingCase:
         laws: list[ForceLaw] = []
         partners.laws = laws
         with quietly():
-            outcome = coupled(partners, scheme, angle / speed, 2.0 * math.pi * self.revolutions / speed)
+            duration = 2.0 * math.pi * self.revolutions / speed
+            outcome = coupled(partners, scheme, angle / speed, duration, gentle=gentle)
         return PilotRun(outcome, laws)
 
     def drift(self, run: PilotRun) -> Drift:
@@ -158,8 +155,10 @@ class CouplingCase:
         return max((error * min(1.0, angle / own) ** scheme.order for own, error in met), default=0.0)
 
     @cached_property
-    def pilot(self) -> Pilot:
-        """The run that others are predicted from.
+    def pilot(self) -> tuple[PilotRun, float]:
+        """The run that others are predicted from, and its macro step [rad].
+
+        It begins with short steps, as parabolas do, so that all schemes find their points in it.
 
         Raises
         ------
@@ -168,11 +167,11 @@ class CouplingCase:
         """
         for scheme, angle in PILOTS[:-1]:
             try:
-                return Pilot(self.run(Starting(scheme=scheme), angle), scheme, angle)
+                return self.run(scheme, angle, gentle=True), angle
             except PartialResultError:
                 continue
         scheme, angle = PILOTS[-1]
-        return Pilot(self.run(Starting(scheme=scheme), angle), scheme, angle)
+        return self.run(scheme, angle, gentle=True), angle
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
@@ -180,7 +179,7 @@ class CouplingCase:
         To leading order: the defect of its force law along the motion of the pilot, propagated, and scaled
         by the order of the scheme.
         """
-        ratio = angle / self.pilot.macro_angle
+        ratio = angle / self.pilot[1]
         # Long steps fall behind their order where the film is stiff.
         order = scheme.order if ratio < 1.0 else min(scheme.order, 2)
         return float(self._constants[scheme] * ratio**order)
@@ -188,7 +187,7 @@ class CouplingCase:
     @cached_property
     def _constants(self) -> dict[Scheme, float]:
         """Errors of all schemes at the pilot's macro step."""
-        run = self.pilot.run
+        run = self.pilot[0]
         own = run.outcome.trajectory
         samples = samples_of(self.reaction, own, self.rotor.profile.speeds[0])
         whole = 0.999 * min(run.outcome.macro_step, own.time[-1])
@@ -208,6 +207,59 @@ class CouplingCase:
             moved, _ = propagated(self.rotor.mass, motion.dt, slopes, defect)
             found[scheme] = largest(moved, motion.parts) / self.reaction.clearance
         return found
+
+
+# Schemes on a motion known beforehand: the force laws that they would have there.
+
+
+class _Replay(Bench):
+    """A scheme is given a motion known beforehand, to see its force law."""
+
+    def __init__(self, following: Sample) -> None:
+        self._following = following
+        self.law: ForceLaw | None = None
+
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
+        """Keep the law; the motion is the known one."""
+        self.law = law
+        return self._following.motion
+
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
+        """Return the known forces."""
+        return self._following
+
+
+def samples_of(reaction: Reaction, run: Trajectory, speed: float) -> list[Sample]:
+    """Return the communication points of a motion at constant speed [rad/s], with the films' derivatives."""
+    time, q, v = run.time, run.position, run.velocity
+    forces = reaction.force(q, v, np.full(time.size, speed))
+    try:
+        slopes = reaction.jacobian(q, v, np.full(time.size, speed))
+    except UndefinedDerivativeError:  # a damper at rest, where the schemes too go without
+        moving = reaction.jacobian(q[:, 1:], v[:, 1:], np.full(time.size - 1, speed))
+        slopes = np.concatenate([np.zeros((2, 5, 1)), moving], axis=2)
+    return [
+        Sample(
+            float(time[n]),
+            StationMotion(q[:, n], v[:, n], speed, {}),
+            forces[:, n],
+            Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
+            {},
+        )
+        for n in range(time.size)
+    ]
+
+
+def laws_on(samples: Sequence[Sample], scheme: Scheme) -> list[ForceLaw]:
+    """Return the force laws of a scheme on a known motion."""
+    laws = []
+    for n in range(len(samples) - 1):
+        bench, now = _Replay(samples[n + 1]), samples[n]
+        length = samples[n + 1].time - now.time
+        scheme.step(bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, length)
+        assert bench.law is not None  # every scheme drives the rotor
+        laws.append(bench.law)
+    return laws
 
 
 # What a coupled run of a rigid rotor misses within its macro steps, and how far that carries the

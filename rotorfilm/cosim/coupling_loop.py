@@ -23,8 +23,8 @@ from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.readable import Readable
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 from ..rotors.force_law import ForceLaw
-from .partner_interface import Sample, StationMotion, Tangents, sources, wired
-from .schemes import GaussSeidel, Newton, Scheme
+from .schemes import Bench, GaussSeidel, Newton, Sample, Scheme, StationMotion, Tangents
+from .slaves import Names, sources, wired
 
 CONVERGED = 1e-11
 """Tolerance of Newton's iteration, which is exact after one correction here."""
@@ -70,14 +70,14 @@ def coupling_loop(
     if x.shape != (len(rotor.states),):
         raise InputError(f"state must have shape ({len(rotor.states)},), got {x.shape}")
     films = reaction if isinstance(reaction, Mapping) else {"": reaction}
-    known = _named(rotor)
+    known = inputs, told = _named(rotor)
     outputs = rotor.output(time, x, np.zeros(len(rotor.inputs)))
-    felt = {
-        station: outputs[indices("rotor must have the outputs", known.outputs, _feeds(known, station, film))]
-        for station, film in films.items()
-    }
+    felt = {}
+    for station, film in films.items():
+        feeds = list(sources(told, station, names(film.inputs)).values())
+        felt[station] = outputs[indices("rotor must have the outputs", told, feeds)]
     wiring = wired(known, {station: _named(film) for station, film in films.items()})
-    force, position, velocity = wiring.places(known.inputs, known.outputs)
+    force, position, velocity = wiring.places(inputs, told)
     size = len(force)
     K, C, u = np.zeros((size, size)), np.zeros((size, size)), np.zeros(len(rotor.inputs))
     for number, (station, film) in enumerate(films.items()):
@@ -89,20 +89,8 @@ def coupling_loop(
     return Loop(linear.A, linear.B[:, force], linear.C[position], linear.C[velocity], K, C)
 
 
-class _Named(NamedTuple):
-    """The signals of a model by name."""
-
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
-
-
-def _named(model: Model) -> _Named:
-    return _Named(tuple(names(model.inputs)), tuple(names(model.outputs)))
-
-
-def _feeds(rotor: _Named, station: str, film: Model) -> list[str]:
-    """Return the outputs of the rotor that feed a film."""
-    return list(sources(rotor.outputs, station, names(film.inputs)).values())
+def _named(model: Model) -> Names:
+    return names(model.inputs), names(model.outputs)
 
 
 def _film_matrices(film: Model, journal: Array, time: float) -> tuple[Array, Array, Array]:
@@ -138,8 +126,8 @@ def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
     return np.concatenate(rows)
 
 
-class _LinearBench:
-    """A linear rotor and linear films under a batch of disturbances (n, batch): a `Bench`."""
+class _LinearBench(Bench):
+    """A linear rotor and linear films under a batch of disturbances (n, batch)."""
 
     def __init__(self, loop: Loop, x: Array) -> None:
         self._loop, self.x = loop, x
@@ -176,9 +164,6 @@ class _LinearBench:
     def restore(self, state: Array) -> None:
         """Return to states."""
         self.x = state
-
-    def release(self, state: Array) -> None:
-        """Do nothing."""
 
     def _transition(self, M: Array, dt: float) -> list[Array]:
         """Return exp(M dt) and what the force, its slope and half its curvature over the step add."""

@@ -15,28 +15,25 @@ from fmpy.fmi1 import FMICallException
 
 from ..core.errors import FilmContactError, FmuError, InputError
 from ..core.model import Array, Linearization
+from ..core.signals import from_fmi_name
 from ..fmu.instance import (
     DERIVATIVES,
     STATES,
-    EventInfo,
     Port,
-    Slopes,
     instantiated,
     nominal_of,
     provides,
     variables_of,
 )
-from ..native.master_structs import Call
+from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from .partner_interface import Wiring, local_name, references_of
-from .schemes import LawIntegrator
-from .slaves import CompiledPartner, FmuPartner
+from .slaves import Call, CompiledPartner, Integrated, Slave, Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
 
 
-class FmuSlave:
+class FmuSlave(Slave):
     """An instantiated FMU for Co-Simulation; `open_fmu` makes one and frees it.
 
     Parameters
@@ -54,30 +51,20 @@ class FmuSlave:
         self._references = {
             causality: references_of(description, causality) for causality in ("input", "output")
         }
+        self.inputs, self.outputs = (tuple(named) for named in self._references.values())
         told = variables_of(description, "output")
         self.units = {local_name(one.name): one.unit for one in told if one.unit}
         self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
         self._slopes = [slope.valueReference for slope in slopes]
         self._states = [slope.derivative.valueReference for slope in slopes]
-        self._nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
         self._wiring: Wiring | None = None
         self._law: Port | None = None
         self._instance = instantiated(description, folder, exchange)
         # Values are exchanged in each step: their references are told once.
         self._ports: dict[tuple[str, ...], Port] = {}
-        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Slopes] = {}
+        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Callable[[], Array]] = {}
         self._output = self._instance.port(list(self._references["output"].values()))
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """Local names of the real inputs."""
-        return tuple(self._references["input"])
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """Local names of the real outputs."""
-        return tuple(self._references["output"])
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs."""
@@ -129,11 +116,9 @@ class FmuSlave:
             assert self._law is not None  # it has just been found
             values = [law.start, *(v for k in range(len(wiring.stations)) for v in law.station(k))]
             self._calling("setting inputs", self._law.set, values)
-        elif law.held:
-            self.set(dict(zip(wiring.force, law.force.tolist(), strict=True)))
+            self.step(t, dt)
         else:
-            raise InputError(f"rotor must have the inputs of a force law, got {list(self.inputs)}")
-        self.step(t, dt)
+            super().drive(t, dt, law, wiring)
 
     def linear(self, t: float) -> Linearization | None:
         """Return the exact derivatives at present, if the FMU tells them of its states."""
@@ -148,16 +133,18 @@ class FmuSlave:
         wanted = tuple(unknowns), tuple(knowns)
         if wanted not in self._slopes_of:
             self._slopes_of[wanted] = self._instance.slopes(*wanted)
-        found: Array = self._calling("reading derivatives", self._slopes_of[wanted].get)
+        found: Array = self._calling("reading derivatives", self._slopes_of[wanted])
         return found
 
     def compiled(self, film: bool) -> CompiledPartner | None:
         """Return the functions of the library of the FMU; None of a subclass, which may differ."""
         if type(self) not in (FmuSlave, ExchangeRotor):
             return None
-        entry = self._instance.entry()
+        version, component, functions = self._instance.entry()
         inputs, outputs = self._references["input"], self._references["output"]
-        return FmuPartner(*entry, inputs, outputs, self._slopes, self._states)
+        kind, states = constant(f"RF_IS_FMI{version}"), len(self._states)
+        struct = structure("rf_partner")(kind=kind, component=component, states=states, **functions)
+        return CompiledPartner(struct, inputs, outputs, inputs, self._slopes, self._states)
 
     def fail(self, call: Call, status: int, t: float) -> None:
         """Raise the FmuError, or FilmContactError, of a call from C that failed in the step from t [s]."""
@@ -193,38 +180,24 @@ class FmuSlave:
             raise (FilmContactError if touched else FmuError)(text) from error
 
 
-class ExchangeRotor(FmuSlave):
+class ExchangeRotor(Integrated, FmuSlave):
     """An instantiated rotor FMU for Model Exchange, integrated by the exponential; see `FmuSlave`.
 
-    The FMU tells its directional derivatives. It is a `System`, whose calls go to the FMU.
+    The FMU tells its directional derivatives.
     """
 
     def __init__(self, description: Any, folder: str) -> None:
         super().__init__(description, folder, exchange=True)
-        self._t, self._kink = 0.0, np.inf
-        self._x = np.zeros(len(self._states))
-        self._base = np.zeros(len(self.inputs))
+        self._kink = np.inf
+        slopes = (unknown.variable for unknown in description.derivatives or ())
+        self.nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
+        self.state, self._base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
         self._input = self._instance.port(list(self._references["input"].values()))
-        self._integrator: LawIntegrator | None = None
-
-    @property
-    def state(self) -> Array:
-        """The state at present."""
-        return self._x
 
     @property
     def base(self) -> Array:
         """The start values of the inputs."""
         return self._base
-
-    def resume(self, t: float, x: Array) -> None:
-        """Go to a time [s] and a state."""
-        self.restore((t, x.copy()))
-
-    @property
-    def nominals(self) -> Array:
-        """Nominal values of the states."""
-        return self._nominals
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs."""
@@ -234,34 +207,30 @@ class ExchangeRotor(FmuSlave):
 
     def _initialize(self, values: Mapping[str, float]) -> None:
         event = self._instance.initialize(self._inputs(values), list(values.values()))
-        self._x = self._instance.states(len(self._states))
+        self.state = self._instance.states(len(self._states))
         self._base = np.array(self._input.get())
         self._scheduled(event)
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance from t to t + dt [s] under a force law."""
-        if self._integrator is None:
-            self._integrator = LawIntegrator(self, wiring, self._base)
-        self._calling(f"the step from t = {t:.9g} s", self._advance, t, dt, law)
-
-    def _advance(self, t: float, dt: float, law: ForceLaw) -> None:
-        assert self._integrator is not None  # made by `drive`
-        self._x = self._integrator.advance(t, self._x, dt, law)
-        self._t = t + dt
-        self._instance.move(self._t, self._x)
+        self._calling(f"the step from t = {t:.9g} s", super().drive, t, dt, law, wiring)
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Return True."""
         return True
 
+    def resume(self, t: float, x: Array) -> None:
+        """Go to a time [s] and a state."""
+        super().resume(t, x)
+        self._instance.move(t, self.state)
+
     def save(self) -> Any:
         """Return time and state."""
-        return self._t, self._x.copy()
+        return self._t, self.state.copy()
 
     def restore(self, state: Any) -> None:
         """Return to time and state."""
-        self._t, self._x = state
-        self._instance.move(self._t, self._x)
+        self.resume(*state)
 
     def release(self, state: Any) -> None:
         """Do nothing."""
@@ -292,9 +261,28 @@ class ExchangeRotor(FmuSlave):
         self._move(t, x, self._base)
         self._scheduled(self._instance.event())
 
-    def _scheduled(self, event: EventInfo) -> None:
-        self._kink = np.inf if event.next_time is None else event.next_time
+    def _scheduled(self, event: float | None) -> None:
+        self._kink = np.inf if event is None else event
 
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)
         self._input.set(u.tolist())
+
+
+def references_of(description: Any, causality: str) -> dict[str, int]:
+    """Return the value references of the real inputs or outputs, by local name."""
+    references: dict[str, int] = {}
+    for variable in variables_of(description, causality):
+        name = local_name(variable.name)
+        if name in references:
+            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
+        references[name] = variable.valueReference
+    return references
+
+
+def local_name(name: str) -> str:
+    """Return the signal of `component.signal`; other spellings stay as they are."""
+    try:
+        return from_fmi_name(name)[1]
+    except InputError:
+        return name

@@ -14,24 +14,15 @@ from ..core.model import Array, Linearization
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name
-from .partner_interface import (
-    JournalPlaces,
-    Needs,
-    Sample,
-    StationMotion,
-    Tangents,
-    no_tangents,
-    sources,
-    wired,
-)
-from .slaves import Differentiable, Driven, Measured, Restorable, Slave
+from .schemes import Bench, Needs, Sample, StationMotion, Tangents, no_tangents
+from .slaves import JournalPlaces, Slave, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
 
 
-class Partners:
-    """A rotor and films that were not started yet, as a `Bench`.
+class Partners(Bench):
+    """A rotor and films that were not started yet.
 
     Parameters
     ----------
@@ -48,23 +39,22 @@ class Partners:
 
     def __init__(self, rotor: Slave, films: Mapping[str, Slave], needs: Needs) -> None:
         self.rotor, self.films, self._needs = rotor, dict(films), needs
-        self.wiring = wired(rotor, self.films)
+        outlets = {station: (film.inputs, film.outputs) for station, film in self.films.items()}
+        self.wiring = wired((rotor.inputs, rotor.outputs), outlets)
         self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
         self._require(needs)
-        # Asked once: checks against protocols, names and places are slow.
+        # Asked once: names and places are slow.
         self.feeds = {station: self._fed(station, film) for station, film in self.films.items()}
         self._told = {
             station: [station_name(station, n) for n in film.outputs] for station, film in self.films.items()
         }
         self._at = self.places
         self._motion_at = [*self._at.position, *self._at.velocity]
-        self._driven = rotor if isinstance(rotor, Driven) else None
         self._known = {
             name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs]
             for name, film in films.items()
         }
-        self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
-        self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]
+        self._all = [rotor, *films.values()]
         self.laws: list[ForceLaw] | None = None
         """The force laws of all steps of the rotor, if a list is put here."""
         self._probed: tuple[float, Array] | None = None
@@ -82,11 +72,7 @@ class Partners:
         self.work["rotor_steps"] += 1
         if self.laws is not None:
             self.laws.append(law)
-        if self._driven is not None:
-            self._driven.drive(t, dt, law, self.wiring)
-        else:
-            self.rotor.set(dict(zip(self.wiring.force, law.force.tolist(), strict=True)))
-            self.rotor.step(t, dt)
+        self.rotor.drive(t, dt, law, self.wiring)
         return self._motion(t + dt)
 
     def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
@@ -106,18 +92,18 @@ class Partners:
 
     def save(self) -> list[Any]:
         """Return the state of all partners."""
-        return [partner.save() for partner in self._restorable]
+        return [partner.save() for partner in self._all]
 
     def restore(self, state: list[Any]) -> None:
         """Return to a state of all partners."""
         self.work["rollbacks"] += 1
-        for partner, own in zip(self._restorable, state, strict=True):
+        for partner, own in zip(self._all, state, strict=True):
             partner.restore(own)
         self.release(state)
 
     def release(self, state: list[Any]) -> None:
         """Forget a state."""
-        for partner, own in zip(self._restorable, state, strict=True):
+        for partner, own in zip(self._all, state, strict=True):
             partner.release(own)
 
     @property
@@ -139,17 +125,15 @@ class Partners:
     @property
     def units(self) -> dict[str, str]:
         """Units of the outputs, of partners that tell them."""
-        known = dict(self.rotor.units) if isinstance(self.rotor, Measured) else {}
+        known = dict(self.rotor.units)
         for station, film in self.films.items():
-            said = film.units if isinstance(film, Measured) else {}
-            known |= {station_name(station, name): unit for name, unit in said.items()}
+            known |= {station_name(station, name): unit for name, unit in film.units.items()}
         return known
 
     @property
     def differentiates(self) -> bool:
         """Whether all films tell their derivatives."""
-        known = [film for film in self.films.values() if isinstance(film, Differentiable)]
-        return len(known) == len(self.films) and all(film.differentiates for film in known)
+        return all(film.differentiates for film in self.films.values())
 
     def tangents(self) -> Tangents:
         """Return the derivatives of all films at present.
@@ -160,7 +144,7 @@ class Partners:
             If a film has none there.
         """
         found = no_tangents(self.size)
-        for number, (known, film) in enumerate(zip(self._known.values(), self._differentiable, strict=True)):
+        for number, (known, film) in enumerate(zip(self._known.values(), self.films.values(), strict=True)):
             own = slice(2 * number, 2 * number + 2)
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
             whole[:, known] = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
@@ -171,7 +155,7 @@ class Partners:
 
     def linear_rotor(self, t: float) -> Linearization | None:
         """Return the exact derivatives of the rotor, those of its journals only; None if it has none."""
-        found = self._driven.linear(t) if self._driven is not None else None
+        found = self.rotor.linear(t)
         if found is None:
             return None
         forces, motion = self._at.force, self._motion_at
@@ -231,14 +215,12 @@ class Partners:
     def _require(self, needs: Needs) -> None:
         if needs.derivatives and not self.differentiates:
             raise InputError("film must tell its directional derivatives for this scheme, got one without")
-        driven = isinstance(self.rotor, Driven) and self.rotor.takes_laws(self.wiring)
-        if needs.laws and not driven:
+        if needs.laws and not self.rotor.takes_laws(self.wiring):
             raise InputError(
                 "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one "
                 f"with inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
             )
-        partners = [self.rotor, *self.films.values()]
-        if needs.rollback and not all(isinstance(p, Restorable) and p.restores for p in partners):
+        if needs.rollback and not all(p.restores for p in (self.rotor, *self.films.values())):
             raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 

@@ -6,7 +6,6 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -20,12 +19,11 @@ from ..core.errors import (
     require_finite,
     warn_user,
 )
-from ..core.model import Array, Linearization
+from ..core.model import Array
 from ..core.readable import Readable
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
-from .partner_interface import Tangents
 from .partners import Partners, Record
-from .schemes import Adaptive, Scheme, extrapolation
+from .schemes import Adaptive, Scheme, Tangents, extrapolation
 
 # Finds, from the exchanged forces alone, whether a co-simulation chatters past its stability limit.
 #
@@ -221,23 +219,6 @@ def quietly() -> Iterator[None]:
         yield
 
 
-class Check(NamedTuple):
-    """What the distance from the limit follows from, at one communication point.
-
-    Attributes
-    ----------
-    point : int
-    stiffness, damping : ndarray, shape (m, m) [N/m], [N s/m]
-    linear : Linearization
-        Of the rotor, its journals only.
-    """
-
-    point: int
-    stiffness: Array
-    damping: Array
-    linear: Linearization
-
-
 class Watch:
     """Watches the communication points of one run, block by block.
 
@@ -257,7 +238,7 @@ class Watch:
         self._ratio: float | None = None
         self._radius: float | None = None
         self._warnings: list[str] = []
-        self._checks: list[Check] = []
+        self._checks: list[tuple[int, Loop]] = []
         self.checks = partners.differentiates
         """Whether the distance from the limit is known, and looked at in each `CHECK`-th step."""
 
@@ -278,10 +259,12 @@ class Watch:
             self.checks = False
         else:
             self.checks = not np.any(linear.D)
-            self.take([Check(point, tangents.stiffness, tangents.damping, linear)])
+            position, velocity = np.split(linear.C, 2)
+            parts = linear.A, linear.B, position, velocity, tangents.stiffness, tangents.damping
+            self.take([(point, Loop(*parts))])
 
-    def take(self, checks: list[Check]) -> None:
-        """Take what the distance from the limit follows from."""
+    def take(self, checks: list[tuple[int, Loop]]) -> None:
+        """Take communication points, and the linear loops there, from which the distances follow."""
         self._checks += checks if self.checks else []
 
     def alarm(self) -> int | None:
@@ -300,7 +283,7 @@ class Watch:
             self._unforeseen += float(np.sum(self._surprises()[:later] ** 2))
             self._squares += float(np.sum(self._record.force[rows] ** 2))
             self._seen = count
-        self._measure([check for check in self._checks if check.point < count])
+        self._measure([check for check in self._checks if check[0] < count])
         self._checks = []
 
     def result(self) -> CouplingWatch:
@@ -353,19 +336,17 @@ class Watch:
             - speed[:, None] * by_speed
         )
 
-    def _measure(self, checks: Sequence[Check]) -> None:
+    def _measure(self, checks: Sequence[tuple[int, Loop]]) -> None:
         """Measure the distances from the limit."""
         if not checks:
             return
-        m = len(checks[0].damping)
-        felt = np.stack([check.linear.C[m:] @ check.linear.B for check in checks])
-        rates = np.linalg.eigvals(felt @ np.stack([check.damping for check in checks])).real.max(axis=1)
-        for check, rate in zip(checks, rates.tolist(), strict=True):
+        felt = np.stack([loop.velocity @ loop.B for _, loop in checks])
+        rates = np.linalg.eigvals(felt @ np.stack([loop.damping for _, loop in checks])).real.max(axis=1)
+        for (point, loop), rate in zip(checks, rates.tolist(), strict=True):
             ratio = float(self._macro_step * rate)
             if self._ratio is None or ratio > 1.01 * self._ratio:
-                self._ratio, (A, B, C, _) = ratio, check.linear
-                loop = Loop(A, B, C[:m], C[m:], check.stiffness, check.damping)
-                self._judge(loop, ratio, float(self._record.time[check.point]))
+                self._ratio = ratio
+                self._judge(loop, ratio, float(self._record.time[point]))
 
     def _judge(self, loop: Loop, ratio: float, t: float) -> None:
         try:

@@ -9,9 +9,34 @@ import numpy as np
 
 from ..core.model import Array
 from .library import loops
-from .structs import BallJournalStruct, BallLawStruct, BallsStruct, BallStruct
+from .structs import structure
 
 DEGREES, SLOPES = 5, 8
+
+ROW = (
+    "place",
+    "direction",
+    "axial",
+    "radial",
+    "arm",
+    "count",
+    "turn",
+    "inner",
+    "outer",
+    "inner_stiffness",
+    "outer_stiffness",
+    "ratio",
+    "diameter",
+    "mass",
+    "largest",
+    "inner_reach",
+    "outer_reach",
+)
+"""The numbers of rf_ball_row, the columns of the table `rows`."""
+
+
+WAVE = ("turns", "lobes", "radial", "axial", "phase")
+"""The numbers of rf_ball_wave, the columns of the table `waves`."""
 
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 _Held = c_int32 * DEGREES
@@ -86,10 +111,10 @@ class BallKernel:
         self.rows = np.ascontiguousarray(rows, dtype=float)
         self.count = int(self.rows[:, 5].sum())
         self._waves = np.ascontiguousarray(waves, dtype=float)
-        self._fixed = self.rows.ctypes.data, len(self.rows), growth, BallLawStruct(*law)
+        self._fixed = self.rows.ctypes.data, len(self.rows), growth, structure("rf_ball_law")(*law)
         self._balls = self._turned(0.0, 0.0)
         self._held = _three(place), thrust or 0.0, damping, thrust is not None
-        self._journal = BallJournalStruct(self._balls, *self._held)
+        self._journal = structure("rf_ball_journal")(self._balls, *self._held)
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
 
@@ -115,12 +140,12 @@ class BallKernel:
     def axial_place(self, *state: float, cage: float = 0.0, shaft: float = 0.0) -> tuple[float, int]:
         """Return z [m] at x, y, vx, vy, speed, with cage and shaft turned further [rad], and a status."""
         pair, z = _Two(), c_double()
-        journal = BallJournalStruct(self._turned(cage, shaft), *self._held)
+        journal = structure("rf_ball_journal")(self._turned(cage, shaft), *self._held)
         status = self._at(byref(journal), _Five(*state), pair, None, byref(z))
         return z.value, status
 
-    def _turned(self, cage: float, shaft: float) -> BallsStruct:
-        return BallsStruct(*self._fixed, cage, shaft, self._waves.ctypes.data, len(self._waves))
+    def _turned(self, cage: float, shaft: float) -> Any:
+        return structure("rf_balls")(*self._fixed, cage, shaft, self._waves.ctypes.data, len(self._waves))
 
     def at(self, motion: Array, speed: float, cage: float = 0.0, shaft: float = 0.0) -> BallsAt:
         """Return wrench, slopes and balls at a motion (5,), with cage and shaft turned further [rad]."""
@@ -128,7 +153,7 @@ class BallKernel:
         wrench, slopes, each = (
             np.empty(DEGREES),
             np.empty((DEGREES, SLOPES)),
-            (BallStruct * self.count)(),
+            (structure("rf_ball") * self.count)(),
         )
         places = [one.ctypes.data for one in (wrench, slopes)]
         balls = self._turned(cage, shaft) if cage or shaft else self._balls

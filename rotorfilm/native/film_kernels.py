@@ -11,15 +11,7 @@ import numpy as np
 
 from ..core.model import Array
 from .library import functions, loops
-from .structs import (
-    GrooveMapStruct,
-    JournalStruct,
-    LobesStruct,
-    LobeStruct,
-    MapStruct,
-    OilDamperStruct,
-    ShortStruct,
-)
+from .structs import structure
 
 
 class Status(IntEnum):
@@ -115,7 +107,7 @@ class ShortKernel(FilmKernel):
 
     def __init__(self, slenderness: float) -> None:
         self._arguments = (slenderness,)
-        self.struct = ShortStruct(4.0 * slenderness**2)
+        self.struct = structure("rf_short")(4.0 * slenderness**2)
 
     @property
     def tables(self) -> dict[str, Array]:
@@ -158,7 +150,7 @@ class MapKernel(FilmKernel):
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
         place = self.coefficients.ctypes.data
-        self.struct = MapStruct(cells_x, cells_t, reach, log_center, place)
+        self.struct = structure("rf_map")(cells_x, cells_t, reach, log_center, place)
         functions()["rf_map_to_wall"](byref(self.struct), slenderness, share)
         self.error = functions()["rf_map_error"](byref(self.struct))
 
@@ -207,7 +199,7 @@ class GrooveMapKernel(MapKernel):
         cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
         places = self.log_center.ctypes.data, self.coefficients.ctypes.data
         counts = cells_x, cells_e, cells_s, len(log_center)
-        self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places, slenderness)
+        self.struct = structure("rf_groove_map")(*counts, reach, crowding, axis, *places, slenderness)
         self.error = functions()["rf_groove_error"](byref(self.struct))
 
     @property
@@ -334,7 +326,7 @@ class JournalKernel(ResponseKernel):
     def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
         self.film = kernel
-        self.struct = JournalStruct(
+        self.struct = structure("rf_journal")(
             kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
         )
         super().__init__()
@@ -373,12 +365,12 @@ class LobesKernel(ResponseKernel):
         self._kept: list[Any] = [films]
         self.film = films[0].film
         lobes = [
-            LobeStruct(film.struct, np.cos(middle), np.sin(middle), *center)
+            structure("rf_lobe")(film.struct, np.cos(middle), np.sin(middle), *center)
             for film, (middle, center) in zip(films, places, strict=True)
         ]
-        rows = (LobeStruct * len(lobes))(*lobes)
+        rows = (structure("rf_lobe") * len(lobes))(*lobes)
         self._kept.append(rows)
-        self.struct = LobesStruct(len(lobes), addressof(rows))
+        self.struct = structure("rf_lobes")(len(lobes), addressof(rows))
         super().__init__()
 
 
@@ -462,8 +454,8 @@ class OilDamperKernel(ResponseKernel):
         radial = np.zeros((0, 7)) if parts.radial is None else parts.radial
         self._kept = [np.ascontiguousarray(part) for part in (radial, parts.nodes, parts.weights)]
         table, nodes, weights = (part.ctypes.data for part in self._kept)
-        self.struct = OilDamperStruct(
-            JournalStruct(*places, scales.clearance, scales.viscous, self.film.error, 0),
+        self.struct = structure("rf_oil_damper")(
+            structure("rf_journal")(*places, scales.clearance, scales.viscous, self.film.error, 0),
             viscous is not None,
             len(radial),
             table,

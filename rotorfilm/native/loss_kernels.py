@@ -11,7 +11,7 @@ import numpy as np
 from ..core.model import Array
 from .film_kernels import JournalKernel, periodic
 from .library import functions, loops
-from .structs import HeatedStruct, HeatSlopesStruct, HeatStruct, LossMapStruct, OilStruct, OpeningMapStruct
+from .structs import structure
 
 
 class LossBatch(NamedTuple):
@@ -108,7 +108,9 @@ class MapLossKernel(LossKernel):
         self.log_center = np.ascontiguousarray(log_center, dtype=float)
         cells_x, cells_s = (count - 5 for count in self.coefficients.shape[1:])
         center = (c_double * 3)(*self.log_center)
-        self.struct = LossMapStruct(cells_x, cells_s, reach, crowding, center, self.coefficients.ctypes.data)
+        self.struct = structure("rf_loss_map")(
+            cells_x, cells_s, reach, crowding, center, self.coefficients.ctypes.data
+        )
 
     @property
     def tables(self) -> dict[str, Array]:
@@ -150,7 +152,7 @@ class GrooveLossKernel(LossKernel):
         cells_x, cells_e, cells_s = (count - 5 for count in self._shear.shape[2:])
         places = (array.ctypes.data for array in (self._shear, self._flows, self._edges))
         counts = cells_x, cells_e, cells_s, flows.shape[2], len(edges)
-        self.struct = OpeningMapStruct(*counts, *numbers, *places)
+        self.struct = structure("rf_opening_map")(*counts, *numbers, *places)
 
     def flows(self, eccentricity: Array, rate: Array) -> Array:
         """Return flows out of the openings and into them, (2, openings, n), at half the speeds (n,)."""
@@ -234,10 +236,10 @@ class BalancedKernel:
         self.film = journal.film
         ln = np.ascontiguousarray(oil.coefficients, dtype=float)
         self._kept = ln, journal, losses
-        table = OilStruct(len(ln) - 5, ln.ctypes.data, oil.coldest, oil.hottest)
+        table = structure("rf_oil")(len(ln) - 5, ln.ctypes.data, oil.coldest, oil.hottest)
         data = None if losses.struct is None else addressof(losses.struct)
         openings = data if losses.openings else None
-        self._struct = HeatedStruct(
+        self._struct = structure("rf_heated")(
             journal=journal.struct, loss=losses.address, loss_data=data, openings=openings, oil=table
         )
         for name, value in numbers.items():
@@ -259,7 +261,7 @@ class BalancedKernel:
 
     def heat_slopes(self, state: list[float]) -> tuple[Array, int]:
         """Return d(power, effective flow, side flow)/d state at unit viscosity, (3, 5), and a status."""
-        heat, slopes = HeatStruct(), HeatSlopesStruct()
+        heat, slopes = structure("rf_heat")(), structure("rf_heat_slopes")()
         status = self._heat(self._reference, _Five(*state), byref(heat), byref(slopes))
         return np.array([slopes.drag, slopes.flow, slopes.leak]), status
 

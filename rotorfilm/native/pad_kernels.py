@@ -2,33 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Sequence
-from ctypes import addressof, byref, c_double, c_int32, c_size_t, c_void_p
-from typing import Any, ClassVar, NamedTuple
+from ctypes import addressof, byref, c_size_t, c_void_p
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from ..core.model import Array, Linearization
 from .film_kernels import Batch, FilmKernel
 from .library import loops
-
-
-class PadMapStruct(ctypes.Structure):
-    """rf_pad_map of pad_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("cells_u", c_int32),
-        ("cells_y", c_int32),
-        ("cells_phi", c_int32),
-        ("u_first", c_double),
-        ("u_last", c_double),
-        ("y_end", c_double),
-        ("reach", c_double),
-        ("sine", c_double),
-        ("cosine", c_double),
-        ("coefficients", c_void_p),
-    ]
+from .structs import structure
 
 
 class PadMapKernel(FilmKernel):
@@ -57,7 +39,7 @@ class PadMapKernel(FilmKernel):
         self._arguments = (coefficients, extent, u_range, y_end)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells = (count - 5 for count in self.coefficients.shape)
-        self.struct = PadMapStruct(*cells, *u_range, y_end)
+        self.struct = structure("rf_pad_map")(*cells, *u_range, y_end)
         self.struct.coefficients = self.coefficients.ctypes.data
         loops()["rf_shape_pad"](byref(self.struct), extent)
 
@@ -76,35 +58,6 @@ class PadMapKernel(FilmKernel):
 
 REST = ("tilt", "pivot", "load", "stiffness", "by_speed", "least", "unloaded")
 """The numbers of rf_tilting_rest."""
-
-
-class TiltingPadStruct(ctypes.Structure):
-    """rf_tilting_pad of tilting_pad.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("film", c_void_p),
-        ("data", c_void_p),
-        ("turn", c_double * 2),
-        ("lead", c_double * 2),
-        ("trail", c_double * 2),
-        ("node", c_double * 2 * 5),
-    ]
-
-
-class TiltingStruct(ctypes.Structure):
-    """rf_tilting of tilting.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("pad", TiltingPadStruct),
-        ("count", c_size_t),
-        ("pivot", c_void_p),
-        ("preload", c_double),
-        ("clearance", c_double),
-        ("force_scale", c_double),
-        ("spring", c_double),
-        ("inertia", c_double),
-        ("mass", c_double),
-    ]
 
 
 class TiltingPoint(NamedTuple):
@@ -191,11 +144,11 @@ class TiltingKernel:
         self.film = film
         self.pads = len(pivots)
         self._directions = np.ascontiguousarray(np.stack([np.cos(pivots), np.sin(pivots)], axis=1))
-        pad = TiltingPadStruct()
+        pad = structure("rf_tilting_pad")()
         loops()["rf_set_tilting_pad"](byref(pad), film.film, addressof(film.struct), extent, offset)
         place = self._directions.ctypes.data
         scales = preload, clearance, force_scale, spring, inertia, mass
-        self.struct = TiltingStruct(pad, self.pads, place, *scales)
+        self.struct = structure("rf_tilting")(pad, self.pads, place, *scales)
         self.states = self.pads * (2 if spring > 0.0 else 1) * (2 if inertia > 0.0 else 1)
         self._reference = byref(self.struct)
 

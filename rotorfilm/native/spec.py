@@ -14,7 +14,7 @@ from ..core.errors import InputError
 from ..core.model import Array
 from ..core.signals import Signal
 from .library import functions
-from .structs import MapTableStruct
+from .structs import structure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,7 +227,7 @@ def slice_table(
     layers, x, t = coefficients.shape
     all_layers, centers = (np.ascontiguousarray(a, dtype=float) for a in (coefficients, center))
     cells = (layers - 5 if layers > 1 else 0, x - 5, t - 5)
-    table = MapTableStruct(*cells, *slenderness_range, centers.ctypes.data, all_layers.ctypes.data)
+    table = structure("rf_map_table")(*cells, *slenderness_range, centers.ctypes.data, all_layers.ctypes.data)
     collapsed, middle = np.empty((x, t)), c_double()
     status = functions()["rf_map_slice"](byref(table), slenderness, collapsed.ctypes.data, byref(middle))
     if status:

@@ -1,10 +1,12 @@
-"""What polymer bushes bring to scenes and questions."""
+"""What polymer bushes bring to scenes and questions: the speed at which they melt, and how they wear."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,23 +15,28 @@ from ..bearings.bush import (
     WIDEST,
     ApproximateShaft,
     ExactShaft,
-    LocalEnd,
+    LocalMelting,
     MeltingBush,
+    MeltingRule,
     Path,
+    ShaftHeat,
+    Stage,
     Wearing,
-    Worn,
     arc_of_wear,
     end_of_local_wear,
     end_of_wear,
+    mean_weight,
+    peak_weight,
     wear_at_nodes,
     wear_by_one_moment,
     wear_by_two_moments,
 )
-from ..core.answers import DISAGREEMENT, BaseRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
-from ..core.errors import InputError, RotorfilmError
-from ..scenes.bush_run import BushRun, bush_remarks, bush_run, unworn
-from ..scenes.bush_table import BushTable
-from ..scenes.families import Family
+from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
+from ..core.model import Array
+from ..scenes.excitation_table import StepLoadTable
+from ..scenes.families import Remark, said
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -40,54 +47,41 @@ if TYPE_CHECKING:
 EXACT_ERROR = 2e-7
 """Verified error of the exact flux: docs/accuracy.md."""
 
+CLOSED_ERROR = 1e-3
+"""Order of magnitude of the error of its closed form."""
 
-@dataclass(frozen=True, kw_only=True)
-class BushRung(BaseRung):
-    """The critical speed by one formula of the heat into the shaft.
 
-    Attributes
-    ----------
-    bush : MeltingBush
-    load : float [N]
-    """
+def speed_rung(bush: MeltingBush, load: float) -> VariantRung:
+    """Return the critical speed [rad/s] of the unworn bush under a load [N], by its heat into the shaft."""
+    is_exact = isinstance(bush.shaft_heat, ExactShaft)
+    unit, exact = (
+        WorkUnit(f"fluxes into the shaft, {name}", ("fluxes", name))
+        for name in ("exact" if is_exact else FLUX, "exact")
+    )
 
-    bush: MeltingBush
-    load: float
+    def answer(before: Found | None) -> Found:
+        at = bush.contact(load)
+        return Found(at.critical_speed, {unit: 1}, at)
 
-    @property
-    def is_exact(self) -> bool:
-        """Whether the heat into the shaft is exact."""
-        return isinstance(self.bush.shaft_heat, ExactShaft)
-
-    @property
-    def name(self) -> str:
-        """The formula."""
-        return "exact" if self.is_exact else "closed form of the flux"
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the error of the closed form."""
-        return 0.0 if self.is_exact else 1e-3
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One flux."""
-        return WorkUnit(f"fluxes into the shaft, {self.name}", ("fluxes", self.is_exact))
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the critical speed of the unworn bush [rad/s]."""
-        at = self.bush.contact(self.load)
-        return Found(at.critical_speed, {self.unit: 1}, at)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return what the exact flux would change: the speed goes with the heat into shaft and liner."""
-        if self.is_exact:
+        if is_exact:
             return ErrorEstimate(EXACT_ERROR, "verified bound of the flux", bound=True)
         at = found.solution
-        exact = replace(self, bush=replace(self.bush, shaft_heat=ExactShaft()))
-        change = float(exact.bush.shaft_flux(at.contact_angle)) - at.shaft_flux
+        change = float(replace(bush, shaft_heat=ExactShaft()).shaft_flux(at.contact_angle)) - at.shaft_flux
         error = abs(change) / (at.shaft_flux + change + at.liner_flux)
-        return ErrorEstimate(error, "defect of the exact flux", {exact.unit: 1})
+        return ErrorEstimate(error, "defect of the exact flux", {exact: 1})
+
+    return VariantRung(
+        name="exact" if is_exact else FLUX,
+        answer=answer,
+        estimate=estimate,
+        expected=lambda _: {unit: 1},
+        prior=0.0 if is_exact else CLOSED_ERROR,
+    )
+
+
+FLUX = "closed form of the flux"
 
 
 def bush_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -102,8 +96,153 @@ def bush_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"bush is required for {quantity}, got no such table")
     bush, load = scene.bush.build(), math.hypot(*scene.static_load)
     shafts = (ApproximateShaft(), ExactShaft())
-    rungs = tuple(BushRung(bush=replace(bush, shaft_heat=shaft), load=load) for shaft in shafts)
+    rungs = tuple(speed_rung(replace(bush, shaft_heat=shaft), load) for shaft in shafts)
     return Ladder(rungs=rungs, unit="rad/s")
+
+
+# The run that a bush wears in: what all rungs of its wear start from.
+
+
+PARALLEL = 1e-12
+"""Largest sine of the angle between a step of load and the static load."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushRun:
+    """A bush, its speed, and the stages of its load.
+
+    Attributes
+    ----------
+    bush : MeltingBush
+    rule : MeltingRule
+        How melting spreads over the contact.
+    melting_heat : float [J/m3]
+    speed : float [rad/s]
+    stages : tuple of Stage
+        Times of constant load.
+    """
+
+    bush: MeltingBush
+    rule: MeltingRule
+    melting_heat: float
+    speed: float
+    stages: tuple[Stage, ...]
+
+    @property
+    def radius(self) -> float:
+        """Radius of the liner [m]."""
+        return self.bush.geometry.radius
+
+    @property
+    def grows(self) -> bool:
+        """Whether the load never falls."""
+        return all(
+            later.load_ratio >= sooner.load_ratio
+            for sooner, later in zip(self.stages, self.stages[1:], strict=False)
+        )
+
+    @property
+    def local(self) -> bool:
+        """Whether each point melts by its own balance."""
+        return isinstance(self.rule, LocalMelting)
+
+    @cached_property
+    def exact(self) -> Wearing:
+        """With the exact heat into the shaft."""
+        return self._wearing(ExactShaft())
+
+    @cached_property
+    def closed(self) -> Wearing:
+        """With the closed form of the heat into the shaft."""
+        return self._wearing(ApproximateShaft())
+
+    def _wearing(self, shaft_heat: ShaftHeat) -> Wearing:
+        bush = replace(self.bush, shaft_heat=shaft_heat)
+        return Wearing(bush.law, self.speed, self.melting_heat * self.radius)
+
+    def margin(self, bush: Wearing) -> float:
+        """Return speed / critical speed - 1 of the unworn bush, the largest of all stages.
+
+        Where each point melts by itself the largest pressure decides, otherwise the mean.
+        """
+        margins = []
+        for stage in self.stages:
+            alpha = bush.angle(0.0, stage.load_ratio)
+            weight = peak_weight(alpha) if self.local else mean_weight(alpha)
+            margins.append(bush.work * stage.load_ratio * float(weight) / float(bush.losses(alpha)) - 1.0)
+        return max(margins)
+
+    @property
+    def stays_cold(self) -> bool:
+        """Whether an unworn contact that would melt may also rest below the melting point."""
+        law, load = self.exact.law, self.stages[0].load_ratio
+        alpha = float(self.exact.angle(0.0, load))
+        melts = float(self.exact.surplus(np.asarray(alpha), self.exact.shaped_total(np.asarray(alpha), load)))
+        return melts > 0.0 and law.steady_temperature(alpha, load, self.speed) < law.melting
+
+    def require_liner(self, worn: float) -> float:
+        """Return the wear [m] if it leaves some of the liner.
+
+        Raises
+        ------
+        FilmContactError
+            If the shaft settles by the thickness of the liner.
+        """
+        load = self.stages[-1].load_ratio * self.bush.force_unit
+        settled = worn + float(self.bush.settlement(self.bush.contact_angle(load)))
+        thickness = self.bush.geometry.outer_radius - self.radius
+        if settled >= thickness:
+            raise FilmContactError(
+                f"settlement must be below the thickness of the liner {thickness:.6g} m, got {settled:.6g} m"
+            )
+        return worn
+
+
+def bush_run(scene: Scene, quantity: str) -> BushRun:
+    """Return the run of a scene.
+
+    Raises
+    ------
+    InputError
+        If the scene has no bush, no load, does not turn, or its load does not keep its direction.
+    """
+    if scene.bush is None:
+        raise InputError(f"bush is required for {quantity}, got no such table")
+    if scene.speed == 0.0:
+        raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
+    load = math.hypot(*scene.static_load)
+    if load == 0.0:
+        raise InputError(f"operation.load must not be zero for {quantity}, got 0.0")
+    bush = scene.bush.build()
+    return BushRun(
+        bush=bush,
+        rule=scene.bush.melting,
+        melting_heat=scene.bush.melting_heat,
+        speed=scene.speed,
+        stages=tuple(Stage(t, force / bush.force_unit) for t, force in _stages(scene, load, quantity)),
+    )
+
+
+def _stages(scene: Scene, load: float, quantity: str) -> list[tuple[float, float]]:
+    """Return duration [s] and load [N] of the stages."""
+    step, end = scene.excitation, scene.duration
+    if step is None:
+        return [(end, load)]
+    if not isinstance(step, StepLoadTable):
+        raise InputError(f'excitation.kind must be "step" for {quantity}, got {type(step).__name__}')
+    (x, y), (fx, fy) = scene.static_load, step.load
+    size = math.hypot(fx, fy)
+    if abs(x * fy - y * fx) > PARALLEL * load * size:
+        raise InputError(
+            f"excitation.load must be along the static load {scene.static_load!r} for {quantity}, "
+            f"got {step.load!r}"
+        )
+    stepped = load + (x * fx + y * fy) / load
+    if stepped <= 0.0:
+        raise InputError(f"excitation.load must leave a load on the bush for {quantity}, got {step.load!r}")
+    times = [0.0, min(step.start, end), min(step.end, end), end]
+    stages = zip(np.diff(times).tolist(), (load, stepped, load), strict=True)
+    return [(duration, force) for duration, force in stages if duration > 0.0]
 
 
 # How far a bush settles because its liner melts: its end, moments of the wear, ever more nodes.
@@ -112,100 +251,108 @@ def bush_ladder(scene: Scene, quantity: str) -> Ladder:
 STEPS_ERROR = 1e-6
 """Verified error of the steps in time: tests/bearings/bush/test_bush_moments.py."""
 
+END_ERROR = 1e-5
+"""Verified error of the end of the wear: tests/bearings/bush/test_bush_worn.py."""
+
+AT_CRITICAL = 1e-6
+"""Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
+
 SAMPLES = 33
 """States on the way to the end of the wear."""
+
+NODES = (12, 24, 48, 96)
+"""Nodes to each side of the load line."""
+
+ORDER = 2
+"""Of the wear in the distance of nodes where each point melts by itself."""
+
+SHARED_ORDER = 1.5
+"""Of it where the contact melts as a whole, with 6 to 100 nodes: its front moves from node to node.
+
+Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimate at worst (docs/bush.md).
+"""
 
 CLOSED = ", closed-form flux"
 
 DEFECTS = WorkUnit("defects of two moments")
+ENDS, CRITICAL_SPEEDS = WorkUnit("ends of the wear"), WorkUnit("critical speeds")
 
 
-class RateKey(NamedTuple):
-    """By which moments, and whether with the closed form of the flux, a rate of wear is found."""
+def wear_rung(
+    run: BushRun,
+    name: str,
+    answer: Callable[[Found | None], Found],
+    judge: Callable[[Found, Found | None], ErrorEstimate],
+    expected: Callable[[Work], Work],
+    *,
+    within: float = AT_CRITICAL,
+    prior: float = 0.0,
+) -> VariantRung:
+    """Return a rung of the wear [m]: by how much farther than unworn the shaft settles.
 
-    moments: int
-    closed: bool
-
-
-@dataclass(frozen=True, kw_only=True)
-class MomentRung(BaseRung):
-    """Wear by one or two moments of the profile, under a load that does not fall.
-
-    Attributes
-    ----------
-    run : BushRun
-        How the bush is run.
-    closed : bool
-        Whether the heat into the shaft is that of the closed form.
-    moments : int
-        1 or 2.
+    Its error is that by `judge`, unless there is no wear or it begins at the critical speed itself. No wear
+    has no error where the speed is lower by more than `within`, relative to the critical one; otherwise the
+    error is infinite.
     """
 
-    run: BushRun
-    closed: bool
-    moments: int
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        margin = run.margin(run.exact)
+        if found.value != 0.0 and margin > within:
+            return judge(found, before)
+        how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
+        certain = found.value == 0.0 and margin < -within
+        return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
 
-    @property
-    def name(self) -> str:
-        """Number of moments, and how the flux is found."""
-        return f"{'one moment' if self.moments == 1 else 'two moments'}{CLOSED if self.closed else ''}"
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=expected, prior=prior)
 
-    @property
-    def unit(self) -> WorkUnit:
-        """One rate of wear."""
-        return WorkUnit(f"rates of {self.name}", RateKey(self.moments, self.closed))
 
-    @property
-    def own(self) -> Wearing:
-        """The bush with this rung's heat into the shaft."""
-        return self.run.closed if self.closed else self.run.exact
+def moment_rung(run: BushRun, *, closed: bool, moments: int) -> VariantRung:
+    """Return wear by one or two moments of the profile, under a load that does not fall."""
+    own = run.closed if closed else run.exact
+    name = f"{'one moment' if moments == 1 else 'two moments'}{CLOSED if closed else ''}"
+    unit = WorkUnit(f"rates of {name}", ("rates", moments, closed))
 
-    def answer(self, before: Found | None) -> Found:
-        """Return by how much farther than unworn the shaft settles [m]."""
-        march = wear_by_one_moment if self.moments == 1 else wear_by_two_moments
-        path = march(self.own, self.run.stages)
-        value = self.run.radius * self.own.settlement(float(path.moment[-1]), float(path.load_ratio[-1]))
-        return Found(self.run.require_liner(value), {self.unit: path.calls}, path)
+    def answer(before: Found | None) -> Found:
+        path = (wear_by_one_moment if moments == 1 else wear_by_two_moments)(own, run.stages)
+        worn = own.settlement(float(path.moment[-1]), float(path.load_ratio[-1]))
+        return Found(run.require_liner(run.radius * worn), {unit: path.calls}, path)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return what both moments with the exact flux would change, from their rates along this run."""
+    def judge(found: Found, before: Found | None) -> ErrorEstimate:
         path: Path = found.solution
-        if path.moment[-1] == 0.0 or self.run.margin(self.run.exact) <= EXACT_ERROR:
-            return unworn(self.run, found.value, EXACT_ERROR)
-        if self.moments == 2 and not self.closed:
-            return self._bound(path)
-        rich, own = self.run.exact, self.own
-        alpha = rich.angle(path.moment, path.load_ratio)
-        first = rich.first_along(path.moment, path.load_ratio)
-        total = rich.total(alpha, first)
-        shaped = own.shaped_total(alpha, path.load_ratio)
-        rate = path.load_ratio * np.maximum(rich.surplus(alpha, total), 0.0)
-        defect = rate - path.load_ratio * np.maximum(own.surplus(alpha, shaped), 0.0)
-        slopes = rich.slope(alpha, total, path.load_ratio), own.shaped_slope(alpha, path.load_ratio)
+        is_bound = moments == 2 and not closed
+        defect, *slopes = flux_bound(own, path) if is_bound else moments_defect(own, run.exact, path)
         moved, other = (scalar_drift(path.time, defect, slope) for slope in slopes)
-        error, doubt = self._relative(path, moved, other)
-        return ErrorEstimate(error + STEPS_ERROR, "defect of two moments", {DEFECTS: alpha.size}, doubt=doubt)
+        error, doubt = relative(own, float(path.load_ratio[-1]), float(path.moment[-1]), moved, other)
+        method = "verified bound of flux and steps" if is_bound else "defect of two moments"
+        work = {} if is_bound else {DEFECTS: path.time.size}
+        return ErrorEstimate(error + STEPS_ERROR, method, work, bound=is_bound, doubt=doubt)
 
-    def expected(self, done: Work) -> Work:
+    def expected(done: Work) -> Work:
         """Return as many rates as the rung below took, or a usual number."""
-        known = [number for unit, number in done.items() if isinstance(unit.key, RateKey)]
-        return {self.unit: max(known, default=100)}
+        known = [number for rates, number in done.items() if rates != CRITICAL_SPEEDS]
+        return {unit: max(known, default=100)}
 
-    def _bound(self, path: Path) -> ErrorEstimate:
-        """Return the verified errors of the flux, propagated, and of the steps."""
-        own = self.own
-        alpha = own.angle(path.moment, path.load_ratio)
-        total = own.total(alpha, path.first)
-        flux = EXACT_ERROR * own.law.balance.share(alpha) * own.law.shaft * own.law.melting
-        defect = 2.0 * alpha * flux * path.load_ratio / (total * own.heat)
-        moved = scalar_drift(path.time, defect, own.slope(alpha, total, path.load_ratio))
-        error, _ = self._relative(path, moved, moved)
-        return ErrorEstimate(error + STEPS_ERROR, "verified bound of flux and steps", bound=True)
+    return wear_rung(run, name, answer, judge, expected, within=EXACT_ERROR)
 
-    def _relative(self, path: Path, moved: float, other: float) -> tuple[float, str]:
-        """Return the error of the settlement for one of the moment W, and why not to trust it."""
-        load, moment = float(path.load_ratio[-1]), float(path.moment[-1])
-        return relative(self.own, load, moment, moved, other)
+
+def moments_defect(own: Wearing, rich: Wearing, path: Path) -> tuple[Array, Array, Array]:
+    """Return what both moments with the exact flux change of the rates along a run, and slopes of both."""
+    alpha = rich.angle(path.moment, path.load_ratio)
+    first = rich.first_along(path.moment, path.load_ratio)
+    total = rich.total(alpha, first)
+    shaped = own.shaped_total(alpha, path.load_ratio)
+    rate = path.load_ratio * np.maximum(rich.surplus(alpha, total), 0.0)
+    defect = rate - path.load_ratio * np.maximum(own.surplus(alpha, shaped), 0.0)
+    return defect, rich.slope(alpha, total, path.load_ratio), own.shaped_slope(alpha, path.load_ratio)
+
+
+def flux_bound(own: Wearing, path: Path) -> tuple[Array, Array, Array]:
+    """Return what the verified error of the flux may change of the rates along a run, and two slopes."""
+    alpha = own.angle(path.moment, path.load_ratio)
+    total = own.total(alpha, path.first)
+    flux = EXACT_ERROR * own.law.balance.share(alpha) * own.law.shaft * own.law.melting
+    slope = own.slope(alpha, total, path.load_ratio)
+    return 2.0 * alpha * flux * path.load_ratio / (total * own.heat), slope, slope
 
 
 def relative(bush: Wearing, load: float, moment: float, moved: float, other: float) -> tuple[float, str]:
@@ -218,37 +365,21 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     return error, doubt if apart > DISAGREEMENT else ""
 
 
-@dataclass(frozen=True, kw_only=True)
-class EndRung(BaseRung):
-    """Where the wear under a constant load ends: the critical speed has grown to the speed.
+def end_rung(run: BushRun) -> VariantRung:
+    """Return where the wear under a constant load ends: the critical speed has grown to the speed."""
+    rich, own, stage = run.exact, run.closed, run.stages[-1]
 
-    Attributes
-    ----------
-    run : BushRun
-    """
+    def answer(before: Found | None) -> Found:
+        moment, calls = end_of_wear(own, stage.load_ratio)
+        worn = own.settlement(require_end(moment), stage.load_ratio)
+        return Found(run.require_liner(run.radius * worn), {CRITICAL_SPEEDS: calls}, moment)
 
-    run: BushRun
-
-    name = "end of the wear" + CLOSED
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the wear after a long time [m]; raises RotorfilmError where it has no end."""
-        bush, load = self.run.closed, self.run.stages[-1].load_ratio
-        moment, calls = end_of_wear(bush, load)
-        if math.isinf(moment):
-            raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
-        value = self.run.radius * bush.settlement(moment, load)
-        return Found(self.run.require_liner(value), {CRITICAL_SPEEDS: calls}, moment)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: Found, before: Found | None) -> ErrorEstimate:
         """Return the wear still to come, at most, and what both moments with the exact flux would change.
 
         The rate of wear falls ever more slowly on the way to the end, so that what is to come lies below an
         exponential with the slope at the end.
         """
-        rich, own, stage = self.run.exact, self.run.closed, self.run.stages[-1]
-        if found.value == 0.0 or self.run.margin(rich) <= EXACT_ERROR:
-            return unworn(self.run, found.value, EXACT_ERROR)
         end = float(found.solution)
         moment = end * np.linspace(0.0, 1.0, SAMPLES)
         load = np.full(SAMPLES, stage.load_ratio)
@@ -268,9 +399,86 @@ class EndRung(BaseRung):
         work = {DEFECTS: SAMPLES}
         return ErrorEstimate(error + left + STEPS_ERROR, method, work, bound, doubt)
 
-    def expected(self, done: Work) -> Work:
-        """Return the critical speeds that a root takes."""
-        return {CRITICAL_SPEEDS: 12}
+    name = f"end of the wear{CLOSED}"
+    return wear_rung(run, name, answer, judge, lambda _: {CRITICAL_SPEEDS: 12}, within=EXACT_ERROR)
+
+
+def require_end(size: float) -> float:
+    """Return where the wear ends; raise RotorfilmError where it does not."""
+    if math.isinf(size):
+        raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
+    return size
+
+
+def local_end_rung(run: BushRun) -> VariantRung:
+    """Return where the wear under a constant load ends if each point melts by itself, in closed form."""
+    stage = run.stages[0]
+
+    def answer(before: Found | None) -> Found:
+        end = end_of_local_wear(run.exact, stage.load_ratio)
+        require_end(end.angle)
+        return Found(run.require_liner(run.radius * end.settlement), {ENDS: 1}, end)
+
+    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+        """Return the wear still to come, at most: it decays ever more slowly, at the end by a known rate."""
+        end = found.solution
+        doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
+        to_come = math.exp(-end.rate * stage.duration)
+        error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
+        return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
+
+    return wear_rung(run, "end of the wear", answer, judge, lambda _: {ENDS: 1})
+
+
+def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> VariantRung:
+    """Return wear by nodes, so many a side, on an arc that the contact just fills at the end.
+
+    It is for loads that fall, and where each point melts by itself.
+    """
+    own = run.closed if closed else run.exact
+
+    def worn(count: int, reach: float, work: dict[WorkUnit, int], *, exact: bool = False) -> float:
+        bush, why = (run.exact, ", exact flux") if exact else (own, "")
+        found = wear_at_nodes(bush, run.rule, run.stages, count, reach)
+        work[profiles(count, why)] = found.calls
+        return run.radius * found.settlement
+
+    def answer(before: Found | None) -> Found:
+        if run.margin(own) < 0.0:
+            return Found(0.0, {CRITICAL_SPEEDS: len(run.stages)}, math.nan)
+        reach, work = before.solution if before is not None else None, dict[WorkUnit, int]()
+        if not (isinstance(reach, float) and math.isfinite(reach)):
+            reach, calls = arc_of_wear(own, run.rule, run.stages, NODES[0])
+            work = {profiles(NODES[0], ", first"): calls}
+        return Found(run.require_liner(worn(nodes, reach, work)), work, reach)
+
+    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+        """Return the order increment from half the nodes, and what the exact flux would change by these."""
+        reach, half, between = float(found.solution), nodes // 2, 3 * nodes // 4
+        order, work = ORDER if run.local else SHARED_ORDER, dict[WorkUnit, int]()
+        known = before is not None and profiles(half) in before.work
+        coarse = float(before.value) if before is not None and known else worn(half, reach, work)
+        error = abs(found.value - coarse) / (2.0**order - 1.0)
+        # One difference of few nodes may vanish by chance, two hardly do.
+        other = abs(found.value - worn(between, reach, work)) / ((4.0 / 3.0) ** order - 1.0)
+        error = math.hypot(error, other) / math.sqrt(2.0)
+        method = f"order increment, order {order}"
+        if closed:
+            error += abs(worn(half, reach, work, exact=True) - coarse)
+            method += "; exact flux at half the nodes"
+        return ErrorEstimate(error / abs(found.value), method, work)
+
+    def expected(done: Work) -> Work:
+        """Return twice the profiles of half the nodes."""
+        return {profiles(nodes): 2 * max(done.values(), default=100)}
+
+    name = f"{nodes} nodes a side{CLOSED if closed else ''}"
+    return wear_rung(run, name, answer, judge, expected, prior=0.1 / nodes**ORDER)
+
+
+def profiles(nodes: int, why: str = "") -> WorkUnit:
+    """Return the unit of one profile for which the shaft is settled."""
+    return WorkUnit(f"profiles of {2 * nodes + 1} nodes{why}", (nodes, why))
 
 
 def wear_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -282,179 +490,135 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene has no bush, no load, does not turn, or its load does not keep its direction.
     """
     run = bush_run(scene, quantity)
-    named = isinstance(run.bush.shaft_heat, ApproximateShaft)
+    named, constant = isinstance(run.bush.shaft_heat, ApproximateShaft), len(run.stages) == 1
     if run.local or not run.grows:
-        nodes = tuple(NodesRung(run=run, nodes=nodes, closed=named) for nodes in NODES)
-        ends = (LocalEndRung(run=run),) if run.local and len(run.stages) == 1 and not named else ()
-        return Ladder(rungs=(*ends, *nodes), unit="m", remarks=bush_remarks(run))
-    end = (EndRung(run=run),) if len(run.stages) == 1 else ()
-    closed = MomentRung(run=run, closed=True, moments=1)
-    exact = tuple(MomentRung(run=run, closed=False, moments=moments) for moments in (1, 2))
-    return Ladder(rungs=(*end, closed, *(() if named else exact)), unit="m", remarks=bush_remarks(run))
+        ends = [local_end_rung(run)] if run.local and constant and not named else []
+        rungs = [*ends, *(nodes_rung(run, nodes, closed=named) for nodes in NODES)]
+    else:
+        exact = [] if named else [moment_rung(run, closed=False, moments=moments) for moments in (1, 2)]
+        rungs = [*([end_rung(run)] if constant else []), moment_rung(run, closed=True, moments=1), *exact]
+    return Ladder(rungs=tuple(rungs), unit="m", remarks=bush_remarks(run))
 
 
-# What polymer bushes bring to scenes and questions.
+# What every model of a polymer bush leaves out, judged by dimensionless numbers.
 
 
-FAMILY = Family(
-    table=BushTable,
-    ladders={
-        "critical_speed": bush_ladder,
-        "wear": wear_ladder,
-    },
-    answer=lambda scene, _: scene.melting(),
-    example={
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
+SPREAD_SPEED = 5.0
+"""Speed [rad/s] from which the heat into the shaft is spread evenly around it: docs/bush.md."""
+
+STRAIN = 0.1
+"""Compression of the liner, and share of it that melts, up to which it is thin and linear."""
+
+LEAN = 0.02
+"""Share of the load that friction may carry without a word."""
+
+NEAR = 0.05
+"""Speed over the critical one, less one, within which small causes decide whether a bush melts."""
+
+
+COLD = 5.0
+"""Kelvin by which a worn contact may be off the melting point without a word."""
+
+
+REMARKS = (
+    Remark(
+        "off",
+        NEAR,
+        "brink: the speed is {margin:+.1%} off that at which the liner melts, which is not known so well; "
+        "friction carries {lean:.1%} of the load, which no model counts",
+        below=True,
+    ),
+    Remark("lean", LEAN, "friction: it carries {lean:.1%} of the load, so that the pressure is less"),
+    Remark("slenderness", 1.0, "thick liner: {slenderness:.2g} of half the width of the contact"),
+    Remark("strain", STRAIN, "strain: the liner is compressed by {strain:.1%} of its thickness"),
+    Remark(
+        "melted",
+        STRAIN,
+        "thickness: up to {melted:.0%} of the liner melts, but it is taken to conduct and to yield as before",
+    ),
+    Remark(
+        "speed",
+        SPREAD_SPEED,
+        f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
+        "{speed:.3g} rad/s",
+        below=True,
+    ),
+    Remark(
+        "cooled",
+        COLD,
+        "cold: in the end the worn contact cools by some {cooled:.0f} K, which widens its clearance by "
+        "{widened:.2g} m; wear is told at the melting point",
+    ),
+    Remark(
+        "states",
+        1.0,
+        "two states: friction rises so steeply with temperature that a contact may also stay cold",
+    ),
 )
+"""What every model of a polymer bush leaves out, by the numbers of `bush_numbers`."""
 
 
-# Wear of a bush at nodes of its profile: for loads that fall, and where each point melts by itself.
+def bush_numbers(run: BushRun) -> dict[str, float]:
+    """Return the dimensionless numbers of a run, unworn; where its load changes those of the largest one.
 
-
-NODES = (12, 24, 48, 96)
-"""Nodes to each side of the load line."""
-
-ORDER = 2
-"""Of the wear in the distance of nodes where each point melts by itself."""
-
-SHARED_ORDER = 1.5
-"""Of it where the contact melts as a whole, with 6 to 100 nodes: its front moves from node to node.
-
-Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimate at worst (docs/bush.md).
-"""
-
-AT_CRITICAL = 1e-6
-"""Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class NodesRung(BaseRung):
-    """Wear by nodes on an arc that the contact just fills at the end.
-
-    Attributes
-    ----------
-    run : BushRun
-    nodes : int
-        To each side of the load line.
-    closed : bool
-        Whether the heat into the shaft is that of the closed form.
+    Returns
+    -------
+    dict of str to float
+        margin : speed over the critical speed, less one; off : its size.
+        slenderness : thickness of the liner over half the width of the contact: a thin liner yields where it
+        is pressed.
+        strain : compression of the liner on the load line over its thickness.
+        lean : share of the load that friction carries, 1 - 1/sqrt(1 + f^2), left out of the balance of
+        forces.
+        melted : largest wear there can be over the thickness of the liner: rate at the begin times duration.
+        speed [rad/s] : of the shaft, without its sign.
+        cooled [K] : by how much friction keeps the worn contact below the melting point at the end, by one
+        moment; widened [m] : by how much that widens the clearance.
+        states : how many there may be of one contact.
     """
-
-    run: BushRun
-    nodes: int
-    closed: bool
-
-    @property
-    def name(self) -> str:
-        """Number of nodes."""
-        return f"{self.nodes} nodes a side{', closed-form flux' if self.closed else ''}"
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the error of so many nodes."""
-        return 0.1 / self.nodes**ORDER
-
-    @property
-    def own(self) -> Wearing:
-        """The bush with this rung's heat into the shaft."""
-        return self.run.closed if self.closed else self.run.exact
-
-    def answer(self, before: Found | None) -> Found:
-        """Return by how much farther than unworn the shaft settles [m]."""
-        if self.run.margin(self.own) < 0.0:
-            return Found(0.0, {CRITICAL_SPEEDS: len(self.run.stages)}, math.nan)
-        reach, work = math.nan, dict[WorkUnit, int]()
-        if before is not None and isinstance(before.solution, float) and math.isfinite(before.solution):
-            reach = before.solution
-        else:
-            reach, calls = arc_of_wear(self.own, self.run.rule, self.run.stages, NODES[0])
-            work = {profiles(NODES[0], ", first"): calls}
-        worn = self._worn(self.nodes, reach)
-        value = self.run.require_liner(self.run.radius * worn.settlement)
-        return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
-
-    def _worn(self, nodes: int, reach: float) -> Worn:
-        return wear_at_nodes(self.own, self.run.rule, self.run.stages, nodes, reach)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the order increment from half the nodes, and what the exact flux would change by these."""
-        margin = self.run.margin(self.run.exact)
-        if found.value == 0.0 or margin < AT_CRITICAL:
-            return unworn(self.run, found.value, AT_CRITICAL)
-        reach = float(found.solution)
-        coarse, work = self._half(found, before)
-        order = ORDER if self.run.local else SHARED_ORDER
-        error = abs(found.value - coarse) / (2.0**order - 1.0)
-        # One difference of few nodes may vanish by chance, two hardly do.
-        between = self._worn(3 * self.nodes // 4, reach)
-        other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** order - 1.0)
-        error = math.hypot(error, other) / math.sqrt(2.0)
-        work = {**work, profiles(3 * self.nodes // 4): between.calls}
-        method = f"order increment, order {order}"
-        if self.closed:
-            exact = wear_at_nodes(self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, reach)
-            error += abs(self.run.radius * exact.settlement - coarse)
-            method += "; exact flux at half the nodes"
-            work = {**work, profiles(self.nodes // 2, ", exact flux"): exact.calls}
-        return ErrorEstimate(error / abs(found.value), method, work)
-
-    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[WorkUnit, int]]:
-        """Return the wear by half the nodes, that of the rung below if there is one."""
-        if before is not None and profiles(self.nodes // 2) in before.work:
-            return float(before.value), {}
-        worn = self._worn(self.nodes // 2, float(found.solution))
-        return self.run.radius * worn.settlement, {profiles(self.nodes // 2): worn.calls}
-
-    def expected(self, done: Work) -> Work:
-        """Return twice the profiles of half the nodes."""
-        return {profiles(self.nodes): 2 * max(done.values(), default=100)}
+    geometry, liner, bush = run.bush.geometry, run.bush.liner, run.exact
+    load = max(stage.load_ratio for stage in run.stages)
+    duration = sum(stage.duration for stage in run.stages)
+    alpha = bush.angle(0.0, load)
+    peak = load * float(peak_weight(alpha))
+    thickness = geometry.outer_radius - geometry.radius
+    end, _ = end_of_wear(bush, load)
+    rate = float(bush.surplus(alpha, bush.shaped_total(alpha, load)))
+    fastest = max(bush.work * peak - float(bush.losses(alpha)), 0.0) / bush.heat if run.local else rate * peak
+    shared = bush.settlement(end, load) if math.isfinite(end) else math.inf
+    settled = end_of_local_wear(bush, load).settlement if run.local else shared
+    friction = float(run.bush.friction.at(liner.melting_point))
+    margin, cooled = run.margin(bush), 0.0 if run.grows else _cooled(run)
+    return {
+        "margin": margin,
+        "off": abs(margin),
+        "slenderness": thickness / (geometry.radius * float(alpha)),
+        "strain": run.bush.compliance * peak * geometry.radius / thickness,
+        "lean": 1.0 - 1.0 / math.hypot(1.0, friction),
+        "melted": geometry.radius / thickness * max(min(fastest * duration, settled), 0.0),
+        "speed": abs(run.speed),
+        "cooled": cooled,
+        "widened": cooled * run.bush.closing * run.radius,
+        "states": 2.0 if run.stays_cold else 1.0,
+    }
 
 
-@dataclass(frozen=True, kw_only=True)
-class LocalEndRung(BaseRung):
-    """Where the wear under a constant load ends if each point melts by itself, in closed form.
-
-    Attributes
-    ----------
-    run : BushRun
-    """
-
-    run: BushRun
-
-    name = "end of the wear"
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One end."""
-        return ENDS
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the wear after a long time [m]; raises RotorfilmError where it has no end."""
-        end = end_of_local_wear(self.run.exact, self.run.stages[0].load_ratio)
-        if math.isinf(end.angle):
-            raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
-        value = self.run.require_liner(self.run.radius * end.settlement)
-        return Found(value, {ENDS: 1}, end)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the wear still to come, at most: it decays ever more slowly, at the end by a known rate."""
-        margin = self.run.margin(self.run.exact)
-        if found.value == 0.0 or margin < AT_CRITICAL:
-            return unworn(self.run, found.value, AT_CRITICAL)
-        end: LocalEnd = found.solution
-        doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
-        to_come = math.exp(-end.rate * self.run.stages[0].duration)
-        error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
-        return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
+def _cooled(run: BushRun) -> float:
+    law = run.exact.law
+    try:
+        moment = float(wear_by_one_moment(run.exact, run.stages).moment[-1])
+        at = law.contact(moment, run.stages[-1].load_ratio, run.speed)
+    except ConvergenceError:  # too wide a contact, or two states: said elsewhere
+        return math.nan
+    return law.melting - at.temperature if moment > 0.0 else 0.0
 
 
-ENDS, CRITICAL_SPEEDS = WorkUnit("ends of the wear"), WorkUnit("critical speeds")
-END_ERROR = 1e-5
-"""Verified error of the end of the wear: tests/bearings/bush/test_bush_worn.py."""
+def bush_remarks(run: BushRun) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, for the run of a bush."""
+    return said(REMARKS, bush_numbers(run))
 
 
-def profiles(nodes: int, why: str = "") -> WorkUnit:
-    """Return the unit of one profile for which the shaft is settled."""
-    return WorkUnit(f"profiles of {2 * nodes + 1} nodes{why}", (nodes, why))
+LADDERS = {
+    "critical_speed": bush_ladder,
+    "wear": wear_ladder,
+}

@@ -1,38 +1,39 @@
-"""What the conservation of oil changes, in the estimate of Reynolds rupture.
+"""The effect of conserved oil on a question about a journal bearing.
 
 Reynolds rupture makes the oil with which its film starts. How much that matters is the change from it to the
 film that conserves its oil, both on a coarse grid under the same load; it is added to what richer grids
-change, with its sign where both are known.
+change, with its sign where both are known. Above Reynolds rupture stand films that conserve their oil.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..analysis import equilibrium
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import (
-    HEATED,
-    ISOTHERMAL,
-    BaseRung,
-    ErrorEstimate,
-    Found,
-    Ladder,
-    Rung,
-    WorkUnit,
-    relative_change,
-)
+from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import settled
 from ..core.results import Equilibrium
-from ..scenes.film_rungs import Corrected, FilmCandidate, RestedJournal, tangent
+from ..scenes.film_heat import HeatSteps, uniform_rest
+from ..scenes.film_rungs import (
+    Corrected,
+    FilmCandidate,
+    RestedJournal,
+    any_candidate,
+    maximum_pressure,
+    tangent,
+)
+from .heat_levels import field_rung
+from .variants import VariantRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.schema import JournalTable
 
 CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
@@ -45,21 +46,16 @@ class RestedFilm(RestedJournal):
     Attributes
     ----------
     at : Equilibrium
-    film : JournalBearing or JFOFilm
+    reaction : JournalBearing or JFOFilm
     """
 
     at: Equilibrium
-    film: Any
-
-    @property
-    def frozen(self) -> FilmCandidate:
-        """The film as a candidate, for rungs of motions; there is no richer one."""
-        return candidate("", self.film)
+    reaction: Any
 
     @property
     def coefficients(self) -> Any:
         """K and C: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
-        film, at = self.film, self.at
+        film, at = self.reaction, self.at
         if isinstance(film, JFOFilm):
             return film.coefficients(at.position, at.speed)
         slopes = tangent(film, at.position, at.speed, smooth=True)[1]
@@ -75,46 +71,12 @@ class RestedFilm(RestedJournal):
         """Of the film [K]; None of one that does not warm."""
         return self.at.temperature
 
-
-def candidate(name: str, film: Any) -> FilmCandidate:
-    """Return a film as a candidate of which nothing is known beforehand."""
-    return FilmCandidate(name=name, reaction=film, rich=film, rich_name=name, position_prior=0.0, prior=0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class RuptureChange:
-    """Both films of a bearing on coarse grids, at rest under a load; found once.
-
-    Attributes
-    ----------
-    bearing : JournalBearing
-        At one temperature, or on an oil.
-    load : (float, float) [N]
-    speed : float [rad/s]
-    """
-
-    bearing: JournalBearing
-    load: tuple[float, float]
-    speed: float
+    maximum_temperature = temperature
 
     @property
-    def films(self) -> tuple[tuple[JournalBearing, JFOFilm], ...]:
-        """Reynolds rupture, and the film that conserves its oil, on each of the cells, the coarser first."""
-        return tuple(both_films(self.bearing, cells) for cells in RUPTURE_CELLS)
-
-    @cached_property
-    def rests(self) -> tuple[tuple[RestedFilm, RestedFilm], ...]:
-        """By Reynolds rupture, and by the film that conserves its oil, on each of the cells."""
-        return tuple(
-            (rest_on(one, self.load, self.speed), rest_on(other, self.load, self.speed))
-            for one, other in self.films
-        )
-
-    def change(self, value: Callable[[RestedFilm], Any], *, relative: bool) -> Change:
-        """Return what the conservation of oil changes in a quantity of a rest."""
-        reynolds, conserved = (tuple(map(value, pair)) for pair in zip(*self.rests, strict=True))
-        finer = Change(reynolds[-1], conserved[-1], relative)
-        return Change(extrapolated_value(*reynolds), extrapolated_value(*conserved), relative, finer)
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        return maximum_pressure(self.reaction, self.at.position, self.at.speed)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
@@ -145,84 +107,55 @@ class Change(NamedTuple):
         return value * self.better / self.own if self.relative else value + (self.better - self.own)
 
 
-@dataclass(frozen=True, kw_only=True)
-class RupturedRung(BaseRung):
-    """An answer by Reynolds rupture, whose estimate has what the conservation of its oil would change.
+def coarse_films(bearing: JournalBearing) -> tuple[tuple[JournalBearing, JFOFilm], ...]:
+    """Return Reynolds rupture and the film that conserves its oil on each of the cells, the coarser first."""
+    return tuple(both_films(bearing, cells) for cells in RUPTURE_CELLS)
 
-    Attributes
-    ----------
-    inner : Rung
-        Its error is that of the film and, of an oil, of the heat.
-    change : callable
-        Takes the answer and returns what the conservation of the oil changes, a Change.
-    distance : callable
-        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
-    token : object
-        What rungs of one question share.
+
+def change_at_rest(question: Any, bearing: JournalBearing) -> Change:
+    """Return what the conservation of oil changes in a quantity of a rest under the load of a question."""
+    load, speed = question.load, question.speed
+    rests = [[rest_on(film, load, speed) for film in pair] for pair in coarse_films(bearing)]
+    reynolds, conserved = (tuple(map(question.value, one)) for one in zip(*rests, strict=True))
+    finer = Change(reynolds[-1], conserved[-1], question.scaled)
+    return Change(extrapolated_value(*reynolds), extrapolated_value(*conserved), question.scaled, finer)
+
+
+def with_change(
+    about: ErrorEstimate,
+    found: Found,
+    change: Callable[[Found], Change],
+    distance: Callable[[Any, Any], float],
+) -> ErrorEstimate:
+    """Return the error of a rung by Reynolds rupture with what the conservation of its oil would change.
+
+    Where both cancel, or are less than what the extrapolation of the latter changes, at most their sum.
     """
+    try:
+        changed = change(found)
+    except RotorfilmError as error:
+        doubt = f"what the conservation of its oil would change is not known: {error}"
+        return about._replace(doubt=about.doubt or doubt)
+    share = distance(found.value, changed.on(found.value))
+    total, bound = about.error + share, about.bound and about.error > share
+    if about.better is not None:
+        better = changed.on(about.better)
+        known = distance(found.value, better)
+        unsure = 0.0 if changed.finer is None else distance(changed.finer.on(about.better), better)
+        if known > max(CANCELED * total, unsure):
+            total, bound = known, False
+        else:
+            total, bound = total + unsure, True
+    method = f"{about.method}; conservation of oil, {share:.2g}"
+    return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
 
-    inner: Any
-    change: Callable[[Found], Change]
-    distance: Callable[[Any, Any], float]
-    token: object
 
-    @property
-    def name(self) -> str:
-        """That of the rung."""
-        return str(self.inner.name)
+NOT_JUDGED = "conservation of oil: not judged, {reason}"
 
-    @property
-    def film(self) -> Any:
-        """That of the rung."""
-        return self.inner.film
-
-    @property
-    def prior(self) -> float:
-        """That of the rung."""
-        return float(self.inner.prior)
-
-    @property
-    def refines(self) -> tuple[object, ...]:
-        """What the rung refines."""
-        return tuple(self.inner.refines)
-
-    @property
-    def shares(self) -> object:
-        """The error of the rung's kind, or else that of all by Reynolds rupture."""
-        return self.inner.shares or self.token
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the answer of the rung."""
-        found: Found = self.inner.answer(before)
-        return found
-
-    def expected(self, done: Any) -> Any:
-        """Return the work of the rung."""
-        return self.inner.expected(done)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the rung with what the conservation of its oil would change.
-
-        Where both cancel, or are less than what the extrapolation of the latter changes, at most their sum.
-        """
-        about: ErrorEstimate = self.inner.estimate(found, before, tolerance)
-        try:
-            change = self.change(found)
-        except RotorfilmError as error:
-            doubt = f"what the conservation of its oil would change is not known: {error}"
-            return about._replace(doubt=about.doubt or doubt)
-        share = self.distance(found.value, change.on(found.value))
-        total, bound = about.error + share, about.bound and about.error > share
-        if about.better is not None:
-            better = change.on(about.better)
-            known = self.distance(found.value, better)
-            unsure = 0.0 if change.finer is None else self.distance(change.finer.on(about.better), better)
-            if known > max(CANCELED * total, unsure):
-                total, bound = known, False
-            else:
-                total, bound = total + unsure, True
-        method = f"{about.method}; conservation of oil, {share:.2g}"
-        return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
+NO_RUNG = (
+    "conservation of oil: in the estimate, by small motion; no rung of this question follows the oil of a "
+    "cavity in time"
+)
 
 
 def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
@@ -236,92 +169,35 @@ def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
     return ""
 
 
-NOT_JUDGED = "conservation of oil: not judged, {reason}"
-
-NO_RUNG = (
-    "conservation of oil: in the estimate, by small motion; no rung of this question follows the oil of a "
-    "cavity in time"
-)
-
-UNFED = (
-    "supply: the bearing has none, and its film starts with oil that is made there; with the grooves or "
-    "holes that feed it this is another number"
-)
-
-
-def with_rupture(
-    scene: Scene,
-    ladder: Ladder,
-    change: Callable[[Found], Change],
-    distance: Callable[[Any, Any], float],
-    above: Callable[[], tuple[Rung, ...]] | None = None,
-) -> Ladder:
+def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder) -> Ladder:
     """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
 
-    Parameters
-    ----------
-    scene : Scene
-    ladder : Ladder
-    change, distance : callable
-        See `RupturedRung`.
-    above : callable, optional
-        Returns the rungs that conserve their oil; None where there is none.
+    On them stand the rungs that conserve it, unless the scene names the film, or the question has none.
     """
     table = scene.journal
-    assert table is not None  # whose question it is
+    if table is None:
+        return ladder
     reason = supply_of(table, scene.journal_bearing)
     if reason is None:
         return ladder
     if reason:
         return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
-    token = object()
-    rungs: tuple[Rung, ...] = tuple(
-        RupturedRung(inner=rung, change=change, distance=distance, token=token) for rung in ladder.rungs
-    )
-    if above is not None and not scene.film_is_given:
-        return replace(ladder, rungs=(*rungs, *above()))
-    remarks = ladder.remarks if above is not None else (*ladder.remarks, NO_RUNG)
-    return replace(ladder, rungs=rungs, remarks=remarks)
+    token, change = object(), question.conservation(scene.journal_bearing)
+
+    def ruptured(rung: Rung) -> VariantRung:
+        def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+            return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
+
+        return with_estimate(rung, estimate, token)
+
+    rungs = tuple(ruptured(rung) for rung in ladder.rungs)
+    if not question.follows_oil:
+        return replace(ladder, rungs=rungs, remarks=(*ladder.remarks, NO_RUNG))
+    above = () if scene.film_is_given else conserved_rungs(scene, question)
+    return replace(ladder, rungs=(*rungs, *above))
 
 
-def with_moved_rupture(
-    scene: Scene,
-    ladder: Ladder,
-    linear: Callable[[Any], float],
-    distance: Callable[[float, float], float],
-    *,
-    scaled: bool,
-) -> Ladder:
-    """Return the ladder of a motion with what the conservation of oil changes in the linear one.
-
-    Parameters
-    ----------
-    scene : Scene
-    ladder : Ladder
-    linear : callable
-        Takes a film as a candidate, and returns the quantity in linear motion about its rest.
-    distance : callable
-        As of `RupturedRung`.
-    scaled : bool
-        Whether the share counts, rather than the difference.
-    """
-    rupture = RuptureChange(scene.journal_bearing, scene.static_load, scene.speed)
-
-    def change(found: Found) -> Change:
-        return rupture.change(lambda rest: linear(rest.frozen), relative=scaled)
-
-    return with_rupture(scene, ladder, change, distance)
-
-
-def conserved_ladder(
-    scene: Scene, rungs: tuple[Rung, ...], unit: str, distance: Callable[[Any, Any], float] = relative_change
-) -> Ladder:
-    """Return the ladder of a scene whose film conserves its oil."""
-    within = HEATED if scene.journal_bearing.is_warming else ISOTHERMAL
-    return Ladder(rungs=rungs, unit=unit, remarks=scene.film_remarks, within=within, distance=distance)
-
-
-# Rungs above Reynolds rupture: films that conserve their oil, each judged by coarser cells.
+# Films that conserve their oil, each judged by coarser cells.
 
 
 CELLS = (72, 8), (144, 12), (288, 24)
@@ -331,66 +207,63 @@ SECONDS = {CELLS[0]: 0.01, CELLS[1]: 0.03, CELLS[2]: 0.15}
 """About what an equilibrium on them takes [s]."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConservedRung(BaseRung):
-    """An answer on the film that conserves its oil, of an oil in the balance of its heat.
+def conserved_ladder(scene: Scene, question: Any) -> Ladder:
+    """Return the ladder of a scene whose film conserves its oil."""
+    return Ladder(
+        rungs=conserved_rungs(scene, question),
+        unit=question.unit,
+        remarks=scene.film_remarks,
+        within=HEATED if scene.journal_bearing.is_warming else ISOTHERMAL,
+        distance=question.distance,
+    )
 
-    Attributes
-    ----------
-    film : JFOFilm
-    value : callable
-        Takes a film and an answer from below, and returns the quantity on it.
-    distance : callable
-        As of `RupturedRung`.
-    heat : callable
-        Takes the tolerance and returns the error by heat of one temperature; None of a film of one.
+
+def conserved_rungs(scene: Scene, question: Any) -> tuple[VariantRung, ...]:
+    """Return the rungs that conserve their oil, the coarsest first, on an oil with those of its heat.
+
+    They have the cells of the scene, if it names such a film.
     """
+    table, bearing = scene.journal, scene.journal_bearing
+    assert table is not None  # whose question it is
+    own = table.film is not None and table.conserves
+    films = [table.conserved(bearing, cells) for cells in ((None,) if own else CELLS)]
+    if not (bearing.is_warming and question.follows_oil):
+        return tuple(conserved_rung(question, film) for film in films)
+    heat = partial(_heat_of_balance, question, films[0])
+    uniform = tuple(conserved_rung(question, film, heat) for film in films)
+    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
 
-    film: JFOFilm
-    value: Callable[[JFOFilm, Found | None], Any]
-    distance: Callable[[Any, Any], float]
-    heat: Callable[[float], ErrorEstimate] | None = None
 
-    @property
-    def name(self) -> str:
-        """Cells, and of an oil the level of its heat."""
-        level = "T1, " if self.heat is not None else ""
-        return f"{level}JFO {self.film.cells[0]} x {self.film.cells[1]}"
+def conserved_rung(
+    question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None
+) -> VariantRung:
+    """Return the rung of an answer on the film that conserves its oil, of an oil in the balance of its heat.
 
-    @property
-    def shares(self) -> object:
-        """The error of its heat."""
-        return self.heat
+    Its error is the change since half the lines, and since half the cells along: mostly thrice the error.
+    Each by itself, as they may cancel, and that by both where it is more. `heat` returns the error by heat
+    of one temperature.
+    """
+    around, along = film.cells
+    fewer = _other(around, 16), _other(along, 4)
+    coarser = [replace(film, cells=cells) for cells in ((fewer[0], along), (around, fewer[1]), fewer)]
 
-    @property
-    def unit(self) -> WorkUnit:
-        """One answer."""
-        seconds = SECONDS.get(self.film.cells, SECONDS[CELLS[1]])
-        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
+    def solve(before: Found | None) -> tuple[Any, None]:
+        return question.conserved(film, before), None
 
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity."""
-        return Found(self.value(self.film, before), {self.unit: 1})
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the change since half the lines, and since half the cells along: mostly thrice the error.
-
-        Each by itself, as they may cancel, and that by both where it is more.
-        """
-        around, along = self.film.cells
-        fewer = _other(around, 16), _other(along, 4)
-        lines, cells, both = (
-            self.distance(self.value(replace(self.film, cells=other), found), found.value)
-            for other in ((fewer[0], along), (around, fewer[1]), fewer)
-        )
+    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        values = [question.conserved(other, found) for other in coarser]
+        lines, cells, both = (question.distance(value, found.value) for value in values)
         error = max(lines + cells, both)
-        work = {WorkUnit(f"estimates of {self.name}"): 1}
-        about = ErrorEstimate(error, "half the lines, half the cells along", work, bound=True)
-        if self.heat is None:
+        about = ErrorEstimate(error, "half the lines, half the cells along", bound=True)
+        if heat is None:
             return about
-        heat = self.heat(tolerance)
-        method = f"{about.method}; heat: {heat.method}, {heat.error:.2g}"
-        return about._replace(error=error + heat.error, method=method, doubt=heat.doubt, shared=heat.error)
+        more = heat()
+        method = f"{about.method}; heat: {more.method}, {more.error:.2g}"
+        return about._replace(error=error + more.error, method=method, doubt=more.doubt, shared=more.error)
+
+    name = f"{'' if heat is None else 'T1, '}JFO {around} x {along}"
+    seconds = SECONDS.get(film.cells, SECONDS[CELLS[1]])
+    return counted_rung(name, ("answers", name), seconds, solve, judge, shares=heat)
 
 
 def _other(cells: int, least: int) -> int:
@@ -399,11 +272,12 @@ def _other(cells: int, least: int) -> int:
     return half if half >= least else 2 * cells
 
 
-def conserved_films(scene: Scene) -> tuple[JFOFilm, ...]:
-    """Return the films of a scene that conserve their oil, the coarsest first; one if the scene names it."""
-    table = scene.journal
-    assert table is not None  # whose question it is
-    bearing = scene.journal_bearing
-    if table.film is not None and table.conserves:
-        return (table.conserved(bearing),)
-    return tuple(table.conserved(bearing, cells) for cells in CELLS)
+def _heat_of_balance(question: Any, film: JFOFilm) -> ErrorEstimate:
+    """Return the error by heat of a film of one temperature that conserves its oil."""
+    try:
+        own = uniform_rest(film, question.load, question.speed)
+        steps = HeatSteps(film, own)
+        found = question.judge.error(own, steps)
+    except RotorfilmError as error:
+        return ErrorEstimate(math.inf, "not known", doubt=f"its error by heat is not known: {error}")
+    return ErrorEstimate(found.error, "steps towards T3", bound=found.bound, doubt=steps.doubt)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cache, cached_property, partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -37,11 +37,11 @@ from ..bearings.damper import FiniteSqueeze, JFODamper
 from ..core.answers import (
     DISAGREEMENT,
     ISOTHERMAL,
-    BaseRung,
     CandidateRung,
     ErrorEstimate,
     Found,
     Ladder,
+    Rung,
     Work,
     WorkUnit,
 )
@@ -58,11 +58,8 @@ from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..scenes.damper_films import (
     NO_RICHER,
-    AnyDamperFilm,
-    ConservedDamperFilm,
     DamperFilm,
     built_films,
-    damper_fmus,
     damper_models,
     lands,
     mapped_short,
@@ -74,11 +71,10 @@ from ..scenes.damper_films import (
 )
 from ..scenes.damper_table import DamperTable
 from ..scenes.excitation_table import BladeLossTable, RunUpTable
-from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
-from ..scenes.solve_damper import answer_damper
 from .coupling import coupling_ladder
 from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .variants import counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -92,7 +88,7 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperCurveRung(CandidateRung[AnyDamperFilm]):
+class DamperCurveRung(CandidateRung):
     """One film and one model of its cage.
 
     Attributes
@@ -121,7 +117,7 @@ class DamperCurveRung(CandidateRung[AnyDamperFilm]):
     @cached_property
     def search(self) -> Reaction:
         """Film and springs that are quick enough for hundreds of orbits."""
-        slow = isinstance(self.film, ConservedDamperFilm) or isinstance(self.film.law, FiniteSqueeze)
+        slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
         return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
@@ -181,7 +177,7 @@ class DamperCurveRung(CandidateRung[AnyDamperFilm]):
         over u'.
         """
         rich = self.film.rich
-        if rich is None and not math.isfinite(self.film.bound()):
+        if rich is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
         radius = float(found.solution)
         if rich is None:
@@ -211,7 +207,7 @@ class DamperCurveRung(CandidateRung[AnyDamperFilm]):
         system, work = damped_orbit(self.rotor, self.support), {self.unit: 7}
         force = force_at(system, radius)
         film = abs(force + self.stiffness * system.clearance * radius)
-        change = self.film.bound() * film / system.speed**2
+        change = self.film.bound * film / system.speed**2
         method = "verified bound of the film, propagated"
         if self.is_fold:
             return ErrorEstimate(change / value, method, work, bound=True)
@@ -226,7 +222,7 @@ class DamperCurveRung(CandidateRung[AnyDamperFilm]):
             return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
         # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
         shifted = max(abs(abs(force_at(system, end)) - abs(force)) for end in ends) / least
-        return ErrorEstimate((shifted + self.film.bound() * film) / abs(force), method, work, bound=True)
+        return ErrorEstimate((shifted + self.film.bound * film) / abs(force), method, work, bound=True)
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
         """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
@@ -282,31 +278,38 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
     stiffness, supply = scene.damper.stiffness, scene.damper.supply
     if supply is not None and not supply.turns_alike and quantity not in (UP, DOWN):
-        return passing_holes_ladder(scene, quantity, UNITS[quantity])
+        return _run_ladder(scene, partial(_repeated, rotor, quantity), UNITS[quantity], steady=True)
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
         for film in orbit_films(scene.damper, rotor)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
-    units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
-    asked, count = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor, lands(scene.damper)
-    return Ladder(
-        rungs=rungs,
-        unit=UNITS[quantity],
-        units=units,
-        remarks=rotor_remarks(
-            scene.damper,
-            mapped_short(scene.damper),
-            stiffness / count,
-            replace(asked, mass=asked.mass / count, unbalance=asked.unbalance / count),
-            scene.lubricant.properties,
-            steady=quantity not in (UP, DOWN),
-        ),
-        within=ISOTHERMAL,
+    asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
+    return _ladder(
+        scene,
+        rungs,
+        UNITS[quantity],
+        asked,
+        units={rung.unit: _one(rung, scene.speed) for rung in rungs},
+        steady=quantity not in (UP, DOWN),
     )
 
 
-def _endless(film: AnyDamperFilm, quantity: str, *, is_named: bool) -> bool:
+def _ladder(
+    scene: Scene, rungs: tuple[Rung, ...], unit: str, rotor: RigidRotor, *, units: Any, steady: bool
+) -> Ladder:
+    """Return a ladder with the remarks on the rotor, on each of the films that lie side by side."""
+    table = scene.damper
+    assert table is not None  # whose question it is
+    count = lands(table)
+    shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
+    remarks = rotor_remarks(
+        table, mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
+    )
+    return Ladder(rungs=rungs, unit=unit, units=units, remarks=remarks, within=ISOTHERMAL)
+
+
+def _endless(film: DamperFilm, quantity: str, *, is_named: bool) -> bool:
     """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
 
     One that the scene names is the only rung there is.
@@ -336,7 +339,7 @@ LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer fi
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperPeakRung(PeakRung[DamperFilm]):
+class DamperPeakRung(PeakRung):
     """The peak in a squeeze-film damper.
 
     Attributes
@@ -351,11 +354,6 @@ class DamperPeakRung(PeakRung[DamperFilm]):
     rotor: RigidRotor
     stiffness: float
     duration: float
-
-    @property
-    def tangents(self) -> WorkUnit:
-        """One force of this film with derivatives."""
-        return WorkUnit(f"tangents of {self.film.name}", ("tangents", self.film))
 
     @cached_property
     def support(self) -> Reaction:
@@ -395,7 +393,7 @@ class DamperPeakRung(PeakRung[DamperFilm]):
             slopes = self.support.jacobian(rest, still, 0.0)
             return RestTangent(force, -slopes[:, :2], -slopes[:, 2:4], added)
         damping = -float(self.support.force(still, np.array([rate, 0.0]), 0.0)[0]) / rate
-        fed = self.film.is_fed
+        fed = self.film.shape.is_fed
         own = -float(self.film.reaction.jacobian(still, still, 0.0)[0, 0]) if fed else 0.0
         return RestTangent(force, (self.stiffness + own) * np.eye(2), damping * np.eye(2), added)
 
@@ -423,7 +421,7 @@ class DamperPeakRung(PeakRung[DamperFilm]):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, steps = found.solution.motion, self.increment(found)
-        if self.film.rich_law is None and not math.isfinite(self.film.bound()):
+        if self.film.rich_law is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
         reach = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
@@ -443,7 +441,7 @@ class DamperPeakRung(PeakRung[DamperFilm]):
         """Return the error of the steps, and what the verified error of the film could do all along."""
         states = self._sampled(motion)
         film = self.shaken.tangents(self.support, states)
-        off = self.film.bound() * (film.force + self.stiffness * states.position)
+        off = self.film.bound * (film.force + self.stiffness * states.position)
         mass = self.rotor.mass * np.eye(2)[:, :, None] + film.mass
         moved = linear_march(mass, film.stiffness, film.damping, off, states.step).position
         bound = float(np.hypot(*moved).max()) / value
@@ -454,7 +452,7 @@ class DamperPeakRung(PeakRung[DamperFilm]):
     def _sampled(self, motion: MarchMotion) -> StatesAlong:
         """Return samples of a motion; the first is off the rest."""
         # With feed the richer film takes milliseconds for a force.
-        states = states_along(motion, self.stride(SAMPLED // 2 if self.film.is_fed else SAMPLED))
+        states = states_along(motion, self.stride(SAMPLED // 2 if self.film.shape.is_fed else SAMPLED))
         # A cavitated film has no derivative at rest: the direction in which the rotor starts.
         states.velocity[:, 0] = 1e-3 * states.velocity[:, 1]
         return states
@@ -505,7 +503,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
                 f"damper.film must be left out beside supply for {quantity}, as only the film that conserves "
                 f"its oil knows the supply in time, got {scene.damper.film!r}"
             )
-        return conserved_peak_ladder(scene)
+        duration = damper_models(scene).duration
+        return _run_ladder(scene, lambda follow, steps: peak(follow(duration).position), "m", steady=False)
     models = damper_models(scene)
     rungs = tuple(
         DamperPeakRung(
@@ -518,16 +517,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for film, steps in _choices(scene.damper, max(abs(speed) for speed in models.rotor.profile.speeds))
     )
     units = {rung.tangents: _one_peak(rung, scene.speed) for rung in rungs if rung.steps}
-    small, spring = mapped_short(scene.damper), scene.damper.stiffness
     free = replace(models.rotor, static_force=(0.0, 0.0))
-    remarks = rotor_remarks(scene.damper, small, spring, free, scene.lubricant.properties, steady=False)
-    return Ladder(
-        rungs=rungs,
-        unit="m",
-        units=units,
-        remarks=remarks,
-        within=ISOTHERMAL,
-    )
+    return _ladder(scene, rungs, "m", free, units=units, steady=False)
 
 
 def _choices(table: DamperTable, fastest: float) -> list[tuple[DamperFilm, int]]:
@@ -537,7 +528,7 @@ def _choices(table: DamperTable, fastest: float) -> list[tuple[DamperFilm, int]]
     # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
     top = films[-1]
-    fed = own.is_fed
+    fed = own.shape.is_fed
     choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
     if fed:
         # Where nothing is known of the film's error, a third run would tell no more.
@@ -565,27 +556,11 @@ def _one_peak(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
 # What squeeze-film dampers bring to scenes and questions.
 
 
-FAMILY = Family(
-    table=DamperTable,
-    ladders={
-        **dict.fromkeys(UNITS, damper_ladder),
-        "blade_loss_peak": damper_peak_ladder,
-        "cosimulation_error": coupling_ladder,
-    },
-    models=damper_fmus,
-    answer=answer_damper,
-    example={
-        "damper": {
-            "diameter": "100 mm",
-            "length": "25 mm",
-            "clearance": "0.1 mm",
-            "viscosity": "10 mPa s",
-            "stiffness": "2e6 N/m",
-        },
-        "operation": {"speed": "6000 rpm"},
-        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
-    },
-)
+LADDERS = {
+    **dict.fromkeys(UNITS, damper_ladder),
+    "blade_loss_peak": damper_peak_ladder,
+    "cosimulation_error": coupling_ladder,
+}
 
 
 # A rotor on a damper that conserves its oil, in time: a lost blade, a run-up, an orbit past holes.
@@ -601,105 +576,63 @@ TURNS, REPEATED = (12, 24, 48, 96), 1e-3
 """Turns after which an orbit is looked at, and its change from turn to turn when steady."""
 
 
-class FollowedRotor(NamedTuple):
-    """A motion that was followed: the equal steps of a turn, and what it shows."""
-
-    steps: int
-    run: Trajectory
+Follow = Callable[[float], Trajectory]
+"""Takes a time [s] and returns the motion from rest that long."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConservedRunRung(BaseRung):
-    """A quantity of a motion on the film that conserves its oil, judged by longer steps and by fewer cells.
+def follow(damper: JFODamper, rotor: RigidRotor, steps: int, duration: float) -> Trajectory:
+    """Return a motion from rest in so many steps of a turn; raises FilmContactError at the wall."""
+    fastest = max(abs(speed) for speed in rotor.profile.speeds)
+    count = math.ceil(duration * fastest * steps / (2.0 * math.pi) - 1e-9)
+    times = duration / count * np.arange(count + 1)
+    try:
+        return simulate(rotor, damper, duration=duration, times=times, max_step=duration / count)
+    except ContactError as error:
+        raise FilmContactError(f"the rotor touches the wall: {error}") from error
 
-    Attributes
-    ----------
-    damper : JFODamper
-        With its springs, on the cells of this rung.
-    rotor : RigidRotor
-        At rest in the center.
-    steps : int
-        Of a turn, at the highest speed.
-    value : callable
-        Takes a rung and returns the quantity.
+
+def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, *, steady: bool) -> Ladder:
+    """Return the ladder of a motion on the film that conserves its oil.
+
+    `value` takes what follows the motion and the steps of a turn, and returns the quantity. Its error is the
+    changes since steps twice as long and since half the cells: some thrice the error.
     """
+    table, rotor = scene.damper, damper_models(scene).rotor
+    assert table is not None  # whose question it is
+    assert table.supply is not None
+    damper = table.conserved(table.supply)
 
-    damper: JFODamper
-    rotor: RigidRotor
-    steps: int
-    value: Callable[[ConservedRunRung], float]
+    @cache
+    def run(cells: tuple[int, int], steps: int) -> float:
+        return value(partial(follow, replace(damper, cells=cells), rotor, steps), steps)
 
-    @property
-    def name(self) -> str:
-        """Cells and steps."""
-        around, along = self.damper.cells
-        return f"conserved oil {around} x {along}, {self.steps} steps"
+    def rung(cells: tuple[int, int], steps: int) -> Rung:
+        around, along = cells
+        fewer = 2 * round(0.25 * around), 2 * round(0.25 * along)
 
-    @property
-    def unit(self) -> WorkUnit:
-        """One answer."""
-        seconds = STEP_TIME * math.prod(self.damper.cells) * self.steps * TURNS[0]
-        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=seconds)
+        def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+            others = run(cells, steps // 2), run(fewer, steps)
+            error = sum(abs(other / found.value - 1.0) for other in others)
+            return ErrorEstimate(error, "steps twice as long, half the cells", bound=True)
 
-    @cached_property
-    def found(self) -> float:
-        """The quantity."""
-        return self.value(self)
+        name = f"conserved oil {around} x {along}, {steps} steps"
+        seconds = STEP_TIME * math.prod(cells) * steps * TURNS[0]
+        return counted_rung(name, ("answers", name), seconds, lambda _: (run(cells, steps), None), judge)
 
-    def follow(self, duration: float) -> FollowedRotor:
-        """Return a motion from rest; raises FilmContactError at the wall."""
-        fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
-        count = math.ceil(duration * fastest * self.steps / (2.0 * math.pi) - 1e-9)
-        times = duration / count * np.arange(count + 1)
-        try:
-            run = simulate(self.rotor, self.damper, duration=duration, times=times, max_step=duration / count)
-        except ContactError as error:
-            raise FilmContactError(f"the rotor touches the wall: {error}") from error
-        return FollowedRotor(self.steps, run)
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity; raises FilmContactError at the wall."""
-        return Found(self.found, {self.unit: 1})
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the changes since steps twice as long and since half the cells: some thrice the error."""
-        around, along = self.damper.cells
-        fewer = replace(self.damper, cells=(2 * round(0.25 * around), 2 * round(0.25 * along)))
-        others = replace(self, steps=self.steps // 2).found, replace(self, damper=fewer).found
-        error = sum(abs(other / found.value - 1.0) for other in others)
-        work = {WorkUnit(f"estimates of {self.name}"): 1}
-        return ErrorEstimate(error, "steps twice as long, half the cells", work, bound=True)
+    rungs = tuple(rung(cells, steps) for cells, steps in LEVELS)
+    return _ladder(scene, rungs, unit, rotor, units={}, steady=steady)
 
 
-def conserved_peak_ladder(scene: Scene) -> Ladder:
-    """Return the ladder of the largest distance after a blade is lost, or over a run-up, with a supply."""
-    duration = damper_models(scene).duration
+def _repeated(rotor: RigidRotor, quantity: str, follow: Follow, steps: int) -> float:
+    """Return a quantity of the last turn past feed holes, once it does so from turn to turn.
 
-    def value(rung: ConservedRunRung) -> float:
-        return peak(rung.follow(duration).run.position)
-
-    return _ladder(scene, value, "m", steady=False)
-
-
-def passing_holes_ladder(scene: Scene, quantity: str, unit: str) -> Ladder:
-    """Return the ladder of the orbit of a rotor past feed holes, or of what it transmits.
-
-    Followed from rest until it repeats itself: the amplitude is the largest distance from the mean place, and
-    the transmissibility that of the force at the rotor's frequency, the longer half axis of its ellipse.
+    The amplitude is the largest distance from the mean place, and the transmissibility that of the force at
+    the rotor's frequency, the longer half axis of its ellipse.
     """
-
-    def value(rung: ConservedRunRung) -> float:
-        return _repeated(rung, quantity)
-
-    return _ladder(scene, value, unit, steady=True)
-
-
-def _repeated(rung: ConservedRunRung, quantity: str) -> float:
-    """Return a quantity of the last turn, once it does so from turn to turn."""
-    period = 2.0 * math.pi / abs(rung.rotor.profile.speeds[-1])
+    period = 2.0 * math.pi / abs(rotor.profile.speeds[-1])
     for turns in TURNS:
-        found = rung.follow(turns * period)
-        last, before = (_of_turn(found, rung.rotor, quantity, back) for back in (1, 2))
+        run = follow(turns * period)
+        last, before = (of_turn(run, steps, rotor, quantity, back) for back in (1, 2))
         if abs(last - before) <= REPEATED * abs(last):
             return last
     raise ConvergenceError(
@@ -708,32 +641,15 @@ def _repeated(rung: ConservedRunRung, quantity: str) -> float:
     )
 
 
-def _of_turn(found: FollowedRotor, rotor: RigidRotor, quantity: str, back: int) -> float:
-    """Return a quantity of one turn, 1 the last."""
-    end = len(found.run.time) - (back - 1) * found.steps
-    turn = slice(end - found.steps, end)
+def of_turn(run: Trajectory, steps: int, rotor: RigidRotor, quantity: str, back: int) -> float:
+    """Return a quantity of one turn of so many steps, 1 the last."""
+    end = len(run.time) - (back - 1) * steps
+    turn = slice(end - steps, end)
     if quantity == "unbalance_amplitude":
-        q = found.run.position[:, turn]
+        q = run.position[:, turn]
         return float(np.hypot(*(q - q.mean(axis=1, keepdims=True))).max())
-    speed, signals = rotor.profile.speeds[-1], found.run.signals
+    speed, signals = rotor.profile.speeds[-1], run.signals
     force: Array = signals["force_x"][turn] + 1j * signals["force_y"][turn]
-    wave = np.exp(2j * math.pi * np.arange(found.steps) / found.steps)
+    wave = np.exp(2j * math.pi * np.arange(steps) / steps)
     size = sum(abs(np.mean(force * one)) for one in (wave, wave.conj()))
     return float(size / (rotor.unbalance * speed**2))
-
-
-def _ladder(scene: Scene, value: Callable[[ConservedRunRung], float], unit: str, *, steady: bool) -> Ladder:
-    table, models = scene.damper, damper_models(scene)
-    assert table is not None  # whose question it is
-    assert table.supply is not None
-    damper = table.conserved(table.supply)
-    rungs = tuple(
-        ConservedRunRung(damper=replace(damper, cells=cells), rotor=models.rotor, steps=steps, value=value)
-        for cells, steps in LEVELS
-    )
-    count, rotor = lands(table), models.rotor
-    shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
-    remarks = rotor_remarks(
-        table, mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
-    )
-    return Ladder(rungs=rungs, unit=unit, remarks=remarks, within=ISOTHERMAL)

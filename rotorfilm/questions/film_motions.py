@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -33,7 +33,6 @@ from ..bearings.reaction import reach
 from ..core.answers import (
     DISAGREEMENT,
     SAFETY,
-    C,
     CandidateRung,
     ErrorEstimate,
     Found,
@@ -47,26 +46,36 @@ from ..core.model import Array, Reaction
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
-from ..scenes.film_rungs import FilmCandidate
-from .conserved_oil import with_moved_rupture
-from .film_statics import Films, isothermal_ladder
-from .heat_levels import RestQuestion, thermal_ladder
+from ..scenes.film_rungs import FilmCandidate, any_candidate
+from .coupling import coupling_ladder
+from .film_statics import FilmQuestion, Films, Units, film_ladder, static_ladder, whirl_ladder
 from .quantities import relative
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
-# Rungs of the orbit of a rigid rotor: linear about its rest, or nonlinear at so many samples of a turn.
+# The orbit that an unbalance makes: amplitude, phase, force; linear about the rest, or nonlinear at so many
+# samples of a turn.
+
+
+SAMPLES = (15, 31, 63)
+"""Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
+
+MAKING = 1e4
+"""Forces of a cheap film in a second."""
+
+LINEAR = 31
+"""Samples over a turn at which a linear orbit's defect is taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class SampledOrbitRung(CandidateRung[C]):
-    """The orbit on one film; a rung adds `answer`, `estimate` and `expected`.
+class OrbitRung(CandidateRung):
+    """The orbit on one film, by what the rotor answers to its forces.
 
     Attributes
     ----------
     quantity : str
-        A key of `UNITS`.
+        A key of `ORBIT_UNITS`.
     rotor : RigidRotor
     samples : int
         Over a turn; 0 for the linear orbit.
@@ -85,30 +94,12 @@ class SampledOrbitRung(CandidateRung[C]):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return 0.3 * self.film.prior
+        return 0.3 * float(self.film.prior)
 
     @property
     def refines(self) -> tuple[object, ...]:
         """The film, where there are samples."""
         return (self.film,) if self.samples else ()
-
-
-# Questions about the orbit that an unbalance makes: amplitude, phase, force; linear and nonlinear rungs.
-
-
-SAMPLES = (15, 31, 63)
-"""Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
-
-MAKING = 1e4
-"""Forces of a cheap film in a second."""
-
-LINEAR = 31
-"""Samples over a turn at which a linear orbit's defect is taken."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class OrbitRung(SampledOrbitRung[FilmCandidate]):
-    """The orbit on one film, by what the rotor answers to its forces."""
 
     @property
     def place(self) -> OrbitPlace:
@@ -205,75 +196,56 @@ def require_one_unbalance(rotor: RigidRotor) -> None:
 # Ladders of motions on the films of any bearing.
 
 
-@dataclass(frozen=True, kw_only=True)
-class FilmMotion:
-    """What rungs of one motion have in common.
+def motion_question(
+    scene: Scene,
+    make: Callable[[Any, int], Any],
+    counts: tuple[int, ...],
+    unit: str,
+    distance: Callable[[Any, Any], float],
+    **how: Any,
+) -> FilmQuestion:
+    """Return a question about a motion, linear about the rest or in ever more samples or steps of a turn.
 
-    Attributes
+    On an oil the films keep the temperature of the rest. What a richer level of heat, or the conservation of
+    the oil, would change is taken of the linear motion.
+
+    Parameters
     ----------
-    make : callable
-        Takes a film and a number of samples or steps over a turn, 0 if linear, and returns the rung.
-    counts : tuple of int
-        Samples or steps of the rungs on each film.
-    unit : str
-    distance : callable
-        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
-    effort : callable, optional
-        Of a rung, by which those on films of one viscosity are ordered.
-    scaled : bool
-        Whether the share counts by which the conservation of oil changes the quantity, not the difference.
+    scene : Scene
+    make, counts, unit, distance
+        As of `FilmQuestion`; a count of 0 is the linear motion.
+    **how
+        `effort` or `scaled` of it.
     """
 
-    make: Callable[[Any, int], Any]
-    counts: tuple[int, ...]
-    unit: str
-    distance: Callable[[Any, Any], float]
-    effort: Callable[[Any], float] | None = None
-    scaled: bool = True
+    def units(films: Sequence[FilmCandidate]) -> Units:
+        return {unit: call for film in films for unit, call in film.batch_units(scene.speed).items()}
 
-    def linear(self, film: FilmCandidate) -> float:
-        """Return the quantity of the linear motion on a film."""
-        return float(self.make(film, 0).answer(None).value)
+    def linear(own: Any) -> float:
+        return float(make(any_candidate(own.reaction), 0).answer(None).value)
 
-    def ladder(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
-        """Return the ladder on films, the cheapest first; in a journal with what conserves its oil.
-
-        On an oil they keep the temperature of the rest, and what a richer level of heat would change is taken
-        of the linear motion.
-        """
-        ladder = self._warm(scene, films) if films[0].reaction.is_warming else self._isothermal(scene, films)
-        if scene.journal is None:
-            return ladder
-        return with_moved_rupture(scene, ladder, self.linear, self.distance, scaled=self.scaled)
-
-    def _isothermal(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
-        rungs = [self.make(film, count) for film in films for count in self.counts]
-        if self.effort is not None:
-            rungs.sort(key=self.effort)
-        units = {unit: call for film in films for unit, call in film.batch_units(scene.speed).items()}
-        return isothermal_ladder(scene, rungs, self.unit, units, self.distance)
-
-    def _warm(self, scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
-        questions = tuple(
-            RestQuestion(
-                load=scene.static_load,
-                speed=scene.speed,
-                make=partial(self._counted, count),
-                value=lambda own: self.linear(films[0].frozen(own.reaction)),
-                distance=self.distance,
-                moves=True,
-            )
-            for count in self.counts
-        )
-        return thermal_ladder(scene, films, questions, self.unit)
-
-    def _counted(self, count: int, film: FilmCandidate) -> Any:
-        return self.make(film, count)
+    return FilmQuestion(
+        load=scene.static_load,
+        speed=scene.speed,
+        unit=unit,
+        make=make,
+        value=linear,
+        distance=distance,
+        units=units,
+        counts=(0, *counts),
+        moves=True,
+        **how,
+    )
 
 
-def orbit_ladder(
-    films: Films, scene: Scene, quantity: str, rung: type[SampledOrbitRung[Any]] = OrbitRung
-) -> Ladder:
+def _turn_films(films: Films, scene: Scene, quantity: str) -> Sequence[FilmCandidate]:
+    """Return films for states all round a turn; InputError for one that conserves its oil."""
+    if scene.journal is not None:
+        scene.journal.require_law(quantity)
+    return films(scene)
+
+
+def orbit_ladder(films: Films, scene: Scene, quantity: str, rung: type[OrbitRung] = OrbitRung) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film.
 
     Parameters
@@ -291,22 +263,23 @@ def orbit_ladder(
     InputError
         As `rotor_of`.
     """
-    rotor, known = rotor_of(scene), films(scene)
+    rotor, known = rotor_of(scene), _turn_films(films, scene, quantity)
 
-    def effort(one: SampledOrbitRung[Any]) -> float:
+    def effort(one: OrbitRung) -> float:
         """Return a measure of cost: films by place, each twice the one before; maps to be made last."""
         each = 1.0 if one.film.makes_map else 2.0 ** known.index(one.film)
-        return MAKING * one.film.making + each * (6 if one.samples == 0 else 5 * one.samples)
+        return MAKING * float(one.film.making) + each * (6 if one.samples == 0 else 5 * one.samples)
 
-    motion = FilmMotion(
-        make=lambda film, samples: rung(film=film, quantity=quantity, rotor=rotor, samples=samples),
-        counts=(0, *SAMPLES),
-        unit=ORBIT_UNITS[quantity],
-        distance=partial(wave_change, quantity),
+    question = motion_question(
+        scene,
+        lambda film, samples: rung(film=film, quantity=quantity, rotor=rotor, samples=samples),
+        SAMPLES,
+        ORBIT_UNITS[quantity],
+        partial(wave_change, quantity),
         effort=effort if rung is OrbitRung else None,
         scaled=quantity != PHASE,
     )
-    return motion.ladder(scene, known)
+    return film_ladder(scene, lambda scene: known, question)
 
 
 # How far a rotor goes after something has begun to shake it at rest: rungs in ever shorter steps.
@@ -340,10 +313,10 @@ class PeakMotion(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PeakRung(CandidateRung[C]):
+class PeakRung(CandidateRung):
     """The peak by one film, linear about the rest or nonlinear in so many steps over a turn.
 
-    A rung adds `tangents`, `shaken`, `at_rest`, `grid`, `answer` and `estimate`.
+    A rung adds `shaken`, `at_rest`, `grid`, `answer` and `estimate`.
 
     Attributes
     ----------
@@ -370,8 +343,9 @@ class PeakRung(CandidateRung[C]):
 
     @property
     def tangents(self) -> WorkUnit:
-        """One force with derivatives."""
-        raise NotImplementedError
+        """One force of the film with derivatives."""
+        unit: WorkUnit = self.film.tangents
+        return unit
 
     @property
     def shaken(self) -> ShakenRotor:
@@ -430,7 +404,7 @@ LINEAR_CALLS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class BladeLossRung(PeakRung[FilmCandidate]):
+class BladeLossRung(PeakRung):
     """The peak in a journal bearing.
 
     Attributes
@@ -445,11 +419,6 @@ class BladeLossRung(PeakRung[FilmCandidate]):
     speed: float
     mass: float
     excitation: BladeLossTable
-
-    @property
-    def tangents(self) -> WorkUnit:
-        """One force of the film with derivatives."""
-        return self.film.tangents
 
     @cached_property
     def rest(self) -> Coefficients:
@@ -526,7 +495,7 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     excitation, rotor = lost_blade(scene), scene.rotor
     require_one_unbalance(rotor)
     calls = math.ceil(3 * COMMON_STEPS * excitation.revolutions)
-    known = sorted(films(scene), key=lambda film: film.time(calls))
+    known = sorted(_turn_films(films, scene, quantity), key=lambda film: film.time(calls))
 
     def make(film: FilmCandidate, steps: int) -> BladeLossRung:
         return BladeLossRung(
@@ -543,10 +512,29 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
         return rung.film.time(calls if rung.steps else LINEAR_CALLS)
 
     made = any(film.makes_map for film in known[:-1])
-    motion = FilmMotion(
-        make=make, counts=(0, *STEPS), unit="m", distance=relative, effort=effort if made else None
-    )
-    return motion.ladder(scene, known)
+    question = motion_question(scene, make, STEPS, "m", relative, effort=effort if made else None)
+    return film_ladder(scene, lambda scene: known, question)
+
+
+def film_ladders(
+    points: Films, turns: Films, statics: Iterable[str]
+) -> dict[str, Callable[[Scene, str], Ladder]]:
+    """Return the ladders of a bearing with a film by quantity.
+
+    Parameters
+    ----------
+    points, turns : callable
+        Take a scene and return the candidates for some equilibria, and for states all round a turn.
+    statics : iterable of str
+        Quantities of the journal at rest that its films have.
+    """
+    return {
+        **dict.fromkeys(statics, partial(static_ladder, points)),
+        **dict.fromkeys(ORBIT_UNITS, partial(orbit_ladder, turns)),
+        "whirl_threshold": partial(whirl_ladder, points),
+        "blade_loss_peak": partial(blade_loss_ladder, turns),
+        "cosimulation_error": coupling_ladder,
+    }
 
 
 def lost_blade(scene: Scene) -> BladeLossTable:

@@ -1,123 +1,404 @@
-"""What bearings of fixed pads bring to scenes and questions."""
+"""What bearings of pads bring to scenes and questions: the films that may answer, and their ladders."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import equilibrium
+from ..analysis import coefficients, equilibrium
 from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
-from ..bearings.pads import TiltingPadBearing
+from ..bearings.pads import (
+    LobedBearing,
+    LobeShare,
+    PadFilm,
+    PadGridFilm,
+    PadMapFilm,
+    PadResolution,
+    PressureDamBearing,
+    TiltingPadBearing,
+    TiltingPads,
+    differenced_slopes,
+    is_pad_mappable,
+)
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
-from ..core.model import Array
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family, SceneModels
-from ..scenes.pad_candidates import (
-    DamCandidate,
-    LobedCandidate,
-    TiltingCandidate,
-    dam_candidates,
-    few_forces,
-    lobed_candidates,
-    many_forces,
-    tilting_candidates,
-)
-from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, quick_pads
-from .coupling import coupling_ladder
+from ..core.model import Array, settled
+from ..core.results import Equilibrium
+from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
+from ..scenes.pad_tables import pad_film_name, settled_scene
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
-    SampledOrbitRung,
-    blade_loss_ladder,
+    OrbitRung,
+    film_ladders,
     orbit_ladder,
     wave_change,
     wave_value,
 )
-from .film_statics import Films, static_ladder
-from .film_thresholds import whirl_ladder
+from .film_statics import static_ladder, whirl_ladder
 from .quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
-# Ladders of bearings of fixed pads: those of journals, by films of pads.
+# The films that may answer for a bearing of fixed pads, the cheapest first, and what is richer.
 
 
-PAD_STATICS = [quantity for quantity in QUANTITIES if quantity != "maximum_temperature"]
-"""Static quantities of pads, whose films have one temperature."""
+COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
+"""Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
+
+GRIDS = (((48, 4), 1e-4, 2e-3), ((96, 8), 1e-5, 1e-3), ((192, 16), 2e-6, 5e-4))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+TURN_GRIDS = ((48, 4), (96, 8))
+"""Those for states all round a turn."""
+
+FINE, FINEST = (192, 16), (384, 32)
+"""Cells of richer films."""
 
 
-def fixed_ladders(points: Films, turns: Films) -> dict[str, Callable[[Scene, str], Ladder]]:
-    """Return the ladders by quantity, of candidates for some equilibria and for states all round a turn."""
-    return {
-        **dict.fromkeys(PAD_STATICS, partial(static_ladder, points)),
-        **dict.fromkeys(ORBITS, partial(orbit_ladder, turns)),
-        "whirl_threshold": partial(whirl_ladder, points),
-        "blade_loss_peak": partial(blade_loss_ladder, turns),
-        "cosimulation_error": coupling_ladder,
-    }
+@dataclass(frozen=True, kw_only=True)
+class PadCandidate(FilmCandidate):
+    """A film of pads that may answer for a bearing of fixed ones, or so many cells of those with recesses.
+
+    Attributes
+    ----------
+    reaction : LobedBearing or PressureDamBearing
+        With this film.
+    rich : LobedBearing or PressureDamBearing
+        With the richer one.
+    """
+
+    reaction: LobedBearing | PressureDamBearing
+    rich: LobedBearing | PressureDamBearing
+
+    def on_grid(self, bearing: LobedBearing | PressureDamBearing) -> bool:
+        """Return whether the film of one of both bearings lives on a grid in two dimensions."""
+        return isinstance(bearing, PressureDamBearing) or isinstance(bearing.film, PadGridFilm)
+
+    def wedge(self, position: Array) -> float:
+        """Return the distance [m] from the center of curvature of the pad that has the least film.
+
+        With recesses from the farthest one.
+        """
+        bearing, c = self.reaction, self.reaction.clearance
+        if isinstance(bearing, PressureDamBearing):
+            return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in bearing.pads))
+        near = min(bearing.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
+        return float(np.hypot(*(position - c * np.array(near.center))))
+
+    def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
+        """Return the bounds of the maps of all pads together in an equilibrium; infinite without maps."""
+        bearing = self.reaction
+        if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
+            return math.inf
+        film, place = bearing.film, (at.position, at.speed)
+        shares = [LobeShare(bearing, film, lobe, *place) for lobe in bearing.lobes]
+        if not slopes:
+            return sum(share.force for share in shares) / math.hypot(*at.load)
+        found = coefficients(bearing, at.position, at.speed)
+        stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
+        return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
+
+
+def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
+    """Return the films that can answer for a bearing of fixed pads: maps that are there, grids, other maps.
+
+    Parameters
+    ----------
+    bearing : LobedBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    if fixed:
+        film = bearing.film
+        fine = isinstance(film, PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
+        return (_lobed_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, 0.0, 0.0),)
+    maps = _maps(bearing)
+    ready = [film for film in maps if not film.makes_map]
+    grids = [
+        _lobed_candidate(
+            bearing,
+            PadGridFilm(cells=cells),
+            f"2-D {cells[0]} x {cells[1]} extr.",
+            FINEST if cells == FINE else FINE,
+            *priors,
+        )
+        for cells, *priors in GRIDS
+    ]
+    return (*ready, *grids, *(film for film in maps if film.makes_map))
+
+
+def few_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
+    """Return the candidates for some equilibria: a map that must be made first costs more than any grid."""
+    return tuple(film for film in candidates if fixed or not film.makes_map)
+
+
+def many_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
+    """Return the candidates for states all round a turn: the finest grid costs more than any map."""
+    kept = [PadGridFilm(cells=cells) for cells in TURN_GRIDS]
+    return tuple(
+        film
+        for film in candidates
+        if fixed or isinstance(film.reaction.film, PadMapFilm) or film.reaction.film in kept
+    )
+
+
+def _maps(bearing: LobedBearing) -> list[PadCandidate]:
+    """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
+    extents = {lobe.extent for lobe in bearing.lobes}
+    if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
+        return []
+    coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
+    fine = _lobed_candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
+    return [coarse, fine] if fine.makes_map else [fine]
+
+
+def _lobed_candidate(
+    bearing: LobedBearing,
+    film: PadFilm,
+    name: str,
+    rich: tuple[int, int],
+    position_prior: float,
+    prior: float,
+) -> PadCandidate:
+    making = 0.0
+    if isinstance(film, PadMapFilm):
+        extents = {lobe.extent for lobe in bearing.lobes}
+        making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
+    cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
+    return PadCandidate(
+        name=name,
+        reaction=replace(bearing, film=film),
+        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
+        position_prior=position_prior,
+        prior=prior,
+        making=making,
+        call_time=len(bearing.lobes) * (CELL_TIME * cells or CALL_TIME),
+    )
+
+
+# The films that may answer for a bearing of pads with recesses: grids of ever more cells.
+
+
+LEVELS = (((32, 8), 2e-4, 5e-3), ((64, 16), 5e-5, 1e-3), ((128, 32), 5e-6, 5e-4))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
+"""Cells of richer films."""
+
+
+def dam_candidates(
+    bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
+) -> tuple[PadCandidate, ...]:
+    """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
+
+    Parameters
+    ----------
+    bearing : PressureDamBearing
+    fixed : bool
+        Whether the scene names the cells.
+    turns : bool
+        Whether they are for states all round a turn, which are too many for the most cells.
+    """
+    if fixed:
+        return (_dam_candidate(bearing, DAM_FINEST, 0.0, 0.0),)
+    levels = LEVELS[:-1] if turns else LEVELS
+    return tuple(
+        _dam_candidate(replace(bearing, cells=cells), DAM_FINE if turns or not k else DAM_FINEST, *priors)
+        for k, (cells, *priors) in enumerate(levels)
+    )
+
+
+def _dam_candidate(
+    bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
+) -> PadCandidate:
+    rich = replace(bearing, cells=cells)
+    return PadCandidate(
+        name=pad_film_name(bearing),
+        reaction=bearing,
+        rich=rich,
+        rich_name=pad_film_name(rich),
+        position_prior=position_prior,
+        prior=prior,
+        call_time=len(bearing.pads) * CELL_TIME * math.prod(bearing.cells),
+    )
+
+
+# The films that may answer for a bearing of tilting pads, the cheapest first, and what is richer.
+
+
+TILTING_GRIDS = (((48, 4), 1e-4, 1e-3), ((96, 8), 1e-5, 2e-4), ((192, 16), 1e-6, 5e-5))
+"""Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+MAP_CALL = 2e-4
+"""About what the force of pads at rest takes by a map [s]: each is looked for in all its tilts."""
+
+LOOKS, CALLS = 60, 8
+"""Films of one pad in the search for its tilt at rest, and forces with derivatives of an equilibrium."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltingCandidate(FilmCandidate):
+    """A film of pads that may answer for a bearing of tilting ones.
+
+    Attributes
+    ----------
+    reaction : TiltingPadBearing
+        With this film.
+    rich : TiltingPadBearing
+        With the richer one.
+    """
+
+    reaction: TiltingPadBearing
+    rich: TiltingPadBearing
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One answer."""
+        return WorkUnit(f"answers of {self.name}", ("answers", self), nominal=self.time(CALLS))
+
+    def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
+        """Return none: work is timed while it is done."""
+        return {}
+
+    batch_units = units
+
+    def asked(self, equilibria: int = 1) -> tuple[Any, Callable[[], dict[WorkUnit, int]]]:
+        """Return the bearing to solve with, and a call for the work of so many equilibria."""
+        return self.reaction, lambda: {self.tangents: equilibria}
+
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
+        """Return one answer."""
+        return {self.tangents: 1}
+
+    def judged(self, *, smooth: bool, defects: int, tangents: int = 2) -> dict[WorkUnit, int]:
+        """Return one estimate."""
+        return {WorkUnit(f"estimates by {self.rich_name}", ("estimates", self)): 1}
+
+    @property
+    def speed_prior(self) -> float:
+        """Order of magnitude of the error of a threshold."""
+        return self.prior
+
+    @property
+    def is_close(self) -> bool:
+        """Return that all films of tilting pads are close enough to say that something does not exist."""
+        return True
+
+    def growth(self, at: Equilibrium, mass: float) -> float:
+        """Return the growth rate [1/s] of the least stable mode of a rigid rotor [kg] with the pads."""
+        film = settled(self.reaction, at.position, at.speed)
+        return float(film.at_rest().modes(at.position, at.speed, mass)[0].real)
+
+    def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:
+        """Return that by the richer film at its own equilibrium, and why not to trust it."""
+        moved = self.corrected(at, smooth=False)
+        return float(self.rich.at_rest().modes(moved.position, at.speed, mass)[0].real), moved.doubt
+
+    def least_film(self, bearing: TiltingPadBearing, position: Array, speed: float) -> float:
+        """Return the least film [m] over all pads, each in its tilt."""
+        return float(bearing.at_rest().pad_states(position, speed).film_thickness.min())
+
+    def corrected(self, at: Equilibrium, *, smooth: bool) -> Corrected:
+        """Return the equilibrium of the richer film; smooth slopes are those once a turn."""
+        resting = FilmCandidate(
+            name=self.name,
+            reaction=self.reaction.at_rest(),
+            rich=self.rich.at_rest(),
+            rich_name=self.rich_name,
+            position_prior=self.position_prior,
+            prior=self.prior,
+        )
+        found = corrected(resting, at, np.array(at.load), smooth=False)
+        if not smooth:
+            return found
+        pads = self.rich.at_rest().matrices(found.position, at.speed, smooth_slopes).reduced(abs(at.speed))
+        return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
+
+
+def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+    """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
+    return differenced_slopes(bearing, e, w, STEP)
+
+
+def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
+    """Return the films that can answer for a bearing of tilting pads: the map if it is there, and grids.
+
+    Parameters
+    ----------
+    bearing : TiltingPadBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    film = bearing.film
+    if fixed:
+        return (_tilting_candidate(bearing, film, pad_film_name(film), 0.0, 0.0),)
+    grids = [
+        _tilting_candidate(bearing, PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors)
+        for cells, *priors in TILTING_GRIDS
+    ]
+    if not is_pad_mappable(bearing.extent, bearing.slenderness):
+        return tuple(grids)
+    fine = _tilting_candidate(bearing, PadMapFilm(), "pad map", 2e-5, 1e-3)
+    return tuple(grids) if fine.makes_map else (fine, *grids)
+
+
+def _tilting_candidate(
+    bearing: TiltingPadBearing, film: PadFilm, name: str, position_prior: float, prior: float
+) -> TiltingCandidate:
+    making, rich, call_time = 0.0, (96, 8), MAP_CALL
+    if isinstance(film, PadGridFilm):
+        rich = 2 * film.cells[0], 2 * film.cells[1]
+        call_time = LOOKS * len(bearing.pivots) * CELL_TIME * math.prod(film.cells)
+    elif isinstance(film, PadMapFilm):
+        making = film.making_time(bearing.extent, bearing.slenderness)
+    return TiltingCandidate(
+        name=name,
+        reaction=replace(bearing, film=film),
+        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
+        position_prior=position_prior,
+        prior=prior,
+        making=making,
+        call_time=call_time,
+    )
+
+
+PAD_STATICS = [name for name in QUANTITIES if name not in ("maximum_temperature", "maximum_pressure")]
+"""Static quantities of pads: films of one temperature, of which only those with recesses tell a pressure."""
 
 
 # What bearings of fixed pads bring to scenes and questions.
 
 
-def _all(scene: Scene) -> tuple[LobedCandidate, ...]:
+def _all(scene: Scene) -> tuple[PadCandidate, ...]:
     return lobed_candidates(scene.table("lobed_journal").build(), fixed=scene.film_is_given)
 
 
-LOBED = Family(
-    table=LobedTable,
-    ladders=fixed_ladders(
-        lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
-        lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
-    ),
-    models=film_models,
-    example={
-        "lobed_journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "preset": "elliptical",
-            "assembled_clearance": "70 um",
-            "preload": 0.5,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
+LOBED = film_ladders(
+    lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
+    lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
+    PAD_STATICS,
 )
 
 
 # What pressure dams bring to scenes and questions.
 
 
-def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]:
+def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]:
     scene = settled_scene(scene) if turns else scene
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-PRESSURE_DAM = Family(
-    table=DamTable,
-    ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)),
-    models=film_models,
-    example={
-        "pressure_dam": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "pad_clearance": "80 um",
-            "depth": "140 um",
-            "end": "145 deg",
-            "share": 0.75,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
+PRESSURE_DAM = film_ladders(
+    _dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"]
 )
 
 
@@ -147,7 +428,7 @@ ORBIT_STEPS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class StatefulOrbitRung(SampledOrbitRung[TiltingCandidate]):
+class StatefulOrbitRung(OrbitRung):
     """The orbit on tilting pads of one film, by its equations over a turn."""
 
     @property
@@ -209,58 +490,10 @@ class StatefulOrbitRung(SampledOrbitRung[TiltingCandidate]):
 # What tilting pads bring to scenes and questions.
 
 
-def tilting_models(scene: Scene) -> SceneModels:
-    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
-    scene = settled_scene(scene)
-    models = film_models(scene)
-    bearing = scene.table("tilting_pad").build()
-    rest = np.array([models.start["x"], models.start["y"]])
-    pads = bearing.at_rest().pad_states(rest, scene.speed)
-    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
-    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
-
-
-TILTING = Family(
-    table=TiltingTable,
-    ladders={
-        **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
-        **dict.fromkeys(
-            ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
-        ),
-        "whirl_threshold": partial(whirl_ladder, _films, levels=False),
-    },
-    models=tilting_models,
-    example={
-        "tilting_pad": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "assembled_clearance": "70 um",
-            "preload": 0.3,
-            "pad_count": 5,
-            "loading": "between_pads",
-            "extent": "60 deg",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
-
-
-# Pads on an oil: in motion their films keep the temperature that they have at rest.
-
-
-def is_warm(scene: Scene) -> bool:
-    """Return whether the bearing of a scene runs on an oil, as warm as its films get."""
-    return bool(scene.film_table.build().is_warming)
-
-
-def settled_scene(scene: Scene) -> Scene:
-    """Return a scene whose films keep the temperature that they have with the journal at rest."""
-    if not is_warm(scene):
-        return scene
-    bearing: Any = scene.bearing
-    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
-    name = next(name for name, table in scene.others.items() if table is scene.film_table)
-    kept: Any = replace(scene.film_table, temperature=at.temperature)  # type: ignore[type-var]
-    return replace(scene, others={**scene.others, name: kept})
+TILTING = {
+    **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
+    **dict.fromkeys(
+        ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
+    ),
+    "whirl_threshold": partial(whirl_ladder, _films, levels=False),
+}

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -17,21 +19,9 @@ from ..bearings.rolling import (
     palmgren_stiffness,
     stribeck_load,
 )
-from ..core.answers import (
-    BaseRung,
-    ErrorEstimate,
-    Found,
-    Ladder,
-    Rung,
-    Work,
-    WorkUnit,
-    beside_bound,
-    relative_change,
-)
+from ..core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.rolling import (
     Balls,
     BallTable,
@@ -42,21 +32,15 @@ from ..scenes.rolling import (
     rest_near,
     rest_under,
     single_of,
-    still,
-    with_single,
+    with_law,
 )
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
-# What is asked of a shaft at rest in its ball bearing, and how far the richest law is off.
+# What is asked of a shaft at rest in its ball bearing.
 
-
-ANGLE, LAMBDA = "contact_angle", "film_parameter"
-UNITS = {"stiffness": "N/m", "axial_stiffness": "N/m", "contact_load": "N", ANGLE: "rad", LAMBDA: "1"}
-"""Quantities of ball bearings and their units."""
-
-STIFFNESSES = "stiffness", "axial_stiffness"
 
 PER_DEGREE = 4e-4
 """Relative change of a contact's stiffness per degree of its angle."""
@@ -68,14 +52,61 @@ It is 1.5 * .067 of one ball; balls under little load count more.
 """
 
 
+class BallQuantity(NamedTuple):
+    """What may be asked of a ball bearing.
+
+    Attributes
+    ----------
+    unit : str
+    value : callable
+        Takes a rest and the question, and returns the quantity.
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    yielding : float [1]
+        By how much the quantity is softer per film over approach.
+    closed_form : callable or None
+        Takes a deep groove bearing under a radial load [N], shape (2,), and returns the quantity.
+    """
+
+    unit: str
+    value: Callable[[RestingBalls, BallQuestion], Any]
+    distance: Callable[[Any, Any], float] = relative_change
+    yielding: float = 0.0
+    closed_form: Callable[[BallBearing, Array], Any] | None = None
+
+
+def palmgren(bearing: BallBearing, load: Array) -> Array:
+    """Return Palmgren's stiffness [N/m], shape (2, 2): two thirds of it across the load."""
+    size = math.hypot(*load)
+    along = palmgren_stiffness(load=size, balls=bearing.balls, ball_diameter=bearing.ball_diameter)
+    n = load / size
+    return along * (2.0 * np.eye(2) + np.outer(n, n)) / 3.0
+
+
+def stribeck(bearing: BallBearing, load: Array) -> float:
+    """Return Stribeck's largest load of a ball [N]."""
+    return stribeck_load(load=math.hypot(*load), balls=bearing.balls)
+
+
+QUANTITIES = {
+    "stiffness": BallQuantity("N/m", lambda rest, _: rest.stiffness, yielding=YIELDING, closed_form=palmgren),
+    "axial_stiffness": BallQuantity("N/m", lambda rest, _: rest.axial_stiffness, yielding=YIELDING),
+    "contact_load": BallQuantity("N", lambda rest, _: rest.contact_load, closed_form=stribeck),
+    "contact_angle": BallQuantity(
+        "rad", lambda rest, _: rest.contact_angle, lambda value, better: abs(better - value)
+    ),
+    "film_parameter": BallQuantity("1", lambda rest, asked: rest.film_parameter(asked.oil, asked.roughness)),
+}
+
+
 @dataclass(frozen=True, kw_only=True)
 class BallQuestion:
-    """What is asked of a shaft at rest in its ball bearing.
+    """What is asked of a shaft at rest in its ball bearing, and how far the richest law is off.
 
     Attributes
     ----------
     quantity : str
-        A key of `UNITS`.
+        A key of `QUANTITIES`.
     load : (float, float) [N]
     speed : float [rad/s]
     oil : RaceOil or None
@@ -90,29 +121,34 @@ class BallQuestion:
     oil: RaceOil | None
     roughness: float | None
 
-    def value(self, rest: RestingBalls) -> Array | float:
+    @property
+    def row(self) -> BallQuantity:
+        """The row of the quantity."""
+        return QUANTITIES[self.quantity]
+
+    def value(self, rest: RestingBalls) -> Any:
         """Return the quantity of a rest."""
-        if self.quantity != LAMBDA:
-            found: Array | float = getattr(rest, self.quantity)
-            return found
-        assert self.oil is not None  # a ladder without says so
-        assert self.roughness is not None
-        return rest.film_parameter(self.oil, self.roughness)
-
-    def distance(self, value: Array | float, better: Array | float) -> float:
-        """Return how far a value is from a better one, in the unit of the tolerance."""
-        if self.quantity == ANGLE:
-            return abs(float(better) - float(value))
-        return relative_change(value, better)
-
-    def own_bound(self, rest: RestingBalls) -> float:
-        """Return the error [1] of the richest law: contacts at the free angle, and films that keep thick."""
-        softer = YIELDING * rest.relative_film if self.quantity in STIFFNESSES else 0.0
-        return by_angles(rest) + softer
+        return self.row.value(rest, self)
 
     def rest(self, bearing: Balls) -> RestingBalls:
         """Return the equilibrium."""
         return rest_under(bearing, self.load, self.speed)
+
+    def own_bound(self, rest: RestingBalls) -> float:
+        """Return the error [1] of the richest law: contacts at the free angle, and films that keep thick."""
+        softer = self.row.yielding * rest.relative_film if self.row.yielding else 0.0
+        return by_angles(rest) + softer
+
+    def moved(self, bearing: Balls, value: Any, near: RestingBalls, unit: WorkUnit) -> ErrorEstimate:
+        """Return the distance of a value from what running balls, on their films, make of a rest."""
+        rich, method = with_inertia(bearing), "Newton steps with running balls"
+        if self.oil is not None:
+            dry, _ = moved_to(rich, near, self.load)
+            rich, method = on_films(dry, self.oil), f"{method} on films"
+        at, left = moved_to(rich, near, self.load)
+        doubt = "" if left <= UNBALANCED else f"running balls are too far: {left:.0%} of the load is left"
+        error = self.row.distance(value, self.value(at))
+        return beside_bound(error, self.own_bound(at), method, {unit: 1}, doubt)
 
 
 def by_angles(rest: RestingBalls) -> float:
@@ -120,6 +156,16 @@ def by_angles(rest: RestingBalls) -> float:
     free, balls, k = single_of(rest.bearing).free_contact_angle, rest.balls, rest.most_loaded
     turned = max(abs(balls.inner_angle[k] - free), abs(balls.outer_angle[k] - free))
     return PER_DEGREE * float(math.degrees(turned)) + 1e-9
+
+
+def with_inertia(bearing: Balls) -> Balls:
+    """Return a bearing with running balls; itself if it has them."""
+    return with_law(bearing, RunningBalls()) if is_static(bearing) else bearing
+
+
+def is_static(bearing: Balls) -> bool:
+    """Return whether the balls of a bearing have no inertia."""
+    return isinstance(single_of(bearing).law, StaticBalls)
 
 
 # Questions about ball bearings: closed forms, static balls, running balls, running balls on films.
@@ -136,69 +182,26 @@ UNBALANCED = 1e-3
 CLOSED = WorkUnit("closed forms of a ball bearing")
 RESTS = WorkUnit("rests of a ball bearing")
 
-
-@dataclass(frozen=True, kw_only=True)
-class BallRung(BaseRung):
-    """A rung whose error is what running balls, on their films where there is oil, make of its rest.
-
-    Attributes
-    ----------
-    bearing : BallBearing or BearingPair
-        With the law of this rung.
-    question : BallQuestion
-    """
-
-    bearing: Balls
-    question: BallQuestion
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One search for a rest."""
-        return RESTS
-
-    @property
-    def rich(self) -> Balls:
-        """The bearing with running balls; those of this rung if it has them."""
-        single = single_of(self.bearing)
-        law = RunningBalls() if isinstance(single.law, StaticBalls) else single.law
-        return with_single(self.bearing, replace(single, law=law))
-
-    def moved(self, value: Array | float, near: RestingBalls) -> ErrorEstimate:
-        """Return the distance of a value from what the richest law makes of a rest."""
-        question, rich, method = self.question, self.rich, "Newton steps with running balls"
-        if question.oil is not None:
-            dry, _ = moved_to(rich, near, question.load)
-            rich, method = on_films(dry, question.oil), f"{method} on films"
-        at, left = moved_to(rich, near, question.load)
-        doubt = "" if left <= UNBALANCED else f"running balls are too far: {left:.0%} of the load is left"
-        error = question.distance(value, question.value(at))
-        return beside_bound(error, question.own_bound(at), method, {self.unit: 1}, doubt)
+ANGLES = "contacts at their running angles"
 
 
-@dataclass(frozen=True, kw_only=True)
-class ClosedRung(BallRung):
-    """Stribeck's load and Palmgren's stiffness: a radial load, no clearance, no inertia."""
+def closed_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
+    """Return Stribeck's load and Palmgren's stiffness: a radial load, no clearance, no inertia."""
 
-    name = "closed form"
-    prior = 0.05
-    unit = CLOSED
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the closed form; InputError where there is none."""
-        bearing, load = self.bearing, math.hypot(*self.question.load)
-        if not isinstance(bearing, BallBearing) or not is_radial(bearing) or load == 0.0:
+    def answer(before: Found | None) -> Found:
+        if not isinstance(bearing, BallBearing) or not is_radial(bearing) or not any(asked.load):
             raise InputError("closed forms are for one deep groove bearing without thrust, growth and tilts")
-        if self.question.quantity == "contact_load":
-            return Found(stribeck_load(load=load, balls=bearing.balls), {CLOSED: 1})
-        if self.question.quantity != "stiffness":
-            raise InputError(f"closed forms have no {self.question.quantity}")
-        along = palmgren_stiffness(load=load, balls=bearing.balls, ball_diameter=bearing.ball_diameter)
-        n = np.array(self.question.load) / load
-        return Found(along * (2.0 * np.eye(2) + np.outer(n, n)) / 3.0, {CLOSED: 1})
+        if asked.row.closed_form is None:
+            raise InputError(f"closed forms have no {asked.quantity}")
+        return Found(asked.row.closed_form(bearing, np.array(asked.load)), {CLOSED: 1})
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the distance from running balls, found from static ones."""
-        return self.moved(found.value, self.question.rest(still(self.bearing)))
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        near = asked.rest(with_law(bearing, StaticBalls()))
+        return asked.moved(bearing, found.value, near, CLOSED)
+
+    return VariantRung(
+        name="closed form", answer=answer, estimate=estimate, expected=lambda _: {CLOSED: 1}, prior=0.05
+    )
 
 
 def is_radial(bearing: BallBearing) -> bool:
@@ -207,61 +210,42 @@ def is_radial(bearing: BallBearing) -> bool:
     return not bearing.separates and still and bearing.growth == 0.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class BallLawRung(BallRung):
-    """The rest by static or by running balls."""
+def law_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
+    """Return the rest by the law of a bearing: static or running balls."""
 
-    @property
-    def name(self) -> str:
-        """By the law."""
-        return "static balls" if isinstance(single_of(self.bearing).law, StaticBalls) else "running balls"
+    def answer(before: Found | None) -> Found:
+        rest = asked.rest(bearing)
+        return Found(asked.value(rest), {RESTS: 1}, rest)
 
-    @property
-    def is_last(self) -> bool:
-        """Whether nothing is richer."""
-        return self.bearing == self.rich and self.question.oil is None
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        if is_static(bearing) or asked.oil is not None:
+            return asked.moved(bearing, found.value, found.solution, RESTS)
+        return ErrorEstimate(asked.own_bound(found.solution), ANGLES, bound=True)
 
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity at rest."""
-        rest = self.question.rest(self.bearing)
-        return Found(self.question.value(rest), {self.unit: 1}, rest)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the distance from richer balls; without any, that of contacts at their true angles."""
-        if self.is_last:
-            return ErrorEstimate(self.question.own_bound(found.solution), ANGLES, bound=True)
-        return self.moved(found.value, found.solution)
+    name = "static balls" if is_static(bearing) else "running balls"
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {RESTS: 1})
 
 
-@dataclass(frozen=True, kw_only=True)
-class FilmsRung(BallRung):
-    """The rest by running balls whose contacts have oil films."""
+def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung:
+    """Return the rest by running balls, with the oil films of the most loaded one in all contacts."""
+    rich = with_inertia(bearing)
 
-    name = "running balls on films"
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity at rest, with the films of the most loaded ball."""
-        assert self.question.oil is not None  # a ladder has this rung only on oil
+    def answer(before: Found | None) -> Found:
         dry = before.solution if before is not None else None
-        if not isinstance(dry, RestingBalls) or dry.bearing != self.rich:
-            dry = self.question.rest(self.rich)
-        wet = rest_near(on_films(dry, self.question.oil), dry, self.question.load)
-        wet = rest_near(on_films(wet, self.question.oil), wet, self.question.load)
-        return Found(self.question.value(wet), {self.unit: 3}, (dry, wet))
+        if not isinstance(dry, RestingBalls) or dry.bearing != rich:
+            dry = asked.rest(rich)
+        wet = rest_near(on_films(dry, oil), dry, asked.load)
+        wet = rest_near(on_films(wet, oil), wet, asked.load)
+        return Found(asked.value(wet), {RESTS: 3}, (dry, wet))
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return a bound: contacts at their true angles, films at the loads of all balls."""
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         dry, wet = found.solution
-        films = film_spread(wet) * self.question.distance(self.question.value(dry), found.value)
-        error = self.question.own_bound(wet) + films
-        return ErrorEstimate(error, f"{ANGLES}, films by load", bound=True)
+        films = film_spread(wet) * asked.row.distance(asked.value(dry), found.value)
+        return ErrorEstimate(asked.own_bound(wet) + films, f"{ANGLES}, films by load", bound=True)
 
-    def expected(self, done: Work) -> Work:
-        """Return the rests that it takes."""
-        return {self.unit: 3}
-
-
-ANGLES = "contacts at their running angles"
+    return VariantRung(
+        name="running balls on films", answer=answer, estimate=estimate, expected=lambda _: {RESTS: 3}
+    )
 
 
 def film_spread(rest: RestingBalls) -> float:
@@ -271,7 +255,7 @@ def film_spread(rest: RestingBalls) -> float:
 
 
 def ball_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a quantity of a ball bearing.
+    """Return the ladder of a quantity of a ball bearing, of one rung where the scene names the law.
 
     Raises
     ------
@@ -279,66 +263,71 @@ def ball_ladder(scene: Scene, quantity: str) -> Ladder:
         If a film parameter is asked for without oil or roughness.
     """
     table: BallTable = scene.table("ball_bearing")
-    question = BallQuestion(
+    oil, bearing = table.oil if scene.speed else None, table.build()
+    asked = BallQuestion(
         quantity=quantity,
         load=scene.static_load,
         speed=scene.speed,
-        oil=table.oil if scene.speed else None,
+        oil=oil,
         roughness=table.roughness,
     )
-    if quantity == LAMBDA and (question.oil is None or question.roughness is None):
+    if quantity == "film_parameter" and (oil is None or table.roughness is None):
         raise InputError(
             f"ball_bearing must turn, with viscosity, pressure_coefficient and roughness, for {quantity}, "
             f"got {scene.speed!r} rad/s, {table.oil!r} and {table.roughness!r} m"
         )
+    rungs = [law_rung(bearing, asked)]
+    if not table.film_is_given:
+        rungs = [closed_rung(bearing, asked), law_rung(with_law(bearing, StaticBalls()), asked), *rungs]
+        rungs += [] if oil is None else [films_rung(bearing, asked, oil)]
     return Ladder(
-        rungs=rungs_of(table.build(), question, fixed=table.film_is_given),
-        unit=UNITS[quantity],
+        rungs=tuple(rungs),
+        unit=asked.row.unit,
         remarks=scene.film_remarks,
-        within=DRY if question.oil is None else WITHIN,
-        distance=question.distance,
-        assumptions=lambda: friction_moves(table.build(), question),
+        within=DRY if oil is None else WITHIN,
+        distance=asked.row.distance,
+        assumptions=partial(friction_moves, bearing, asked),
     )
 
 
-def rungs_of(bearing: Balls, question: BallQuestion, *, fixed: bool) -> tuple[Rung, ...]:
-    """Return the rungs, the cheapest first; one where the scene names the law."""
-    given = BallLawRung(bearing=bearing, question=question)
-    if fixed:
-        return (given,)
-    rungs: tuple[Rung, ...] = (
-        ClosedRung(bearing=bearing, question=question),
-        BallLawRung(bearing=still(bearing), question=question),
-        given,
-    )
-    return rungs if question.oil is None else (*rungs, FilmsRung(bearing=bearing, question=question))
+# What is assumed of the friction of balls.
 
 
-def friction_moves(bearing: Balls, question: BallQuestion) -> tuple[str, ...]:
+NOTABLE_FRICTION = 1e-3
+"""Change of an answer by what is assumed of friction, from which it is told."""
+
+
+def friction_moves(bearing: Balls, asked: BallQuestion) -> tuple[str, ...]:
     """Return how much it moves the answer what is taken for the friction of running balls, if that counts.
 
     Traction coefficient and slide-to-roll ratio are halved and doubled; under race control, the other race
-    controls.
+    controls. What has no rest with other friction is told too.
     """
-    single = single_of(bearing)
-    if question.speed == 0.0 or isinstance(single.law, StaticBalls):
+    law = single_of(bearing).law
+    if asked.speed == 0.0 or isinstance(law, StaticBalls):
         return ()
+    others = other_friction(law)
+    known, *moved = (value_or_none(with_law(bearing, one), asked) for one in (law, *others))
+    if known is None:
+        return ()
+    changes = [asked.row.distance(known, value) for value in moved if value is not None]
+    lost = len(others) - len(changes)
+    if not lost and max(changes) < NOTABLE_FRICTION:
+        return ()
+    by = f"by {max(changes):.1%}" if changes else "by an amount that is not known"
+    without = f"; with {lost} of {len(others)} such changes there is no rest" if lost else ""
+    if isinstance(law, RunningBalls):
+        return (f"friction of balls: half or double its numbers would change it {by}{without}",)
+    which = "outer" if law.outer_control else "inner"
+    return (f"{which} race control: control by the other race would change it {by}{without}",)
+
+
+def value_or_none(bearing: Balls, asked: BallQuestion) -> Any:
+    """Return the quantity in a bearing; None where it has no rest."""
     try:
-        known = question.value(question.rest(bearing))
-        change = max(
-            question.distance(
-                known, question.value(question.rest(with_single(bearing, replace(single, law=law))))
-            )
-            for law in other_friction(single.law)
-        )
+        return asked.value(asked.rest(bearing))
     except RotorfilmError:
-        return ()
-    if change < 1e-3:
-        return ()
-    if isinstance(single.law, RunningBalls):
-        return (f"friction of balls: half or double its numbers would change it by {change:.1%}",)
-    which = "outer" if single.law.outer_control else "inner"
-    return (f"{which} race control: control by the other race would change it by {change:.1%}",)
+        return None
 
 
 def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceControl]:
@@ -352,24 +341,4 @@ def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceC
     ]
 
 
-# What ball bearings by their dimensions bring to scenes and questions.
-
-
-FAMILY = Family(
-    table=BallTable,
-    ladders=dict.fromkeys(UNITS, ball_ladder),
-    models=film_models,
-    example={
-        "ball_bearing": {
-            "balls": 16,
-            "ball_diameter": "7.938 mm",
-            "pitch_diameter": "46.5 mm",
-            "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride",
-            "arrangement": "back_to_back",
-            "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-)
+LADDERS = dict.fromkeys(QUANTITIES, ball_ladder)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -71,8 +71,8 @@ class DamperFilm:
     name : str
     shape : PorousDamper
         The damper with a short film, and the cage that this rung knows.
-    law : SqueezeLaw
-        The film.
+    law : SqueezeLaw or None
+        The film; None for the one of `conserved`.
     rich_shape : PorousDamper
         The damper with a short film and its whole cage.
     rich_law : SqueezeLaw or None
@@ -80,122 +80,91 @@ class DamperFilm:
     prior : float [1]
         Order of magnitude of the error of its force; 0 if unknown.
     conserved : JFODamper or None
-        The damper that conserves its oil, where the scene has its supply: it is richer than all of these.
+        The damper without springs that conserves its oil, where the scene has its supply: it is richer than
+        all of these, and judged itself by one on twice as fine a grid.
+    frequency : float or None [rad/s]
+        With which the rotor whirls, of a film between seals or with inertia: what the richest one leaves out
+        is estimated at that, and has no bound.
     """
 
     name: str
     shape: PorousDamper
-    law: SqueezeLaw
+    law: SqueezeLaw | None
     rich_shape: PorousDamper
     rich_law: SqueezeLaw | None
     prior: float
     conserved: JFODamper | None = None
-
-    @property
-    def is_fed(self) -> bool:
-        """Whether the force has a part that comes from a feed."""
-        return self.shape.is_fed
+    frequency: float | None = None
 
     @property
     def makes_map(self) -> bool:
         """Whether the damper is made with a map, which takes seconds."""
         return isinstance(self.law, FiniteMapSqueeze)
 
-    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
-        """Return the verified error of its force [1], the same everywhere; infinite where there is none."""
-        return math.inf if self.conserved is not None else TOP_BOUNDS.get(type(self.law), math.inf)
+    @property
+    def bound(self) -> float:
+        """Verified error of its force [1], the same everywhere; infinite where there is none."""
+        judged = self.conserved is not None or self.frequency is not None
+        return math.inf if judged else TOP_BOUNDS.get(type(self.law), math.inf)
 
     def prepare(self) -> dict[WorkUnit, int]:
         """Return the work of making the damper, which its first use makes."""
         return {MAP_MADE: 1} if self.makes_map else {}
 
     @property
+    def tangents(self) -> WorkUnit:
+        """One force of this film with derivatives."""
+        return WorkUnit(f"tangents of {self.name}", ("tangents", self))
+
+    @property
     def rich_work(self) -> dict[WorkUnit, int]:
         """Work of making the richer one."""
-        if self.conserved is not None:
-            return {}
-        return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
+        made = self.conserved is None and isinstance(self.rich_law, FiniteMapSqueeze)
+        return {RICH_MADE: 1} if made else {}
 
     @cached_property
-    def reaction(self) -> PorousDamper:
-        """The damper with its film."""
-        return with_changes(self.shape, film=self.law)
+    def reaction(self) -> Any:
+        """The damper with its film; one that conserves its oil, on circular orbits."""
+        if self.law is not None:
+            return with_changes(self.shape, film=self.law)
+        assert self.conserved is not None
+        return ExtrapolatedDamper(damper=self.conserved)
 
     @cached_property
     def rich(self) -> PorousDamper | ExtrapolatedDamper | JudgedDamper | None:
-        """The damper with the richer film."""
+        """The damper with the richer film, and what the richest of all leaves out."""
         if self.conserved is not None:
-            return ExtrapolatedDamper(damper=self.conserved)
-        return None if self.rich_law is None else with_changes(self.rich_shape, film=self.rich_law)
+            around, along = self.conserved.cells
+            finer = self.conserved if self.law else replace(self.conserved, cells=(2 * around, 2 * along))
+            return ExtrapolatedDamper(damper=finer)
+        if self.rich_law is None:
+            return None
+        damper = with_changes(self.rich_shape, film=self.rich_law)
+        return damper if self.frequency is None else JudgedDamper(damper=damper, frequency=self.frequency)
 
     @cached_property
-    def moving(self) -> PorousDamper:
-        """The damper on the map of its film, where it has one: a motion takes thousands of forces."""
-        return with_changes(self.shape, film=_mapped(self.law, self.shape))
+    def moving(self) -> PorousDamper | ExtrapolatedDamper:
+        """The damper on the map of its film, where it has one: a motion takes thousands of forces.
+
+        One that conserves its oil on half as many lines and cells, for searches through hundreds of orbits.
+        """
+        if self.law is None:
+            return ExtrapolatedDamper(damper=self.reaction.coarser)
+        if self.frequency is None:
+            return with_changes(self.shape, film=_mapped(self.law, self.shape))
+        return with_changes(self.shape, film=MapSqueeze() if isinstance(self.law, ShortSqueeze) else self.law)
 
     @cached_property
-    def rich_moving(self) -> PorousDamper | JudgedDamper | None:
+    def rich_moving(self) -> Any:
         """The richer damper on its map."""
+        if self.frequency is not None:
+            return self.rich
         if self.rich_law is None:
             return None
         return with_changes(self.rich_shape, film=_mapped(self.rich_law, self.rich_shape))
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConservedDamperFilm:
-    """The damper that conserves its oil as a film that may answer, judged by one on twice as fine a grid.
-
-    Attributes
-    ----------
-    name : str
-    damper : JFODamper
-        Without springs.
-    prior : float [1]
-        0: nothing is known beforehand.
-    """
-
-    name: str
-    damper: JFODamper
-    prior: float = 0.0
-
-    @property
-    def law(self) -> None:
-        """None: it is no film law of another damper."""
-
-    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
-        """Return infinity: it has no verified error."""
-        return math.inf
-
-    def prepare(self) -> dict[WorkUnit, int]:
-        """Return no work: there is nothing to make."""
-        return {}
-
-    @property
-    def rich_work(self) -> dict[WorkUnit, int]:
-        """No work either."""
-        return {}
-
-    @cached_property
-    def reaction(self) -> ExtrapolatedDamper:
-        """The damper on circular orbits."""
-        return ExtrapolatedDamper(damper=self.damper)
-
-    @cached_property
-    def moving(self) -> ExtrapolatedDamper:
-        """The same on half as many lines and cells, for searches through hundreds of orbits."""
-        return ExtrapolatedDamper(damper=self.reaction.coarser)
-
-    @cached_property
-    def rich(self) -> ExtrapolatedDamper:
-        """The damper on twice as many lines and cells."""
-        around, along = self.damper.cells
-        return ExtrapolatedDamper(damper=replace(self.damper, cells=(2 * around, 2 * along)))
-
-
-AnyDamperFilm = DamperFilm | ConservedDamperFilm
-
-
-def damper_films(table: DamperTable) -> tuple[AnyDamperFilm, ...]:
+def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     """Return the films that can answer for an orbit, the cheapest first; one that a scene names alone.
 
     With a supply the short film, judged by the film that conserves its oil, and that film, which takes less
@@ -219,7 +188,8 @@ def damper_films(table: DamperTable) -> tuple[AnyDamperFilm, ...]:
     if table.film is not None:
         return tuple(judged)
     quick = [film for film in judged if not film.makes_map]
-    return (*quick, ConservedDamperFilm(name="conserved oil", damper=damper))
+    own = replace(plain[0], name="conserved oil", law=None, rich_law=None, prior=0.0, conserved=damper)
+    return (*quick, own)
 
 
 def plain_films(table: DamperTable) -> tuple[DamperFilm, ...]:
@@ -320,41 +290,7 @@ def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: 
 NO_INERTIA = ", no inertia"
 
 
-@dataclass(frozen=True, kw_only=True)
-class BuiltDamperFilm(DamperFilm):
-    """A film between seals, or with inertia, that may answer.
-
-    Attributes
-    ----------
-    speed : float [rad/s]
-        Of the rotor, with which it whirls.
-    """
-
-    speed: float
-
-    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
-        """Return infinity: what it leaves out is estimated, not bounded."""
-        return math.inf
-
-    @cached_property
-    def rich(self) -> JudgedDamper:
-        """The damper with the richest film, and what that leaves out."""
-        damper = with_changes(self.rich_shape, film=self.rich_law)
-        return JudgedDamper(damper=damper, frequency=abs(self.speed))
-
-    @cached_property
-    def moving(self) -> PorousDamper:
-        """The damper on the map of its film, where it has one."""
-        law = MapSqueeze() if isinstance(self.law, ShortSqueeze) else self.law
-        return with_changes(self.shape, film=law)
-
-    @cached_property
-    def rich_moving(self) -> JudgedDamper:
-        """The same as on orbits."""
-        return self.rich
-
-
-def orbit_films(table: DamperTable, rotor: RigidRotor) -> tuple[AnyDamperFilm, ...]:
+def orbit_films(table: DamperTable, rotor: RigidRotor) -> tuple[DamperFilm, ...]:
     """Return the films that can answer for the orbits of a rotor at one speed, the cheapest first.
 
     Raises
@@ -372,7 +308,7 @@ def orbit_films(table: DamperTable, rotor: RigidRotor) -> tuple[AnyDamperFilm, .
 
 
 @quiet()
-def built_films(table: DamperTable, speed: float) -> tuple[BuiltDamperFilm, ...]:
+def built_films(table: DamperTable, speed: float) -> tuple[DamperFilm, ...]:
     """Return the films of a damper with seals or inertia, the cheapest first; one that a scene names alone.
 
     Parameters
@@ -390,14 +326,14 @@ def built_films(table: DamperTable, speed: float) -> tuple[BuiltDamperFilm, ...]
     laws = [law for law in _laws(table) if table.film is None] or [_named(table)]
     shapes = {NO_INERTIA: with_changes(whole, density=0.0), "": whole} if table.density else {"": whole}
     return tuple(
-        BuiltDamperFilm(
+        DamperFilm(
             name=f"{name}{inertia}",
             shape=shape,
             law=law,
             rich_shape=whole,
             rich_law=_richest(table, law),
             prior=0.02 * min(whole.slenderness**2, 1.0) if isinstance(law, ShortSqueeze) else 0.0,
-            speed=speed,
+            frequency=abs(speed),
         )
         for name, law in laws
         for inertia, shape in shapes.items()

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,7 +34,7 @@ from ..core.errors import RotorfilmError
 from ..core.model import Reaction
 from ..core.results import Coefficients, Equilibrium
 from ..core.units import CELSIUS
-from .film_rungs import RestedJournal
+from .film_rungs import RestedJournal, maximum_pressure
 
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
@@ -57,6 +57,8 @@ class WarmRest(RestedJournal):
     supply_temperature : float [K]
     field : ndarray or None [K]
         Temperature of the oil, cell by cell; None of one temperature.
+    pressure : callable or None
+        Returns the largest pressure in a film with a field [Pa].
     """
 
     rest: Equilibrium
@@ -67,11 +69,19 @@ class WarmRest(RestedJournal):
     maximum_temperature: float
     supply_temperature: float
     field: ArrayLike | None = None
+    pressure: Callable[[], float] | None = None
 
     @property
     def at(self) -> Equilibrium:  # type: ignore[override]
         """The rest."""
         return self.rest
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        if self.pressure is not None:
+            return self.pressure()
+        return maximum_pressure(self.reaction, self.rest.position, self.rest.speed)
 
     @property
     def losses(self) -> WarmRest:
@@ -171,6 +181,7 @@ def rest_of_state(
         maximum_temperature=state.maximum_temperature,
         supply_temperature=supply,
         field=state.oil_temperature,
+        pressure=lambda: float(np.max(state.pressure)),
     )
 
 
@@ -295,13 +306,19 @@ class HeatSteps:
         return np.asarray(self.own.field)[..., None]
 
     def _moved(self, found: WarmRest, here: Equilibrium) -> WarmRest:
-        """Return a step with power and flow, which are those before its move, changed as T1's by the move."""
+        """Return a step with what is known before its move, changed as T1's by the move."""
         own = self.bearing.at_temperature(self.own.temperature)
         before, after = (own.losses(q, np.zeros(2), here.speed) for q in (here.position, found.rest.position))
         assert before is not None  # a balance has them
         assert after is not None
+
+        def pressure() -> float:
+            before, after = (maximum_pressure(own, one.position, here.speed) for one in (here, found.rest))
+            return found.maximum_pressure * after / before
+
         return replace(
             found,
+            pressure=pressure,
             power_loss=found.power_loss * float(after.power_loss) / float(before.power_loss),
             side_flow=found.side_flow * float(after.side_flow) / float(before.side_flow),
         )
@@ -328,22 +345,33 @@ def heat_error(
     return HeatError(error, False) if error >= unsure else HeatError(error + unsure, True)
 
 
-class _Judge(Protocol):
-    @property
-    def value(self) -> Callable[[WarmRest], Any]: ...
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RestJudge:
+    """What judges rests under one load at one speed: by the distance of the values that they have.
 
-    @property
-    def distance(self) -> Callable[[Any, Any], float]: ...
+    Attributes
+    ----------
+    load : (float, float) [N]
+    speed : float [rad/s]
+    value : callable
+        Takes a rest and returns the quantity.
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    moving : callable
+        Takes the bearing and returns the error by heat that moves with the journal; 0 of one at rest.
+    """
 
+    load: tuple[float, float]
+    speed: float
+    value: Callable[[Any], Any]
+    distance: Callable[[Any, Any], float]
+    moving: Callable[[Any], float] = lambda bearing: 0.0
 
-class JudgedRest:
-    """What judges rests by the `value` of each, and by the `distance` of one value from a better one."""
-
-    def apart(self: _Judge, own: WarmRest, other: WarmRest) -> float:
+    def apart(self, own: Any, other: Any) -> float:
         """Return how far the quantity of one rest is from that of a better one."""
         return self.distance(self.value(own), self.value(other))
 
-    def error(self: _Judge, own: WarmRest, steps: HeatSteps) -> HeatError:
+    def error(self, own: Any, steps: HeatSteps) -> HeatError:
         """Return how far the quantity of a rest is off by heat."""
         start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
         coarse, fine, long = bases

@@ -378,8 +378,10 @@ class RestingBalls:
         approach = sum(one.approach(load) for one, load in zip(single.contacts, means, strict=True))
         return sum(single.films) / approach
 
-    def film_parameter(self, oil: RaceOil, roughness: float) -> float:
-        """Return lambda [1], the smallest film thickness over the roughness [m]."""
+    def film_parameter(self, oil: RaceOil | None, roughness: float | None) -> float:
+        """Return lambda [1], the smallest film over the roughness [m]; nan where one is not known."""
+        if oil is None or roughness is None or self.speed == 0.0:
+            return math.nan
         return film_parameter(
             single_of(self.bearing), self.balls, speed=self.speed, **oil._asdict(), roughness=roughness
         )
@@ -390,9 +392,15 @@ def single_of(bearing: Balls) -> BallBearing:
     return bearing.bearing if isinstance(bearing, BearingPair) else bearing
 
 
-def with_single(bearing: Balls, single: BallBearing) -> Balls:
-    """Return a bearing, or a pair, made of another single bearing."""
+def with_single(bearing: Balls, **changes: Any) -> Balls:
+    """Return a bearing, or a pair, whose single bearing is changed."""
+    single = replace(single_of(bearing), **changes)
     return replace(bearing, bearing=single) if isinstance(bearing, BearingPair) else single
+
+
+def with_law(bearing: Balls, law: StaticBalls | RunningBalls | RaceControl) -> Balls:
+    """Return a bearing with another law of its balls."""
+    return with_single(bearing, law=law)
 
 
 def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
@@ -423,8 +431,9 @@ def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> Resti
     """
     free = not any(load)
     try:
-        place = np.zeros(2) if free else equilibrium(still(bearing), load, speed).position
-        near = rest_at(still(bearing), place, speed)
+        still = with_law(bearing, StaticBalls())
+        place = np.zeros(2) if free else equilibrium(still, load, speed).position
+        near = rest_at(still, place, speed)
         found, left = moved_to(bearing, near, load)
     except RotorfilmError:
         left = math.inf
@@ -433,11 +442,6 @@ def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> Resti
             "load must not be zero for balls that neither thrust nor preload centers, got [0, 0]"
         )
     return found if left <= EXACT else rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
-
-
-def still(bearing: Balls) -> Balls:
-    """Return a bearing with static balls."""
-    return with_single(bearing, replace(single_of(bearing), law=StaticBalls()))
 
 
 def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> tuple[RestingBalls, float]:
@@ -461,10 +465,9 @@ def rest_near(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> 
 
 def on_films(near: RestingBalls, oil: RaceOil) -> Balls:
     """Return the bearing of a rest with the oil films of its most loaded ball in all contacts."""
-    single = single_of(near.bearing)
     load = float(near.balls.inner_load.max())
-    films = ball_films(single, load=load, speed=near.speed, **oil._asdict())
-    return with_single(near.bearing, replace(single, films=films))
+    films = ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
+    return with_single(near.bearing, films=films)
 
 
 # What the physics of ball bearings leaves out, judged by numbers of a rest.
@@ -526,18 +529,17 @@ def ball_numbers(rest: RestingBalls, oil: RaceOil | None, roughness: float | Non
         film_parameter : lambda, nan without oil and roughness.
     """
     balls, bearing = rest.balls, rest.bearing
-    idle = _idle(rest)
+    idle, is_pair = _idle(rest), isinstance(bearing, BearingPair)
     traction, most = float(balls.traction.max()), bearing.running[0].most_traction
-    known = oil is not None and roughness is not None and rest.speed != 0.0
     return {
         "traction": traction,
         "most_traction": most,
         "sliding": traction / most,
         "lifted": float(idle.sum()),
         "all": float(idle.size),
-        "idle_rows": float(_idle_rows(bearing, idle)),
+        "idle_rows": float(sum(row.all() for row in np.split(idle, 2))) if is_pair else 0.0,
         "neglected_inertia": _neglected(bearing, rest),
-        "film_parameter": rest.film_parameter(oil, roughness) if known else float("nan"),  # type: ignore[arg-type]
+        "film_parameter": rest.film_parameter(oil, roughness),
     }
 
 
@@ -553,30 +555,20 @@ def ball_remarks(
         return said(REMARKS, ball_numbers(rest, oil, roughness))
 
 
-def _presses_all(bearing: Balls) -> bool:
-    preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
-    return preloaded or (single_of(bearing).separates and bearing.axial_load is not None)
-
-
 def _idle(rest: RestingBalls) -> Array:
     """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
-    if not _presses_all(rest.bearing):
+    bearing = rest.bearing
+    preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
+    if not (preloaded or (single_of(bearing).separates and bearing.axial_load is not None)):
         return np.zeros(rest.balls.inner_load.size, dtype=bool)
-    pressed = still(rest.bearing).loads(rest.displacement).inner_load
+    pressed = with_law(bearing, StaticBalls()).loads(rest.displacement).inner_load
     return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
-
-
-def _idle_rows(bearing: Balls, idle: Array) -> int:
-    if not isinstance(bearing, BearingPair):
-        return 0
-    return sum(bool(row.all()) for row in np.split(idle, 2))
 
 
 def _neglected(bearing: Balls, rest: RestingBalls) -> float:
     """Return the centrifugal force that static balls do not have, over the largest contact load."""
-    single = single_of(bearing)
-    if not isinstance(single.law, StaticBalls):
+    if not isinstance(single_of(bearing).law, StaticBalls):
         return 0.0
-    running = with_single(bearing, replace(single, law=RunningBalls()))
+    running = with_law(bearing, RunningBalls())
     centrifugal = running.loads(rest.displacement, rest.speed).centrifugal_force.max()
     return float(centrifugal / rest.contact_load)

@@ -14,37 +14,17 @@ if TYPE_CHECKING:
         usual_bearing as usual_bearing,
     )
     from .bearing_types import (
-        BearingCoefficients as BearingCoefficients,
-        BearingThresholds as BearingThresholds,
-        BearingType as BearingType,
-        TypeCoefficients as TypeCoefficients,
-        TypeThresholds as TypeThresholds,
-        WhirlOutcome as WhirlOutcome,
+        WHIRL_OUTCOMES as WHIRL_OUTCOMES,
         bearing_coefficients as bearing_coefficients,
         bearing_thresholds as bearing_thresholds,
         bearing_types as bearing_types,
     )
-    from .bush_tiers import (
-        ShaftFluxError as ShaftFluxError,
-        bush_tiers as bush_tiers,
-        shaft_flux_errors as shaft_flux_errors,
-    )
-    from .contact_cases import contact_cases as contact_cases
-    from .contact_precision import contact_limits as contact_limits, contact_precision as contact_precision
-    from .coupling_cost import (
-        CouplingLimits as CouplingLimits,
-        LimitRow as LimitRow,
-        coupling_cost as coupling_cost,
-        coupling_limits as coupling_limits,
-    )
-    from .damper_accuracy import (
-        SqueezeFamily as SqueezeFamily,
-        damper_accuracy as damper_accuracy,
-        damper_rungs as damper_rungs,
-    )
+    from .bush_tiers import bush_tiers as bush_tiers
+    from .contact_precision import contact_precision as contact_precision, decay_time as decay_time
+    from .coupling_cost import coupling_cost as coupling_cost, coupling_limits as coupling_limits
+    from .damper_accuracy import damper_accuracy as damper_accuracy
     from .heat_accuracy import (
         HEAT_CASES as HEAT_CASES,
-        HeatAnswer as HeatAnswer,
         HeatCase as HeatCase,
         HeatModel as HeatModel,
         heat_accuracy as heat_accuracy,
@@ -60,25 +40,15 @@ if TYPE_CHECKING:
         random_states as random_states,
         reference_force as reference_force,
     )
-    from .journal_stability import (
-        JournalStability as JournalStability,
-        RungStability as RungStability,
-        journal_stability as journal_stability,
-    )
-    from .limits_atlas import limits_atlas as limits_atlas
-    from .limits_journal import (
-        Limit as Limit,
-        LimitAtlas as LimitAtlas,
+    from .journal_stability import journal_stability as journal_stability
+    from .limits_atlas import (
         Panel as Panel,
         failures as failures,
+        limit_curves as limit_curves,
+        limits_atlas as limits_atlas,
     )
-    from .pad_accuracy import (
-        PadFamily as PadFamily,
-        pad_accuracy as pad_accuracy,
-        pad_rungs as pad_rungs,
-    )
+    from .pad_accuracy import pad_accuracy as pad_accuracy, pad_rungs as pad_rungs
     from .study import (
-        FilmCase as FilmCase,
         States as States,
         Study as Study,
         StudyCase as StudyCase,

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
@@ -32,7 +32,6 @@ from ..bearings.bush import (
 )
 from ..core.model import Array, Dynamic
 from ..core.progress import Report, silent
-from ..core.readable import Readable
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
 
 HEAT = 1e8
@@ -51,25 +50,6 @@ COOLINGS = tuple(np.linspace(0.02, 0.3, 15).tolist())
 
 STUBBINESSES = (0.1, 0.25, 0.5, 1.0)
 """Shaft radius / half length of the bush."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ShaftFluxError(Readable):
-    """Relative error of the closed form (2.13) of the heat into the shaft at one pair of its numbers.
-
-    Attributes
-    ----------
-    cooling : float [1]
-        Biot number of the shaft, air_transfer radius / conductivity.
-    stubbiness : float [1]
-        Radius of the shaft / half length of the bush.
-    error : float [1]
-        Relative.
-    """
-
-    cooling: float
-    stubbiness: float
-    error: float
 
 
 BUSH = Study(
@@ -105,24 +85,21 @@ def bush_tiers(
     exact = two_moments(bush, times, **TIGHT)
     worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
     local = replace(worn, nodes=max(nodes), melting=LocalMelting())
+    runs: dict[str, dict[str, Callable[[], Array]]] = {
+        "two moments": {"two moments": lambda: two_moments(bush, times, **USUAL)},
+        "BushWear": {"BushWear": lambda: _one_state(bush, times)},
+        "BushReaction": {
+            f"BushReaction, {n} nodes": partial(worn_run, times, replace(worn, nodes=n)) for n in nodes
+        },
+        "LocalMelting: another law": {
+            f"LocalMelting, {local.nodes} nodes": lambda: worn_run(times, local),
+        },
+        "as published": {f"as published, {n} steps": partial(published_run, bush, times, n) for n in steps},
+    }
     models = [
-        _tier("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
-        _tier("BushWear", "BushWear", lambda: _one_state(bush, times)),
-        *(
-            _tier(
-                "BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n))
-            )
-            for n in nodes
-        ),
-        _tier(
-            "LocalMelting: another law",
-            f"LocalMelting, {local.nodes} nodes",
-            lambda: worn_run(times, local),
-        ),
-        *(
-            _tier("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
-            for n in steps
-        ),
+        StudyModel(name=name, family=family, law=run)
+        for family, tiers in runs.items()
+        for name, run in tiers.items()
     ]
     return run_study(
         BUSH,
@@ -133,32 +110,29 @@ def bush_tiers(
     )
 
 
-def _tier(family: str, name: str, run: Callable[[], Array]) -> StudyModel:
-    return StudyModel(name=name, family=family, law=run)
-
-
-def shaft_columns(rows: Sequence[ShaftFluxError]) -> dict[str, list[object]]:
-    """Return the errors of the closed form as columns of a table."""
-    return {
-        "cooling [1]": [row.cooling for row in rows],
-        "stubbiness [1]": [row.stubbiness for row in rows],
-        "error of the closed form [1]": [row.error for row in rows],
-    }
-
-
 def shaft_flux_errors(
     coolings: Sequence[float] = COOLINGS, stubbinesses: Sequence[float] = STUBBINESSES
-) -> tuple[ShaftFluxError, ...]:
-    """Return the error of the closed form (2.13) against the mixed problem, for all pairs."""
-    return tuple(
-        ShaftFluxError(
-            cooling=cooling,
-            stubbiness=stubbiness,
-            error=approximate_flux(cooling, stubbiness) / exact_flux(cooling, stubbiness) - 1.0,
-        )
-        for stubbiness in stubbinesses
-        for cooling in coolings
-    )
+) -> dict[str, list[float]]:
+    """Return the error of the closed form (2.13) of the heat into the shaft, for all pairs of its numbers.
+
+    Parameters
+    ----------
+    coolings : sequence of float [1]
+        Biot numbers of the shaft, air_transfer radius / conductivity.
+    stubbinesses : sequence of float [1]
+        Radius of the shaft / half length of the bush.
+
+    Returns
+    -------
+    dict of str to list of float
+        Columns of a table; the error is relative to the mixed problem.
+    """
+    pairs = [(cooling, stubbiness) for stubbiness in stubbinesses for cooling in coolings]
+    return {
+        "cooling [1]": [cooling for cooling, _ in pairs],
+        "stubbiness [1]": [stubbiness for _, stubbiness in pairs],
+        "error of the closed form [1]": [approximate_flux(*pair) / exact_flux(*pair) - 1.0 for pair in pairs],
+    }
 
 
 def two_moments(bush: MeltingBush, times: Array, *, rtol: float, atol: float) -> Array:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
+from functools import partial
 from time import process_time
-from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -12,6 +14,9 @@ from scipy.interpolate import CubicSpline
 from ..bearings.contact import (
     HERTZ_LOAD,
     AdaptiveSteps,
+    ContactGrid,
+    ContactLaw,
+    ContactRun,
     ContactScheme,
     ContactState,
     FixedSteps,
@@ -19,16 +24,18 @@ from ..bearings.contact import (
     SineLoad,
     SmallMotion,
     StaggeredScheme,
-    StepLoad,
     UpwindScheme,
     reduce_contact,
     ride,
 )
-from ..core.errors import ConvergenceError
+from ..core.errors import ValidityWarning
 from ..core.model import Array
-from ..core.progress import Report, part_of, silent
-from .contact_cases import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
+from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
+
+SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
+PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
+"""Of the cases of Panovko (2011), section 4."""
 
 LOAD = SineLoad(amplitude=0.5, frequency=2.0)
 INERTIA = 1.0
@@ -116,16 +123,14 @@ def _full_models(cells: int, duration: float) -> Iterator[StudyModel]:
 def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterator[StudyModel]:
     contact = published_contact(cells, UpwindScheme())
     for order in orders:
-        law = reduce_contact(contact, order)
-
-        def run(law=law) -> Series:  # type: ignore[no-untyped-def]
-            motion = ride(
-                law, mass=INERTIA / HERTZ_LOAD, load=LOAD, start=law.operating, duration=duration,
-                samples=401, rtol=1e-4,
-            )  # fmt: skip
-            return motion.time, motion["z"]
-
+        run = partial(_ridden, reduce_contact(contact, order), duration)
         yield _model("reduced law", f"order {order}", run, RIDES)
+
+
+def _ridden(law: ContactLaw, duration: float) -> Series:
+    mass = INERTIA / HERTZ_LOAD
+    motion = ride(law, mass=mass, load=LOAD, start=law.operating, duration=duration, samples=401, rtol=1e-4)
+    return motion.time, motion["z"]
 
 
 def _full(
@@ -142,79 +147,35 @@ def _full(
     return run
 
 
-# Where the published scheme of a rolling ball fails: load steps it cannot take, decay it makes up itself.
+def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
+    """Return the contact of the published cases on cells x cells."""
+    grid = ContactGrid(cells=(cells, cells))
+    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
 
 
-STEPS = (0.05, 0.1, 0.2, 0.5, 1.0)
-AMPLITUDES = (0.7, 1.5, 3.0, 5.0, 8.0)
-INERTIAS = (0.1, 0.3, 0.5, 1.0, 3.0)
-SPAN = 4.0
-"""Time after a load step within which a run has to hold."""
+def as_published() -> AbstractContextManager[object]:
+    """Silence what the published scheme is warned of: that its pressure alternates."""
+    return warnings.catch_warnings(action="ignore", category=ValidityWarning)
+
+
+# Numbers that describe a motion of a ball: the decay of its oscillation, in a run and by the equations.
+
+
+SMALLEST_PEAK = 1e-4
+"""Peaks of delta below which a decay is lost in the errors of the steps."""
 
 STIFFNESS = 1.57
 """Static stiffness of the contact, from which the search for its natural motion starts."""
 
 
-class ContactLimits(NamedTuple):
-    """Where implicit Euler with fixed steps on the published grid ends, and what it does to the decay.
-
-    Attributes
-    ----------
-    steps, load_steps, inertias : tuple of float
-        Lengths of the steps; load steps at W = 1; inertias W.
-    reached : ndarray, shape (steps, load_steps)
-        Time after the load step at which the run failed, infinite if it did not.
-    physical : ndarray, shape (inertias,)
-        Decay time of small oscillations by the linearized equations.
-    shown : ndarray, shape (steps, inertias)
-        Decay time that the scheme shows.
-    """
-
-    steps: tuple[float, ...]
-    load_steps: tuple[float, ...]
-    inertias: tuple[float, ...]
-    reached: np.ndarray
-    physical: np.ndarray
-    shown: np.ndarray
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return both maps as one table; no time of failure where a run holds, dt = 0 for the equations."""
-        rows = [
-            ("load step", step, a, float(self.reached[i, j]) if np.isfinite(self.reached[i, j]) else None)
-            for i, step in enumerate(self.steps)
-            for j, a in enumerate(self.load_steps)
-        ]
-        rows += [
-            ("decay time", step, W, float(self.shown[i, j]))
-            for i, step in enumerate(self.steps)
-            for j, W in enumerate(self.inertias)
-        ]
-        rows += [
-            ("decay time", 0.0, W, float(time)) for W, time in zip(self.inertias, self.physical, strict=True)
-        ]
-        headings = ("map", "dt", "amplitude or W", "time of failure or decay time")
-        return dict(zip(headings, map(list, zip(*rows, strict=True)), strict=True))
-
-
-def contact_limits(
-    cells: int = PUBLISHED_CELLS,
-    steps: Sequence[float] = STEPS,
-    amplitudes: Sequence[float] = AMPLITUDES,
-    inertias: Sequence[float] = INERTIAS,
-    report: Report = silent,
-) -> ContactLimits:
-    """Return the limits of the published scheme on its grid, or one of `cells` x `cells`; a minute."""
-    contact = published_contact(cells, StaggeredScheme())
-    with as_published():
-        rest = contact.stationary()
-    s = natural_motions(contact, rest, inertias, part_of(report, 0.0, 0.3))
-    reached = np.full((len(steps), len(amplitudes)), np.inf)
-    for i, step in enumerate(steps):
-        for j, amplitude in enumerate(amplitudes):
-            report(0.3 + 0.7 * (i + j / len(amplitudes)) / len(steps), f"dt = {step:g}, A = {amplitude:g}")
-            reached[i, j] = _reached(contact, rest, step, amplitude)
-    shown = np.array([step / np.log(np.abs(1.0 - step * s)) for step in steps])
-    return ContactLimits(tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown)
+def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
+    """Return the time in which delta's oscillation about `rest` falls by e, from its peaks; 0 if none."""
+    spline = CubicSpline(run.time, run.delta - rest)
+    peaks = spline.derivative().roots(extrapolate=False)
+    peaks = peaks[(peaks > begin) & (peaks < end)]
+    height = np.abs(spline(peaks))
+    peaks, height = peaks[height > SMALLEST_PEAK], height[height > SMALLEST_PEAK]
+    return float(-1.0 / np.polyfit(peaks, np.log(height), 1)[0]) if len(peaks) > 1 else 0.0
 
 
 def natural_motions(
@@ -227,13 +188,3 @@ def natural_motions(
         report(number / len(inertias), f"natural motion, W = {W:g}")
         found.append(small.natural_motion(W, 1j * np.sqrt(STIFFNESS / W)))
     return np.array(found)
-
-
-def _reached(contact: PointContact, rest: ContactState, step: float, amplitude: float) -> float:
-    load, control = StepLoad(amplitude=amplitude, start=step), FixedSteps(step=step, order=1)
-    try:
-        with as_published():
-            contact.simulate(rest, duration=step + SPAN, W=1.0, load=load, control=control)
-    except ConvergenceError as error:
-        return float(error.partial.time[-1] - step)
-    return np.inf

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from ..bearings.journal import JournalBearing, MapFilm, ShortFilm
 from ..core.errors import PartialResultError
 from ..core.model import Array, Dynamic
 from ..core.progress import Report, silent
-from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
 from ..cosim import (
     GaussSeidel,
@@ -28,7 +27,7 @@ from ..cosim import (
 )
 from ..cosim.watch import quietly
 from ..rotors.rigid import JeffcottRotor, RigidRotor
-from .study import Study, StudyCase, StudyModel, StudyResult, counted, run_study
+from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 
 # What couplings are compared on: the schemes by kind, and a rigid rotor at rest in its bearing.
 
@@ -37,27 +36,16 @@ SPEED = 157.0
 """Angular speed [rad/s]; in dimensionless form nothing depends on it."""
 
 
-class SchemeName(StrEnum):
-    """Labels of the schemes that are compared."""
-
-    HELD = "Gauss-Seidel 0"
-    LINEAR = "Gauss-Seidel 1"
-    QUADRATIC = "Gauss-Seidel 2"
-    JACOBI_HELD = "Jacobi 0"
-    JACOBI_LINEAR = "Jacobi 1"
-    JACOBI_QUADRATIC = "Jacobi 2"
-    SI_EXP = "SI-exp"
-    SI_EXP3 = "SI-exp3"
-    NEWTON = "Newton"
-
-
 EXPLICIT: tuple[Scheme, ...] = (
     *(GaussSeidel(degree=degree) for degree in range(3)),
     *(Jacobi(degree=degree) for degree in range(3)),
 )
 """Schemes with a longest stable macro step."""
 
-SCHEMES: tuple[Scheme, ...] = (*EXPLICIT, SIExp(), SIExp3(), Newton())
+MODELS = tuple(
+    StudyModel(name=scheme.label, family=scheme.label, law=scheme)
+    for scheme in (*EXPLICIT, SIExp(), SIExp3(), Newton())
+)
 """All schemes; those that are not explicit are stable where explicit ones are not."""
 
 
@@ -115,7 +103,6 @@ COUPLING = Study(
         "macro_angle [deg]": float(np.degrees(case.at)),
         **columns,
     },
-    costs=counted,
 )
 
 
@@ -137,11 +124,8 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
         [*(np.linspace(0.0, duration, round(duration * SPEED / angle) + 1) for angle in macro_angles), starts]
     )
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
-    models = [
-        StudyModel(name=scheme.label, family=SchemeName(scheme.label), law=scheme) for scheme in SCHEMES
-    ]
     cases = [
-        StudyCase(name=f"{np.degrees(angle):.3g} deg", models=models, at=angle, reference=exact)
+        StudyCase(name=f"{np.degrees(angle):.3g} deg", models=MODELS, at=angle, reference=exact)
         for angle in macro_angles
     ]
     largest = float(np.hypot(*exact.position).max()) / bearing.clearance
@@ -163,21 +147,22 @@ def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, ob
     the work is film evaluations per turn, with the derivatives that the scheme asks for.
     """
     rotor, bearing = cost_case()
-    error, refused, turns = None, "", float(REVOLUTIONS)
+    run, refused = _coupled(rotor, bearing, scheme, angle / SPEED, float(exact.time[-1]))
+    error = None if refused else orbit_distance(run.trajectory, exact) / bearing.clearance
+    turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi) if refused else float(REVOLUTIONS)
+    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
+
+
+def _coupled(
+    rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float, duration: float
+) -> tuple[Any, str]:
+    """Return a coupled run, and why it ended early."""
+    slaves = InProcessSlave(rotor), InProcessSlave(bearing)
     try:
         with quietly():
-            run = couple(
-                InProcessSlave(rotor),
-                InProcessSlave(bearing),
-                macro_step=angle / SPEED,
-                duration=float(exact.time[-1]),
-                scheme=scheme,
-            )
-        error = orbit_distance(run.trajectory, exact) / bearing.clearance
+            return couple(*slaves, macro_step=step, duration=duration, scheme=scheme), ""
     except PartialResultError as failure:
-        run, refused = failure.partial, str(failure)
-        turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
-    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
+        return failure.partial, str(failure)
 
 
 # How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself.
@@ -196,54 +181,17 @@ SETTLED, COUNTED = 40, 40
 """Macro steps that are not counted, and those over which growth is."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class LimitRow(Readable):
-    """The limit of one scheme at one place.
-
-    Attributes
-    ----------
-    scheme : SchemeName
-    eccentricity_ratio : float [1]
-        Of the static equilibrium.
-    mass_ratio : float [1]
-        Mass of the journal's station / mass of the rotor; 1 of a rigid rotor.
-    critical_macro_angle : float or None [rad]
-        By linear theory; None where the scheme has no limit.
-    simulated : float or None [rad]
-        From where a run of the scheme grows; None where it was not asked for.
-    """
-
-    scheme: SchemeName
-    eccentricity_ratio: float
-    mass_ratio: float
-    critical_macro_angle: float | None
-    simulated: float | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class CouplingLimits(Readable):
-    """Limits of all schemes, over the eccentricity ratio and over the mass ratio.
-
-    Attributes
-    ----------
-    speed_parameter : float [1]
-        speed * sqrt(clearance * mass / load).
-    rows : tuple of LimitRow
-        One for each scheme and place.
-    """
-
-    speed_parameter: float
-    rows: tuple[LimitRow, ...]
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the table, angles in degrees."""
-        return {
-            "scheme": [row.scheme for row in self.rows],
-            "eccentricity_ratio [1]": [row.eccentricity_ratio for row in self.rows],
-            "mass_ratio [1]": [row.mass_ratio for row in self.rows],
-            "critical_macro_angle [deg]": [_degrees(row.critical_macro_angle) for row in self.rows],
-            "simulated [deg]": [_degrees(row.simulated) for row in self.rows],
-        }
+LIMITS = Study(
+    name="cosim_limits",
+    solve=lambda model, case: _limits(model.law, *case.at),
+    quantities=lambda model, case, found: {
+        "scheme": model.name,
+        "eccentricity_ratio [1]": case.at[0],
+        "mass_ratio [1]": case.at[1],
+        "critical_macro_angle [deg]": _degrees(found[0]),
+        "simulated [deg]": _degrees(found[1]),
+    },
+)
 
 
 def coupling_limits(
@@ -253,43 +201,44 @@ def coupling_limits(
     mass_ratios: Sequence[float] = tuple(np.geomspace(0.005, 0.5, 9)),
     simulated_ratios: Sequence[float] = (0.02, 0.2),
     report: Report = silent,
-) -> CouplingLimits:
-    """Return the limits of all schemes on a short bearing of a rigid rotor, and of one with a light journal.
+) -> StudyResult:
+    """Return the longest stable macro step of each scheme on a short bearing; None where it has no limit.
 
     Parameters
     ----------
     eccentricity_ratios, simulated_at : sequence of float [1]
-        Where theory is asked, and where the scheme is run; a rigid rotor with speed parameter 1.
+        Where theory is asked, and where the scheme is run; a rigid rotor.
     mass_ratios, simulated_ratios : sequence of float [1]
         The same for a disk on a shaft whose journal has this part of its mass, at eccentricity ratio .7.
     report : callable, optional
         Told how far the job is.
     """
-    jobs: list[tuple[float, float, bool]] = [
+    places: list[tuple[float, float, bool]] = [
         *((float(e), 1.0, False) for e in eccentricity_ratios),
         *((float(e), 1.0, True) for e in simulated_at),
-        *((0.7, float(ratio), False) for ratio in mass_ratios),
-        *((0.7, float(ratio), True) for ratio in simulated_ratios),
+        *((ECCENTRICITY_RATIO, float(ratio), False) for ratio in mass_ratios),
+        *((ECCENTRICITY_RATIO, float(ratio), True) for ratio in simulated_ratios),
     ]
-    rows = []
-    for number, (eccentricity, ratio, run) in enumerate(jobs):
-        report(number / len(jobs), f"eccentricity ratio {eccentricity:.2f}, mass ratio {ratio:.3g}")
-        rows += [limit_row(scheme, eccentricity, ratio, run) for scheme in SCHEMES]
-    return CouplingLimits(speed_parameter=1.0, rows=tuple(rows))
+    cases = [
+        StudyCase(
+            name=f"eccentricity ratio {e:.2f}, mass ratio {ratio:.3g}", models=MODELS, at=(e, ratio, run)
+        )
+        for e, ratio, run in places
+    ]
+    return run_study(LIMITS, cases, reference="linear theory", report=report)
 
 
-def limit_row(scheme: Scheme, eccentricity: float, ratio: float, run: bool) -> LimitRow:
-    """Return the limit of a scheme by theory and, if asked, by runs."""
+def _limits(
+    scheme: Scheme, eccentricity: float, ratio: float, run: bool
+) -> tuple[float | None, float | None]:
+    """Return the limit of a scheme by theory [s] and, if asked, that from where a run of it grows."""
     rotor, bearing, state = limit_case(eccentricity, ratio)
     theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
-    found = None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
-    return LimitRow(
-        scheme=SchemeName(scheme.label),
-        eccentricity_ratio=eccentricity,
-        mass_ratio=ratio,
-        critical_macro_angle=None if theory is None else theory * SPEED,
-        simulated=None if found is None else found * SPEED,
-    )
+    return theory, None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
+
+
+def _degrees(step: float | None) -> float | None:
+    return None if step is None else float(np.degrees(step * SPEED))
 
 
 def limit_case(
@@ -343,27 +292,14 @@ def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, the
 
 def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> float:
     """Return how much a small alternation of the force grows over some steps, after others."""
-    forces = _disturbed(rotor, bearing, scheme, step)
+    moved = nudged(rotor, DISTURBANCE * bearing.clearance)
+    run = _coupled(moved, bearing, scheme, step, (SETTLED + COUNTED) * step)[0].trajectory
+    forces = np.stack([run["force_x"], run["force_y"]])
     swing = np.hypot(*np.diff(forces, n=2, axis=1))[SETTLED:]
     half = len(swing) // 2
     if half < COUNTED // 4 or swing[-1] > SATURATED * np.abs(forces).max():
         return np.inf
     return float(np.linalg.norm(swing[half : 2 * half]) / np.linalg.norm(swing[:half]))
-
-
-def _disturbed(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> Array:
-    try:
-        with quietly():
-            run = couple(
-                InProcessSlave(nudged(rotor, DISTURBANCE * bearing.clearance)),
-                InProcessSlave(bearing),
-                macro_step=step,
-                duration=(SETTLED + COUNTED) * step,
-                scheme=scheme,
-            ).trajectory
-    except PartialResultError as error:
-        run = error.partial.trajectory
-    return np.stack([run["force_x"], run["force_y"]])
 
 
 def nudged(rotor: Dynamic, distance: float) -> Dynamic:
@@ -375,7 +311,3 @@ def nudged(rotor: Dynamic, distance: float) -> Dynamic:
     initial = np.array(rotor.initial)
     initial[1] += distance
     return replace(rotor, initial=tuple(initial.tolist()))
-
-
-def _degrees(angle: float | None) -> float | None:
-    return None if angle is None else float(np.degrees(angle))

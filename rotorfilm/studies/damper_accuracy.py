@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import numpy as np
 
@@ -25,9 +24,9 @@ from ..core.errors import ValidityWarning, require_count, require_positive
 from ..core.progress import Report, silent
 from .study import (
     SEED,
-    FilmCase,
     States,
     Study,
+    StudyCase,
     StudyModel,
     StudyResult,
     film_times,
@@ -69,45 +68,17 @@ class SeriesSqueeze:
         return ShortSqueeze().bind(case._replace(modes=fewer, feed=case.feed[kept]))
 
 
-class SqueezeFamily(StrEnum):
-    """What squeeze films of the ladder have in common; those of a solid or thin cage are reduced."""
-
-    REDUCED = "reduced"
-    SERIES = "series"
-    MAP = "map"
-    PUBLISHED = "published"
-    FINITE = "finite length"
-
-
-FAMILIES: dict[type[SqueezeLaw], SqueezeFamily] = {
-    ShortSqueeze: SqueezeFamily.SERIES,
-    SeriesSqueeze: SqueezeFamily.SERIES,
-    MapSqueeze: SqueezeFamily.MAP,
-    PublishedSqueeze: SqueezeFamily.PUBLISHED,
-    FiniteSqueeze: SqueezeFamily.FINITE,
-    FiniteMapSqueeze: SqueezeFamily.FINITE,
+REDUCED, SERIES_FILM, MAP, PUBLISHED, FINITE = "reduced", "series", "map", "published", "finite length"
+FAMILIES: dict[type[SqueezeLaw], str] = {
+    ShortSqueeze: SERIES_FILM,
+    SeriesSqueeze: SERIES_FILM,
+    MapSqueeze: MAP,
+    PublishedSqueeze: PUBLISHED,
+    FiniteSqueeze: FINITE,
+    FiniteMapSqueeze: FINITE,
 }
+"""What squeeze films of the ladder have in common; those of a solid or thin cage are reduced."""
 
-
-def squeeze_family(damper: PorousDamper) -> SqueezeFamily:
-    """Return the family of a damper of the ladder."""
-    if damper.cage is None or damper.cage.thin:
-        return SqueezeFamily.REDUCED
-    return FAMILIES[type(damper.film)]
-
-
-DAMPER = Study(
-    name="damper",
-    solve=lambda model, case: model.law.force(*case.states),
-    quantities=lambda model, case, force: {
-        "film [-]": model.name,
-        "cavitated [-]": case.at[0],
-        **spread(relative_error(force, case.reference), "median", "99 %"),
-        **spread(relative_error(force, case.at[1]), "99 %", of=" against the short film"),
-    },
-    costs=film_times("force in a batch [s]", "force alone, prepare() [s]"),
-)
-"""Errors are those against the film of finite length; those against the short film leave out the length."""
 
 CASES = {"cavitated": True, "full film": False}
 """Whether films rupture, by the names of the cases."""
@@ -150,32 +121,33 @@ def damper_accuracy(
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # Rungs outside their range are the point.
         for kind, cavitated in CASES.items():
-            dampers = damper_rungs(slenderness, permeability_number, cavitated=cavitated)
-            models = [
-                StudyModel(name=film, family=squeeze_family(damper), law=damper)
-                for film, damper in dampers.items()
-            ]
+            models = damper_models(slenderness, permeability_number, cavitated=cavitated)
             # The closest film of finite length comes first, the whole series last.
-            finite = next(one.law for one in models if one.family is SqueezeFamily.FINITE)
-            whole = [one.law for one in models if one.family is SqueezeFamily.SERIES][-1]
-            cases.append(
-                FilmCase(
-                    name=kind,
-                    models=models,
-                    at=(cavitated, whole.force(*drawn)),
-                    reference=finite.force(*drawn),
-                    states=drawn,
-                    bearing=lambda damper: damper,
-                    rounds=rounds,
-                )
-            )
+            finite = next(one.law for one in models if one.family == FINITE)
+            whole = [one.law for one in models if one.family == SERIES_FILM][-1]
+            forces = finite.force(*drawn), whole.force(*drawn)
+            cases.append(StudyCase(name=kind, models=models, at=cavitated, reference=forces))
+    study = Study(
+        name="damper",
+        solve=lambda model, case: model.law.force(*drawn),
+        quantities=lambda model, case, force: {
+            "film [-]": model.name,
+            "cavitated [-]": case.at,
+            **spread(relative_error(force, case.reference[0]), "median", "99 %"),
+            # which leaves out the length
+            **spread(relative_error(force, case.reference[1]), "99 %", of=" against the short film"),
+        },
+        costs=film_times(
+            "force in a batch [s]", "force alone, prepare() [s]", drawn, lambda law: law, rounds=rounds
+        ),
+    )
     conditions = {
         "length/diameter [1]": slenderness,
         "permeability number [1]": permeability_number,
         "states [1]": states,
         "seed [-]": seed,
     }
-    return run_study(DAMPER, cases, reference="film of finite length", conditions=conditions, report=report)
+    return run_study(study, cases, reference="film of finite length", conditions=conditions, report=report)
 
 
 def compared_damper(
@@ -196,6 +168,16 @@ def compared_damper(
         cage=cage,
         extent=FullFilm(),
     )
+
+
+def damper_models(slenderness: float, permeability_number: float, *, cavitated: bool) -> list[StudyModel]:
+    """Return the models that are compared."""
+    dampers = damper_rungs(slenderness, permeability_number, cavitated=cavitated)
+    reduced = {name: one.cage is None or one.cage.thin for name, one in dampers.items()}
+    return [
+        StudyModel(name=name, family=REDUCED if reduced[name] else FAMILIES[type(one.film)], law=one)
+        for name, one in dampers.items()
+    ]
 
 
 def damper_rungs(

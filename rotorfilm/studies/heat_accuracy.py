@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from time import process_time
+from typing import Any
 
 import numpy as np
 
@@ -65,28 +66,8 @@ ONE_TEMPERATURE = (HeatModel.SUPPLY, HeatModel.BALANCE, HeatModel.HOUSING)
 """Models in which a film has one temperature."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class HeatAnswer:
-    """What a model says of a bearing under its load.
-
-    Attributes
-    ----------
-    position : ndarray, shape (2,) [m]
-    eccentricity_ratio : float [1]
-    attitude_angle : float [rad]
-    power_loss : float [W]
-    temperature : float [K]
-        The one temperature of the film, or the largest of its field.
-    load_stiffness : float [N/m]
-        Entry yy of the stiffness, along the load.
-    """
-
-    position: Array
-    eccentricity_ratio: float
-    attitude_angle: float
-    power_loss: float
-    temperature: float
-    load_stiffness: float
+HeatAnswer = tuple[Array, dict[str, float]]
+"""Where the journal rests (2,) [m], and columns of the table: load along -y, stiffness along it."""
 
 
 def answered(case: HeatCase, model: HeatModel, *, cells: tuple[int, int], layers: int) -> HeatAnswer:
@@ -94,44 +75,41 @@ def answered(case: HeatCase, model: HeatModel, *, cells: tuple[int, int], layers
     if model in ONE_TEMPERATURE:
         return _with_one_temperature(bearing_of(case, model), case)
     profile: FilmProfile = LayeredTemperature(layers) if model is HeatModel.LAYERS else MeanTemperature()
-    walls = {} if model is HeatModel.ADIABATIC else {"walls": case.ring}
-    film = HeatedFilm(bearing=case.bearing, cells=cells, profile=profile, **walls)
-    found = heated_equilibrium(film, case.load, case.speed)
-    state = found.state
-    at = found.rest
-    return _answer(at.position, case, state.film, state.power_loss, state.maximum_temperature)
+    at = _warm(case, cells, profile, adiabatic=model is HeatModel.ADIABATIC)
+    state: HeatedState = at.state
+    return _answer(at.rest.position, case, state.film, state.power_loss, state.maximum_temperature)
 
 
 def heated_film(
     case: HeatCase, *, cells: tuple[int, int] = REFERENCE_CELLS, layers: int = REFERENCE_LAYERS
 ) -> HeatedState:
     """Return the film of a case under its load, with its bush, over so many cells and layers."""
-    profile = LayeredTemperature(layers)
-    film = HeatedFilm(bearing=case.bearing, walls=case.ring, cells=cells, profile=profile)
-    found: HeatedState = heated_equilibrium(film, case.load, case.speed).state
+    found: HeatedState = _warm(case, cells, LayeredTemperature(layers)).state
     return found
 
 
-def housing_of(case: HeatCase) -> float:
-    """Return the heat [W/K] that the bush of a case takes per kelvin, as warm all round."""
-    R, L = case.bearing.radius, case.bearing.length
-    return 2.0 * math.pi * R * L * case.ring.mean_transfer(R)
+def _warm(case: HeatCase, cells: tuple[int, int], profile: FilmProfile, *, adiabatic: bool = False) -> Any:
+    """Return the equilibrium of a case with a field of temperature, in its bush or adiabatic walls."""
+    walls = {} if adiabatic else {"walls": case.ring}
+    film = HeatedFilm(bearing=case.bearing, cells=cells, profile=profile, **walls)
+    return heated_equilibrium(film, case.load, case.speed)
 
 
 def position_error(answer: HeatAnswer, reference: HeatAnswer) -> float:
     """Return how far a journal is from where a reference has it, in its eccentricity."""
-    return float(np.hypot(*(answer.position - reference.position)) / np.hypot(*reference.position))
+    return float(np.hypot(*(answer[0] - reference[0])) / np.hypot(*reference[0]))
 
 
 def bearing_of(case: HeatCase, model: HeatModel) -> JournalBearing:
-    """Return the bearing of a model with one temperature."""
+    """Return the bearing of a model with one temperature; a housing takes what the bush would, all round."""
     bearing, (_, cooling) = case.bearing, case.bearing.cooled
     if model is HeatModel.SUPPLY:
         return bearing.at_temperature(cooling.supply_temperature)
     if model is HeatModel.BALANCE:
         return bearing
+    taken = 2.0 * math.pi * bearing.radius * bearing.length * case.ring.mean_transfer(bearing.radius)
     ambient = case.ring.ambient_temperature
-    housed = replace(cooling, housing_conductance=housing_of(case), ambient_temperature=ambient)
+    housed = replace(cooling, housing_conductance=taken, ambient_temperature=ambient)
     return replace(bearing, cooling=housed)
 
 
@@ -148,14 +126,13 @@ def _answer(
     position: Array, case: HeatCase, film: Reaction, power_loss: float, temperature: float
 ) -> HeatAnswer:
     x, y = position
-    return HeatAnswer(
-        position=position,
-        eccentricity_ratio=float(np.hypot(x, y)) / case.bearing.clearance,
-        attitude_angle=math.atan2(x, -y) * math.copysign(1.0, case.speed),
-        power_loss=power_loss,
-        temperature=temperature,
-        load_stiffness=float(coefficients(film, position, case.speed).stiffness[1, 1]),
-    )
+    return position, {
+        "eccentricity ratio [1]": float(np.hypot(x, y)) / case.bearing.clearance,
+        "attitude angle [rad]": math.atan2(x, -y) * math.copysign(1.0, case.speed),
+        "power loss [W]": power_loss,
+        "temperature, or largest [K]": temperature,
+        "stiffness yy [N/m]": float(coefficients(film, position, case.speed).stiffness[1, 1]),
+    }
 
 
 # Bearings that warm, on which models of heat are compared.
@@ -240,20 +217,16 @@ ROUNDS = 5
 
 def _quantities(model: StudyModel, case: StudyCase, answer: HeatAnswer) -> dict[str, object]:
     numbers, exact = case.at[1], case.reference
-    own = model.law is None
+    own, power = model.law is None, "power loss [W]"
     return {
         "bearing [-]": case.at[0].name,
         "thinning x rise E [1]": numbers.thinning_rise,
         "Peclet number [1]": numbers.peclet,
         "Nahme number [1]": numbers.nahme,
         "model [-]": model.name,
-        "eccentricity ratio [1]": answer.eccentricity_ratio,
-        "attitude angle [rad]": answer.attitude_angle,
-        "power loss [W]": answer.power_loss,
-        "temperature, or largest [K]": answer.temperature,
-        "stiffness yy [N/m]": answer.load_stiffness,
+        **answer[1],
         "error of the position [1]": None if own else position_error(answer, exact),
-        "error of the power [1]": None if own else abs(answer.power_loss / exact.power_loss - 1.0),
+        "error of the power [1]": None if own else abs(answer[1][power] / exact[1][power] - 1.0),
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
+from functools import partial
 
 import numpy as np
 
@@ -31,9 +31,9 @@ from ..core.model import Array
 from ..core.progress import Report, part_of, silent
 from .study import (
     SEED,
-    FilmCase,
     States,
     Study,
+    StudyCase,
     StudyModel,
     StudyResult,
     film_times,
@@ -203,13 +203,6 @@ SMALL = StateRange(squeeze=0.05, whirl=(-0.05, 0.05))
 """Small motion about static equilibria."""
 
 
-class ReferenceForce(NamedTuple):
-    """Force (2, n) [N] and the estimate of its relative error (n,) [1]."""
-
-    force: Array
-    error: Array
-
-
 def random_states(ranges: StateRange, *, count: int, clearance: float, seed: int = SEED) -> States:
     """Return `count` random states of a journal that turns at `SPEED`.
 
@@ -251,8 +244,8 @@ def reference_force(
     *,
     cells: tuple[int, int] = REFERENCE_CELLS,
     report: Report = silent,
-) -> ReferenceForce:
-    """Return the force of the two-dimensional film, extrapolated from two grids, and its error.
+) -> tuple[Array, Array]:
+    """Return the force (2, n) [N] of the two-dimensional film, extrapolated, and its relative error (n,) [1].
 
     Three grids with 1, 1/2 and 1/4 of the cells give two extrapolations. The error of the finer one is
     estimated as a third of their distance: what the extrapolation leaves is still of second order at least,
@@ -281,7 +274,7 @@ def reference_force(
         force[:, part], error[part] = _extrapolation(e[:, part], w[:, part], bearing.slenderness, cells)
         done = min(begin + CHUNK, count)
         report(done / count, f"two-dimensional reference, {done} of {count} states")
-    return ReferenceForce(bearing.force_scale * force, error)
+    return bearing.force_scale * force, error
 
 
 def _extrapolation(e: Array, w: Array, slenderness: float, cells: tuple[int, int]) -> tuple[Array, Array]:
@@ -299,25 +292,6 @@ TENSION = 0.01
 
 ROUNDS = 9
 """Rounds of timing, of which the shortest counts."""
-
-
-def _quantities(model: StudyModel, case: FilmCase, force: Array) -> dict[str, object]:
-    bearing: JournalBearing = case.at
-    pulled = tension(model.law, *bearing.kinematics(*case.states), bearing.slenderness)
-    return {
-        "family [-]": model.family,
-        "label [-]": model.label,
-        **spread(relative_error(force, case.reference), "median", "99 %", "largest"),
-        "states in tension [1]": float(np.mean(pulled > TENSION)),
-    }
-
-
-JOURNAL = Study(
-    name="journal",
-    solve=lambda model, case: fitted_bearing(case.at, model.law).force(*case.states),
-    quantities=_quantities,
-    costs=film_times("force in a batch [s]", "force alone, prepare() [s]"),
-)
 
 
 def journal_accuracy(
@@ -360,14 +334,24 @@ def journal_accuracy(
     require_count("rounds", rounds)
     models, bearing = chosen_rungs(rungs), comparison_bearing(slenderness)
     sample = random_states(ranges, count=states, clearance=bearing.clearance, seed=seed)
-    reference = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))
-    case = FilmCase(
-        models=models,
-        at=bearing,
-        reference=reference.force,
-        states=sample,
-        bearing=lambda film: fitted_bearing(bearing, film),
-        rounds=rounds,
+    reference, own = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))
+    at = bearing.kinematics(*sample)
+
+    def quantities(model: StudyModel, case: StudyCase, force: Array) -> dict[str, object]:
+        pulled = tension(model.law, *at, bearing.slenderness)
+        return {
+            "family [-]": model.family,
+            "label [-]": model.label,
+            **spread(relative_error(force, reference), "median", "99 %", "largest"),
+            "states in tension [1]": float(np.mean(pulled > TENSION)),
+        }
+
+    fitted = partial(fitted_bearing, bearing)
+    study = Study(
+        name="journal",
+        solve=lambda model, case: fitted(model.law).force(*sample),
+        quantities=quantities,
+        costs=film_times("force in a batch [s]", "force alone, prepare() [s]", sample, fitted, rounds=rounds),
     )
     text = f"2-D film, {cells[0]} x {cells[1]} and {cells[0] // 2} x {cells[1] // 2} cells extrapolated"
     conditions = {
@@ -381,13 +365,8 @@ def journal_accuracy(
         "whirl/speed to [1]": ranges.whirl[1],
         "squeeze above wedge [1]": squeeze_share(bearing, sample),
         "reference [-]": text,
-        "reference error, median [1]": float(np.median(reference.error)),
-        "reference error, 99 % [1]": float(np.quantile(reference.error, 0.99)),
+        "reference error, median [1]": float(np.median(own)),
+        "reference error, 99 % [1]": float(np.quantile(own, 0.99)),
     }
-    return run_study(
-        JOURNAL,
-        [case],
-        reference=text,
-        conditions=conditions,
-        report=part_of(report, 0.5, 1.0),
-    )
+    case = StudyCase(models=models)
+    return run_study(study, [case], reference=text, conditions=conditions, report=part_of(report, 0.5, 1.0))

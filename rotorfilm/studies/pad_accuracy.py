@@ -5,8 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,9 +15,9 @@ from ..core.progress import Report, part_of, silent
 from .bearing_types import CLEARANCE, RADIUS, SPEED, VISCOSITY
 from .study import (
     SEED,
-    FilmCase,
     States,
     Study,
+    StudyCase,
     StudyModel,
     StudyResult,
     film_times,
@@ -33,40 +31,18 @@ CELLS = (288, 24)
 ROUNDS = 5
 
 
-class PadFamily(StrEnum):
-    """What films of pads have in common."""
-
-    MAP = "map"
-    GRID = "grid"
-
-
 def pad_rungs() -> tuple[StudyModel, ...]:
     """Return the films of pads, maps from coarse to fine and then grids."""
     fine = PadMapFilm().resolution
     coarse, middle = replace(fine, cells=(48, 4), nodes=(6, 6, 24)), replace(fine, nodes=(9, 7, 64))
-    films: list[tuple[PadFamily, tuple[int, ...], PadFilm]] = [
-        *((PadFamily.MAP, r.nodes, PadMapFilm(resolution=r)) for r in (coarse, middle, fine)),
-        *(
-            (PadFamily.GRID, cells, PadGridFilm(cells=cells))
-            for cells in ((32, 4), (48, 8), (96, 8), (192, 16))
-        ),
+    films: list[tuple[str, tuple[int, ...], PadFilm]] = [
+        *(("map", r.nodes, PadMapFilm(resolution=r)) for r in (coarse, middle, fine)),
+        *(("grid", cells, PadGridFilm(cells=cells)) for cells in ((32, 4), (48, 8), (96, 8), (192, 16))),
     ]
     return tuple(
         StudyModel(name=f"{family} {' x '.join(map(str, size))}", family=family, law=film)
         for family, size, film in films
     )
-
-
-PADS = Study(
-    name="pads",
-    solve=lambda model, case: [replace(one.bearing, film=model.law).force(*one.states) for one in case.at],
-    quantities=lambda model, case, forces: {
-        "family [-]": model.family,
-        "film [-]": model.name,
-        **spread(_errors(case.at, forces), "median", "90 %", "99 %"),
-    },
-    costs=film_times("force of a pad in a batch [s]", "force of a pad alone, prepare() [s]", counted=False),
-)
 
 
 def pad_accuracy(
@@ -113,18 +89,37 @@ def pad_accuracy(
     for k, bearing in enumerate(compared.values()):
         report(0.5 * k / len(compared), f"reference {k + 1} of {len(compared)}")
         samples.append(pad_sample(bearing, states, seed + k, cells))
-    half = PadGridFilm(cells=(cells[0] // 2, cells[1] // 2))
+
+    def errors(film: PadFilm) -> Array:
+        """Return the errors of a film at all states."""
+        return np.concatenate(
+            [
+                np.hypot(*(replace(bearing, film=film).force(*sample) - force)) / scale
+                for bearing, (sample, force, scale) in zip(compared.values(), samples, strict=True)
+            ]
+        )
+
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # Near contact maps go on beyond their nodes.
-        own = _errors(samples, [replace(one.bearing, film=half).force(*one.states) for one in samples])
-    timed = samples[0].bearing  # films of pads cost alike
-    case = FilmCase(
-        models=chosen,
-        at=samples,
-        states=samples[0].states,
-        bearing=lambda film: replace(timed, film=film),
-        pads=len(timed.lobes),
-        rounds=rounds,
+        own = errors(PadGridFilm(cells=(cells[0] // 2, cells[1] // 2)))
+    timed = next(iter(compared.values()))  # films of pads cost alike
+    study = Study(
+        name="pads",
+        solve=lambda model, case: errors(model.law),
+        quantities=lambda model, case, found: {
+            "family [-]": model.family,
+            "film [-]": model.name,
+            **spread(found, "median", "90 %", "99 %"),
+        },
+        costs=film_times(
+            "force of a pad in a batch [s]",
+            "force of a pad alone, prepare() [s]",
+            samples[0][0],
+            lambda film: replace(timed, film=film),
+            rounds=rounds,
+            pads=len(timed.lobes),
+            sized=False,
+        ),
     )
     reference = f"two-dimensional film, {cells[0]} x {cells[1]} cells a pad, extrapolated"
     conditions = {
@@ -136,14 +131,10 @@ def pad_accuracy(
         "reference error, 90 % [1]": float(np.quantile(own, 0.9)),
         "reference error, 99 % [1]": float(np.quantile(own, 0.99)),
     }
+    case = StudyCase(models=chosen)
     return run_study(
-        PADS, [case], reference=reference, conditions=conditions, report=part_of(report, 0.5, 1.0)
+        study, [case], reference=reference, conditions=conditions, report=part_of(report, 0.5, 1.0)
     )
-
-
-def _errors(samples: Sequence[PadSample], forces: Sequence[Array]) -> Array:
-    """Return the errors of forces at all states."""
-    return np.concatenate([one.errors(force) for one, force in zip(samples, forces, strict=True)])
 
 
 # Random states of bearings of fixed pads, and the two-dimensional film of all pads there.
@@ -165,19 +156,6 @@ DIRECTIONS = 16
 """Of the velocity, over which that force is the largest."""
 
 
-class PadSample(NamedTuple):
-    """States of a bearing, the force on its journal (2, n) [N], and what errors are relative to (n,) [N]."""
-
-    bearing: LobedBearing
-    states: States
-    force: Array
-    scale: Array
-
-    def errors(self, force: Array) -> Array:
-        """Return how far a force (2, n) is off, over |force| or 5 % of the largest at that place, (n,)."""
-        return np.asarray(np.hypot(*(force - self.force)) / self.scale)
-
-
 def compared_bearings(slenderness: float) -> dict[str, LobedBearing]:
     """Return the bearings of whose states the films are compared, by name."""
     return {
@@ -192,14 +170,18 @@ def compared_bearings(slenderness: float) -> dict[str, LobedBearing]:
     }
 
 
-def pad_sample(bearing: LobedBearing, count: int, seed: int, cells: tuple[int, int]) -> PadSample:
-    """Return random states of a bearing with their force by grids of so many cells."""
+def pad_sample(
+    bearing: LobedBearing, count: int, seed: int, cells: tuple[int, int]
+) -> tuple[States, Array, Array]:
+    """Return random states of a bearing, their force (2, n) [N] by a grid, and what errors are relative to.
+
+    That is |force|, or 5 % of the largest at that place, (n,) [N].
+    """
     states = lobe_states(bearing, count, seed)
     force = replace(bearing, film=PadGridFilm(cells=cells)).force(*states)
     # Near contact maps go on beyond their nodes.
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        scale = np.maximum(np.hypot(*force), FLOOR * largest_force(bearing, states))
-    return PadSample(bearing, states, force, scale)
+        return states, force, np.maximum(np.hypot(*force), FLOOR * largest_force(bearing, states))
 
 
 def lobe_states(bearing: LobedBearing, count: int, seed: int) -> States:

@@ -1,17 +1,19 @@
-"""Error against cost: one record for each study, one runner for all.
+"""Studies of models: one record for each study, one runner and one table for all.
 
 A study compares models on cases. A case holds models, what they are asked, and the reference that their
-answers are measured against. A `Study` says how a model answers, which quantities are compared and how the
-cost is measured; `run_study` returns a row for each model and case.
+answers are measured against. A `Study` says how a model answers, which quantities are compared and, for error
+against cost, how the cost is measured; `run_study` returns a row for each model and case.
 """
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -72,30 +74,15 @@ class StudyCase:
     reference: Any = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class FilmCase(StudyCase):
-    """Random states at which films are compared.
-
-    Attributes
-    ----------
-    states : States
-        At which forces are timed.
-    bearing : callable
-        Returns the bearing that is timed, of the law of a model.
-    pads : int
-        Films of that bearing.
-    rounds : int
-        Of timing; the shortest counts.
-    """
-
-    states: States
-    bearing: Callable[[Any], Timed]
-    pads: int = 1
-    rounds: int
-
-
 Costs = Callable[["Study", StudyCase, Report], Iterator[tuple[Any, dict[str, object]]]]
 """Yields the answer of each model of a case with the columns of its cost."""
+
+
+def counted(study: Study, case: StudyCase, report: Report) -> Iterator[tuple[Any, dict[str, object]]]:
+    """Yield the answers of a study whose cost is counted in them."""
+    for number, model in enumerate(case.models):
+        report(number / len(case.models), f"{model.name}, {case.name}")
+        yield study.solve(model, case), {}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +98,7 @@ class Study:
     quantities : callable
         Returns columns of the table, by their headings, from model, case and answer.
     costs : callable
-        See `timed` and `film_times`.
+        See `timed` and `film_times`; by default that which is counted in the answers.
     keeps_answers : bool
         Whether the answers are drawn.
     """
@@ -119,13 +106,13 @@ class Study:
     name: str
     solve: Callable[[StudyModel, Any], Any]
     quantities: Callable[[StudyModel, Any, Any], Mapping[str, object]]
-    costs: Costs
+    costs: Costs = counted
     keeps_answers: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class StudyRung(Readable):
-    """Errors and cost of one model in one case.
+    """What a study says of one model in one case: its errors and its cost, or a point of its curve.
 
     Attributes
     ----------
@@ -152,7 +139,7 @@ class StudyRung(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class StudyResult(Readable):
-    """Error against cost of the models of a study.
+    """What a study says of its models.
 
     Attributes
     ----------
@@ -175,15 +162,19 @@ class StudyResult(Readable):
 
     def columns(self) -> dict[str, list[object]]:
         """Return the table of the rungs, headings with units; the conditions repeat in every row."""
-        rows = [rung.values | self.conditions for rung in self.rungs]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
+        return table([rung.values | self.conditions for rung in self.rungs])
+
+
+def table(rows: Sequence[Mapping[str, object]]) -> dict[str, list[object]]:
+    """Return rows with the same headings as columns."""
+    return {heading: [row[heading] for row in rows] for heading in rows[0]}
 
 
 def run_study(
     study: Study,
     cases: Sequence[StudyCase],
     *,
-    reference: str,
+    reference: str = "",
     conditions: Mapping[str, object] | None = None,
     notes: Mapping[str, object] | None = None,
     report: Report = silent,
@@ -194,17 +185,15 @@ def run_study(
         share = part_of(report, number / len(cases), (number + 1) / len(cases))
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             for model, (answer, cost) in zip(case.models, study.costs(study, case, share), strict=True):
-                values = {**study.quantities(model, case, answer), **cost}
-                rungs.append(
-                    StudyRung(
-                        name=model.name,
-                        family=model.family,
-                        label=model.label,
-                        case=case.name,
-                        values=values,
-                        answer=answer if study.keeps_answers else None,
-                    )
+                rung = StudyRung(
+                    name=model.name,
+                    family=model.family,
+                    label=model.label,
+                    case=case.name,
+                    values={**study.quantities(model, case, answer), **cost},
+                    answer=answer if study.keeps_answers else None,
                 )
+                rungs.append(rung)
     return StudyResult(
         study=study.name,
         reference=reference,
@@ -258,27 +247,41 @@ def timed(heading: str, clock: Callable[[], float]) -> Costs:
     return costs
 
 
-def counted(study: Study, case: StudyCase, report: Report) -> Iterator[tuple[Any, dict[str, object]]]:
-    """Yield the answers of a study whose cost is counted in them."""
-    for number, model in enumerate(case.models):
-        report(number / len(case.models), f"{model.name}, {case.name}")
-        yield study.solve(model, case), {}
+def film_times(
+    batch: str,
+    alone: str,
+    states: States,
+    bearing: Callable[[Any], Any],
+    *,
+    rounds: int,
+    pads: int = 1,
+    sized: bool = True,
+) -> Costs:
+    """Return the cost of one force of a film at some states.
 
-
-def film_times(batch: str, alone: str, *, counted: bool = True) -> Costs:
-    """Return the cost of one force of a film: heading of the time in a batch, and of that alone."""
+    Parameters
+    ----------
+    batch, alone : str
+        Headings of the time in a batch, and of that alone.
+    states : States
+        At which forces are timed.
+    bearing : callable
+        Returns the bearing that is timed, of the law of a model.
+    rounds : int
+        Of timing; the shortest counts.
+    pads : int
+        Films of that bearing.
+    sized : bool
+        Whether the states of a batch have a column.
+    """
 
     def costs(study: Study, case: StudyCase, report: Report) -> Iterator[tuple[Any, dict[str, object]]]:
-        assert isinstance(case, FilmCase)
-        bearings = {model.name: case.bearing(model.law) for model in case.models}
-        times = film_costs(bearings, case.states, rounds=case.rounds, report=part_of(report, 0.0, 0.8))
-        for number, (model, cost) in enumerate(zip(case.models, times.values(), strict=True)):
+        bearings = {model.name: bearing(model.law) for model in case.models}
+        times = film_costs(bearings, states, rounds=rounds, report=part_of(report, 0.0, 0.8))
+        for number, (model, (force, call, size)) in enumerate(zip(case.models, times.values(), strict=True)):
             report(0.8 + 0.2 * number / len(times), f"error of {model.name}")
-            columns: dict[str, object] = {
-                batch: cost.force_time / case.pads,
-                alone: cost.call_time / case.pads,
-            }
-            yield study.solve(model, case), columns | ({"batch [1]": cost.batch} if counted else {})
+            columns: dict[str, object] = {batch: force / pads, alone: call / pads}
+            yield study.solve(model, case), columns | ({"batch [1]": size} if sized else {})
 
     return costs
 
@@ -308,47 +311,20 @@ STILL_FALLING = 0.9
 """A batch is doubled while that lowers the cost of a state below this part of it."""
 
 
-class Timed(Protocol):
-    """A bearing whose forces are timed."""
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force, shape (2, ...)."""
-
-    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
-        """Return the force as a function of five numbers."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FilmCost(Readable):
-    """Cost of one force.
-
-    Attributes
-    ----------
-    force_time : float [s]
-        In a batch.
-    call_time : float [s]
-        One state at a time from Python, through `prepare()` of the bearing.
-    batch : int
-        States of the batch.
-    """
-
-    force_time: float
-    call_time: float
-    batch: int
-
-
 def film_costs(
-    bearings: Mapping[str, Timed],
-    states: States,
-    *,
-    rounds: int,
-    report: Report = silent,
-) -> dict[str, FilmCost]:
-    """Return the cost of each film at the given states, which repeat as often as the batch needs.
+    bearings: Mapping[str, Any], states: States, *, rounds: int, report: Report = silent
+) -> dict[str, tuple[float, float, int]]:
+    """Return the cost of one force of each film at the given states.
 
-    Every round measures every film once, so that a disturbance of the machine hits all of them. A
-    batch holds as many states as make a state cheap, and as last long enough to be measured; not more, since
-    on a busy machine short runs are more often left alone.
+    They repeat as often as the batch needs. Every round measures every film once, so that a disturbance of
+    the machine hits all of them. A batch holds as many states as make a state cheap, and as last long enough
+    to be measured; not more, since on a busy machine short runs are more often left alone.
+
+    Returns
+    -------
+    dict of str to (float, float, int)
+        Time of a force in a batch [s], of one alone from Python through `prepare()` of the bearing [s], and
+        the states of the batch.
     """
     runs = {}
     for name, bearing in bearings.items():
@@ -361,9 +337,7 @@ def film_costs(
             for k, (run, _) in enumerate(pair):
                 shortest[name][k] = min(shortest[name][k], shortest_time(run, 1))
     return {
-        name: FilmCost(
-            force_time=shortest[name][0] / batch[1], call_time=shortest[name][1] / calls[1], batch=batch[1]
-        )
+        name: (shortest[name][0] / batch[1], shortest[name][1] / calls[1], batch[1])
         for name, (batch, calls) in runs.items()
     }
 
@@ -379,37 +353,45 @@ def shortest_time(call: Callable[[], object], repeats: int = 7, loops: int = 1) 
     return min(times) / loops
 
 
-def _batch_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
+def _batch_run(bearing: Any, states: States) -> tuple[Callable[[], object], int]:
     """Return a call long enough to be measured, and how many states it evaluates."""
-    (size, largest), each = BATCH, np.inf
+
+    def made(size: int) -> Callable[[], object]:
+        return partial(
+            bearing.force, *(np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states)
+        )
+
+    return _long_enough(made, BATCH[1])
+
+
+def _call_run(bearing: Any, states: States) -> tuple[Callable[[], object], int]:
+    """Return a loop over states long enough to be measured, and how many states it visits."""
+    call = bearing.prepare()
+    columns = np.concatenate([states.position, states.velocity, states.speed[None]]).T.tolist()
+
+    def made(size: int) -> Callable[[], object]:
+        visited = [columns[k % len(columns)] for k in range(size)]
+
+        def run() -> None:
+            for state in visited:
+                call(*state)
+
+        return run
+
+    return _long_enough(made)
+
+
+def _long_enough(
+    made: Callable[[int], Callable[[], object]], largest: float = math.inf
+) -> tuple[Callable[[], object], int]:
+    """Return what is made for a number of states, and the number with which its runs can be measured."""
+    size, each = BATCH[0], math.inf
     while True:
-        repeated = [np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states]
-
-        def run(arguments: list[np.ndarray] = repeated) -> object:
-            return bearing.force(*arguments)
-
+        run = made(size)
         run()  # The first call compiles and builds tables.
         seconds, before = shortest_time(run, 2), each
         each = seconds / size
         if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
-            return run, size
-        size *= 2
-
-
-def _call_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
-    """Return a loop over states long enough to be measured, and how many states it visits."""
-    call = bearing.prepare()
-    columns = np.concatenate([states.position, states.velocity, states.speed[None]]).T.tolist()
-    size = 8
-    while True:
-        visited = [columns[k % len(columns)] for k in range(size)]
-
-        def run(states: list[list[float]] = visited) -> None:
-            for state in states:
-                call(*state)
-
-        run()
-        if shortest_time(run, 1) > SHORTEST_RUN:
             return run, size
         size *= 2
 

@@ -6,33 +6,29 @@ from matplotlib.colors import to_rgba
 
 from rotorfilm.charts import plot_limit_summary, plot_limits
 from rotorfilm.charts.study_charts import DEPENDS, FAILS, HOLDS
-from rotorfilm.studies.limits_journal import Limit, LimitAtlas, Panel
+from rotorfilm.studies import Panel, StudyResult
+from rotorfilm.studies.limits_atlas import panel_points
 
 X = np.array([0.1, 1.0, 10.0])
 
 
-def panel(physics, title, **changes):
+def panel(physics, title, curves, **changes):
     reading = {"x_label": "size", "y_label": "error", "logarithmic": True, **changes}
-    return Panel(physics=physics, title=title, curves=lambda: iter(()), **reading)
+    named = [(name, X, np.array(y)) for name, y in curves.items()]
+    return Panel(physics=physics, title=title, curves=lambda: iter(named), **reading)
 
 
 @pytest.fixture
 def atlas():
-    panels = {
-        "grid": panel("journal", "grid"),
-        "step": panel("rotor", "step"),
-        "limit": panel("rotor", "longest step", level=None),
-    }
-    curves = [
-        ("grid", "coarse, with a name that is too long for half a line", [0.01, 0.1, 1.0]),
-        ("grid", "fine", [1e-3, 1e-2, 0.1]),
-        ("step", "any", [1e-3, 2e-3, 3e-3]),
-        ("limit", "any", [5.0, 6.0, 7.0]),
-    ]
-    limits = [
-        Limit(panel=panels[key], name=name, abscissa=X, ordinate=np.array(y)) for key, name, y in curves
-    ]
-    return LimitAtlas(limits=tuple(limits))
+    coarse = "coarse, with a name that is too long for half a line"
+    panels = (
+        panel("journal", "grid", {coarse: [0.01, 0.1, 1.0], "fine": [1e-3, 1e-2, 0.1]}),
+        panel("rotor", "step", {"any": [1e-3, 2e-3, 3e-3]}),
+        panel("rotor", "longest step", {"any": [5.0, 6.0, 7.0]}, level=None),
+    )
+    points = tuple(point for one in panels for point in panel_points(one))
+    notes = {one.title: one for one in panels}
+    return StudyResult(study="limits", reference="", notes=notes, rungs=points)
 
 
 def test_each_physics_has_a_figure_whose_legends_lie_within_it(atlas):

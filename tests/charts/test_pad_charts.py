@@ -7,30 +7,28 @@ import pytest
 from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
 from rotorfilm import lobe_set
-from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_study
-from rotorfilm.studies import (
-    BearingCoefficients,
-    BearingThresholds,
-    PadFamily,
-    StudyResult,
-    StudyRung,
-    TypeCoefficients,
-    TypeThresholds,
-    WhirlOutcome,
-)
+from rotorfilm.charts import plot_bearing_thresholds, plot_study
+from rotorfilm.studies import StudyResult, StudyRung
 
 TURN = 2.0 * math.pi / 60.0
 
 
+def rung(name, **values):
+    return StudyRung(name=name, family=name, label="", case="", values=values)
+
+
 def test_coefficients_are_drawn_entry_by_entry():
-    K = np.arange(8.0).reshape(2, 2, 2) + 1.0
-    one = TypeCoefficients(
-        name="one", stiffness_number=K, damping_number=10.0 * K, film_ratio=np.array([0.1, 0.9])
+    entries = ("xx", "xy", "yx", "yy")
+    rungs = tuple(
+        rung(
+            "one",
+            **{"S over the assembled clearance [1]": S, "least film/c [1]": film},
+            **{f"K{ij} c/W [1]": first + k for k, ij in enumerate(entries)},
+            **{f"C{ij} c speed/W [1]": 10 * (first + k) for k, ij in enumerate(entries)},
+        )
+        for S, film, first in ((0.1, 0.1, 1), (1.0, 0.9, 5))
     )
-    result = BearingCoefficients(
-        slenderness=0.5, convention="S so and so", sommerfeld=np.array([0.1, 1.0]), types=(one,)
-    )
-    shown = plot_bearing_coefficients(result)
+    shown = plot_study(StudyResult(study="bearings", reference="S so and so", rungs=rungs))
     drawn = [axes.get_lines()[0].get_ydata().tolist() for axes in shown]
     assert drawn == [[1, 5], [2, 6], [3, 7], [4, 8], [10, 50], [20, 60], [40, 80], [0.1, 0.9]]
     assert "S so and so" in shown[0].figure.get_suptitle()
@@ -41,26 +39,26 @@ def test_coefficients_are_drawn_entry_by_entry():
 
 
 def test_bearings_that_never_whirl_lie_on_the_edge():
-    speeds = {"plain": [100.0, 200.0], "tilting": [None, None], "weak": [100.0, None]}
-    outcomes = {
-        "plain": (WhirlOutcome.ONSET,) * 2,
-        "tilting": (WhirlOutcome.NEVER,) * 2,
-        "weak": (WhirlOutcome.ONSET, WhirlOutcome.UNCARRIED),
+    found = {
+        "plain": ((100.0, "onset"), (200.0, "onset")),
+        "tilting": ((None, "never"), (None, "never")),
+        "weak": ((100.0, "onset"), (None, "not carried")),
     }
-    result = BearingThresholds(
-        slenderness=0.5,
-        mass=10.0,
-        load=np.array([50.0, 500.0]),
-        speed_range=(10.0, 1000.0),
-        types=tuple(
-            TypeThresholds(
-                name=name,
-                threshold_speed=tuple(speed and speed * TURN for speed in speeds[name]),
-                outcomes=outcomes[name],
-            )
-            for name in speeds
-        ),
+    rungs = tuple(
+        rung(
+            name,
+            **{"load [N]": load, "threshold [rad/s]": speed and speed * TURN, "whirl [-]": met},
+        )
+        for name, both in found.items()
+        for load, (speed, met) in zip((50.0, 500.0), both, strict=True)
     )
+    conditions = {
+        "mass [kg]": 10.0,
+        "length/diameter [1]": 0.5,
+        "searched from [rad/s]": 10.0,
+        "searched to [rad/s]": 1000.0,
+    }
+    result = StudyResult(study="whirl", reference="", conditions=conditions, rungs=rungs)
     axes = plot_bearing_thresholds(result)
     lines = {line.get_label(): line for line in axes.get_lines()}
     top = 1000.0 / TURN
@@ -88,8 +86,8 @@ def test_films_of_pads_are_drawn_over_their_cost():
             },
         )
         for name, family, high, cost in (
-            ("map", PadFamily.MAP, 4e-3, 1e-7),
-            ("grid", PadFamily.GRID, 2e-3, 1e-5),
+            ("map", "map", 4e-3, 1e-7),
+            ("grid", "grid", 2e-3, 1e-5),
         )
     ]
     conditions = {

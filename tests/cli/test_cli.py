@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from importlib.metadata import version
@@ -21,7 +22,7 @@ from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.studies.limits_atlas import heat_rise
+from rotorfilm.studies.limits_atlas import heat_rise, panel_points
 
 SCENE = """
 schema = 1
@@ -385,8 +386,9 @@ def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
     monkeypatch.setattr(ladders, "heat_accuracy", partial(ladders.heat_accuracy, **few))
     monkeypatch.setattr(models, "heated_film", partial(models.heated_film, cells=(32, 4), layers=4))
-    curve = ladders.Limit(panel=heat_rise, name="T0", abscissa=np.ones(2), ordinate=np.ones(2))
-    atlas = ladders.LimitAtlas(limits=(curve,))
+    panel = replace(heat_rise, curves=lambda: iter([("T0", np.ones(2), np.ones(2))]))
+    points, notes = tuple(panel_points(panel)), {panel.title: panel}
+    atlas = ladders.StudyResult(study="limits", reference="", notes=notes, rungs=points)
     monkeypatch.setattr(ladders, "limits_atlas", lambda physics, report: atlas)
     code, out, _ = run("chart", "heat", "--out", tmp_path)
     assert code == 0
@@ -403,8 +405,8 @@ def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch)
     monkeypatch.setattr(ladders, "journal_stability", quick)
     code, out, _ = run("chart", "stability", "--out", tmp_path, "--json")
     assert code == 0
-    published = json.loads(out)["rungs"][0]
-    assert published["speed_parameter"] == [None, None, None]
+    published = json.loads(out)["rungs"][:3]
+    assert [row["values"]["speed sqrt(c m/W) [1]"] for row in published] == [None, None, None]
     assert (tmp_path / "chart_stability.png").exists()
     assert len((tmp_path / "chart_stability.csv").read_text(encoding="utf-8").splitlines()) == 1 + 3 * len(
         FEW

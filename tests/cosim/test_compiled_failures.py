@@ -14,9 +14,9 @@ from studies.master_cases import BEARING, CLEARANCE, ROTOR, STEP, PythonGaussSei
 from rotorfilm.core.errors import CouplingError, FmuError, ValidityWarning
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, SIExp3, cosimulate, couple
 from rotorfilm.cosim.compiled_loop import MOST_CHUNK
+from rotorfilm.cosim.slaves import Call
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.instance import Instance
-from rotorfilm.native.master_structs import Call
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
 
@@ -100,7 +100,7 @@ def test_calls_of_fmus_per_macro_step_are_counted(native_fmus, compiled):
     """One of each for a step; of the distance from the limit 5 + 6 derivatives in each eighth."""
     steps = 800
     cosimulate(native_fmus["held"], native_fmus["film"], macro_step=STEP, duration=steps * STEP)
-    rotor, film = compiled[0].loop.calls()
+    rotor, film = compiled[0].calls()
     for calls in (rotor, film):
         assert {call: calls[call] for call in (Call.PUT, Call.TAKE, Call.STRIDE)} == dict.fromkeys(
             (Call.PUT, Call.TAKE, Call.STRIDE), steps
@@ -110,7 +110,7 @@ def test_calls_of_fmus_per_macro_step_are_counted(native_fmus, compiled):
     cosimulate(
         native_fmus["law"], native_fmus["film"], macro_step=STEP, duration=steps * STEP, scheme=SIExp3()
     )
-    film = compiled[1].loop.calls()[1]
+    film = compiled[1].calls()[1]
     assert film[Call.SLOPE] == 5 * steps
     assert film[Call.STRIDE] == steps
 

@@ -18,7 +18,7 @@ from rotorfilm import (
 )
 from rotorfilm.core.errors import InputError
 from rotorfilm.core.signals import force_outputs, journal_inputs
-from rotorfilm.cosim.master import SteppedPartner
+from rotorfilm.cosim.slaves import SteppedPartner
 
 m, k, tau, damping, omega = 3.0, 50.0, 0.6, 4.0, 1.0
 

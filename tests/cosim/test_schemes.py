@@ -19,6 +19,7 @@ from rotorfilm.cosim import (
     Newton,
     SIExp,
     SIExp3,
+    Slave,
     cosimulate,
     couple,
     squeeze_limit,
@@ -237,7 +238,7 @@ def test_a_rotor_that_is_not_linear_is_integrated_as_well():
 
 
 @dataclass(frozen=True)
-class Opaque:
+class Opaque(Slave):
     """A slave that holds inputs, steps, and no more."""
 
     inner: InProcessSlave

@@ -76,4 +76,4 @@ def test_missing_library_says_what_to_do(monkeypatch):
 
 def test_library_of_another_version_says_what_to_do():
     with pytest.raises(NativeLibraryError, match=r"of another version \(.*rf_absent.*cmake"):
-        library._typed(ctypes.CDLL, "rotorfilm", {"rf_absent": []})
+        library._typed(ctypes.CDLL, "rotorfilm", {"rf_absent": (None, [])})

@@ -7,8 +7,9 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.core.errors import InputError, SceneError
-from rotorfilm.questions import ladder_of
+from rotorfilm.bearings.rolling import RunningBalls
+from rotorfilm.core.errors import ConvergenceError, InputError, SceneError
+from rotorfilm.questions import ladder_of, rolling as ball_questions
 from rotorfilm.scenes.scene import parse_scene, read_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
@@ -96,6 +97,28 @@ def test_what_is_not_known_of_the_friction_of_balls_is_told():
     assert line.startswith("friction of balls: half or double its numbers would change it by ")
     share = float(line.rpartition(" ")[2].rstrip("%")) / 100.0
     assert share == pytest.approx(1.0 - 2.204 / 2.511, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("fewest", "said"), [(0.06, "by 6.4%; with 1 of 4"), (9.0, "not known; with 4 of 4")]
+)
+def test_friction_is_told_of_too_where_some_of_it_has_no_rest(monkeypatch, fewest, said):
+    """Half the traction coefficient, or all that is not the bearing's own, finds no rest."""
+    own = RunningBalls()
+
+    def rest_under(bearing, load, speed):
+        law = bearing.law
+        if isinstance(law, RunningBalls) and law != own and law.traction_coefficient < fewest:
+            raise ConvergenceError("no rest")
+        return find(bearing, load, speed)
+
+    find = ball_questions.rest_under
+    fast = ladder(ANGULAR + "axial_load = 500\n", "axial_stiffness", 1.0, "30000 rpm", 0.5)
+    assumed = ladder_of(fast).assumptions
+    monkeypatch.setattr(ball_questions, "rest_under", rest_under)
+    (line,) = assumed()
+    assert said in line
+    assert line.endswith(" such changes there is no rest")
 
 
 def test_control_by_the_other_race_is_an_assumption_that_is_told():

@@ -12,8 +12,8 @@ from families.bush_truth import wear_by_nodes
 
 from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError, SceneError
 from rotorfilm.questions import ladder_of
+from rotorfilm.questions.bush import bush_numbers, bush_remarks, bush_run
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.bush_run import bush_numbers, bush_remarks, bush_run
 
 ROOT = Path(__file__).parents[2]
 

@@ -4,8 +4,7 @@ import pytest
 
 from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.film_statics import StaticRung
-from rotorfilm.questions.film_thresholds import WhirlRung
+from rotorfilm.questions.film_statics import StaticRung, WhirlRung
 from rotorfilm.questions.quantities import QUANTITIES, TEMPERATURES
 from rotorfilm.scenes.scene import read_scene
 
@@ -32,7 +31,8 @@ def rungs(bearing, quantity):
 
 @pytest.mark.parametrize("bearing", BEARINGS)
 def test_one_rung_answers_each_quantity_of_every_bearing_with_a_film(bearing):
-    for quantity in set(QUANTITIES) - set(TEMPERATURES):
+    unknown = set() if bearing in ("journal", "pressure_dam") else {"maximum_pressure"}
+    for quantity in set(QUANTITIES) - set(TEMPERATURES) - unknown:
         asked = rungs(bearing, quantity)
         assert {type(rung) for rung in asked} == {StaticRung}
         assert all(rung.quantity is QUANTITIES[quantity] for rung in asked)

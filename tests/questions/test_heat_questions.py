@@ -20,7 +20,7 @@ from rotorfilm import (
 from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.film_thresholds import moving_heat
+from rotorfilm.questions.film_statics import moving_heat
 from rotorfilm.questions.quantities import QUANTITIES
 from rotorfilm.scenes.film_heat import HeatSteps, bush_of, field_rest, heat_error, uniform_rest
 from rotorfilm.scenes.scene import parse_scene

@@ -241,7 +241,7 @@ def test_nonlinear_orbit_is_that_of_harmonic_balance():
     shaft = replace(
         SCENE.shaft, unbalances=(replace(SCENE.shaft.unbalances[0], unbalance=6e-3, unbalance_angle=0.7),)
     )
-    scene = replace(SCENE, shaft=shaft)
+    scene = SCENE.with_tables(shaft=shaft)
     rung = next(
         rung
         for rung in ladder_of(asked("unbalance_amplitude", 1e-3, scene, at="drive_end")).rungs
@@ -304,7 +304,7 @@ def test_phase_turns_with_the_unbalance_on_springs():
     scene = parse_scene(UNIFORM + "at = 'middle'\n[operation]\nspeed = 200\n", "uniform")
     first = asked("unbalance_phase", 0.01, scene, "middle").ask()
     turned = replace(scene.shaft, unbalances=(replace(scene.shaft.unbalances[0], unbalance_angle=2.4),))
-    second = asked("unbalance_phase", 0.01, replace(scene, shaft=turned), "middle").ask()
+    second = asked("unbalance_phase", 0.01, scene.with_tables(shaft=turned), "middle").ask()
     assert first.met
     assert first.value == pytest.approx(second.value, abs=1e-9)
     assert first.value == pytest.approx(0.0, abs=1e-6)  # below the first critical speed, without damping
@@ -418,7 +418,7 @@ def test_what_is_missing_or_contradictory_is_said():
         InputError, match=r"question\.at is required for unbalance_phase: one of a, b, middle"
     ):
         asked("unbalance_phase", 0.1, moving).ask()
-    balanced = replace(moving, shaft=replace(scene.shaft, unbalances=()))
+    balanced = moving.with_tables(shaft=replace(scene.shaft, unbalances=()))
     with pytest.raises(InputError, match=r"shaft\.unbalances must have a positive one"):
         asked("unbalance_force", 0.1, balanced).ask()
     loaded = replace(moving, operation=replace(moving.operation, load=(0.0, -1.0)))

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from rotorfilm import JFODamper, damper_turn, simulate
 from rotorfilm.core.errors import InputError, SceneError
-from rotorfilm.questions.damper import _of_turn
+from rotorfilm.questions.damper import LEVELS, follow, of_turn
 from rotorfilm.questions.walk import ladder_of
 from rotorfilm.scenes import read_scene
 from rotorfilm.scenes.damper_films import damper_models
@@ -152,18 +152,20 @@ def test_peak_after_a_lost_blade_is_within_its_estimate():
 def test_orbit_past_holes_balances_the_film_that_is_stepped_along_it():
     """m q'' = F + u omega^2 (cos, sin) in its first harmonic, F by `damper_turn` on the orbit itself."""
     asked = scene("unbalance_amplitude", unbalance="300 g mm", damper={**DAMPER, "supply": HOLES})
-    rung, speed = ladder_of(asked).rungs[0], asked.speed
-    found = rung.follow(12 * 2.0 * np.pi / speed)
-    q = found.run.position[:, -48:]
-    film = dataclasses.replace(rung.damper, stiffness=0.0)
+    rung, speed, models = ladder_of(asked).rungs[0], asked.speed, damper_models(asked)
+    cells, steps = LEVELS[0]
+    damper = dataclasses.replace(models.support, cells=cells)
+    run = follow(damper, models.rotor, steps, 12 * 2.0 * np.pi / speed)
+    q = run.position[:, -48:]
+    film = dataclasses.replace(damper, stiffness=0.0)
     force = damper_turn(film, q, speed).force - 1e6 * q
     wave = np.exp(-2j * np.pi * np.arange(1, 49) / 48)
     place, pull = (both[0] + 1j * both[1] for both in (q, force))
     balance = 20.0 * speed**2 * np.mean(place * wave) + np.mean(pull * wave)
     assert abs(balance + 3e-4 * speed**2) < 0.02 * 3e-4 * speed**2
-    assert rung.found == pytest.approx(np.abs(place - place.mean()).max(), rel=2e-3)
+    assert rung.answer(None).value == pytest.approx(np.abs(place - place.mean()).max(), rel=2e-3)
     both = sum(abs(np.mean(pull * one)) for one in (wave, wave.conj()))
-    transmitted = _of_turn(found, rung.rotor, "transmissibility", 1)
+    transmitted = of_turn(run, steps, models.rotor, "transmissibility", 1)
     assert transmitted == pytest.approx(both / (3e-4 * speed**2), rel=0.02)
 
 

@@ -26,32 +26,28 @@ pytest.importorskip("pandas")
 pytest.importorskip("xarray")
 
 NO_RESULTS = {
-    "what a chart is drawn from": {"HeatAnswer", "HeatModel", "StudyStyle"},
+    "what a chart is drawn from": {"HeatModel", "StudyStyle"},
     "what a caller gives": {
         "OperatingPoint",
         "DamperGroups",
         "Span",
         "Axis",
         "StateRange",
-        "RungPoint",
         "PadResolution",
     },
     "a part of the machinery": {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
-        *("FilmField", "StudyCase", "FilmCase", "Study", "BushRun"),
-        *("RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
+        *("FilmField", "StudyCase", "Study", "BushRun"),
+        *("RossRotor", "DemoResult", "PublishedStage"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("RestingBalls", "BuiltDamperFilm"),
+        *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
-        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
+        *("FilmRest", "FilmCandidate", "PadCandidate", "TiltingCandidate"),
         *(
             "RestingFilms",
             "DamperFilm",
-            "ConservedDamperFilm",
             "FilmRung",
-            "Limit",
             "Panel",
-            "LimitAtlas",
         ),
     },
 }

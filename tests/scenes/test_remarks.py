@@ -5,16 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from rotorfilm.questions import bush as bush_remarks
 from rotorfilm.scenes import (
     Scene,
     bundled_scene,
-    bush_run as bush_remarks,
     contact_motions as contact_remarks,
     damper_films as damper_ranges,
     journal_tables as journal_remarks,
     solve_shaft as shaft_remarks,
 )
-from rotorfilm.scenes.bush_run import bush_run
 from rotorfilm.scenes.families import Remark, said
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -43,7 +42,7 @@ def damper():
 
 def bush():
     scene = Scene.load(EXAMPLES / "bush_wear.toml")
-    return bush_remarks.REMARKS, bush_remarks.bush_numbers(bush_run(scene, "wear"))
+    return bush_remarks.REMARKS, bush_remarks.bush_numbers(bush_remarks.bush_run(scene, "wear"))
 
 
 def shaft():

@@ -29,7 +29,7 @@ from ...core.results import Trajectory
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native.library import loops
 from ...native.spec import NativeSpec
-from ...native.structs import RideStruct
+from ...native.structs import structure
 from ..formulas import cubic
 from ..reaction import Called, Complex, ReducedCoefficients, StatesStiffness, coefficients_of
 from .contact_law import MOST_CONTACTS, ContactLaw, contact_spec
@@ -303,7 +303,7 @@ class RideLaw(NamedTuple):
         """
         matrices = [np.ascontiguousarray(matrix, dtype=float) for matrix in (self.A, self.B, self.C)]
         places = [matrix.ctypes.data for matrix in matrices]
-        law = RideStruct(len(self.B), *places, *self[3:])
+        law = structure("rf_ride_law")(len(self.B), *places, *self[3:])
         begin, loads = np.ascontiguousarray(start, dtype=float), np.ascontiguousarray(pushes, dtype=float)
         n = len(loads) // 2
         answer = np.empty((n + 1, len(begin)))

@@ -22,7 +22,7 @@ from ...core.errors import ConvergenceError, InputError
 from ...core.model import Array
 from ...native.film_kernels import Batch, FilmKernel, Status
 from ...native.library import loops
-from ...native.structs import GridStruct, GridWorkStruct, RingStruct, StencilStruct
+from ...native.structs import structure
 from .geometry import TURN, Cavitation, FilmGeometry, FilmStart, FreeStart, Span
 from .kernel_film import report_law
 
@@ -334,8 +334,8 @@ class RingKernel(FilmKernel):
         self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad)
         self.grids = grids
         self._kept: list[Array] = []
-        self.struct = RingStruct(
-            (GridStruct * len(grids))(*map(self._grid, grids)),
+        self.struct = structure("rf_ring")(
+            (structure("rf_grid") * len(grids))(*map(self._grid, grids)),
             self._place(spans.start),
             self._place(spans.extent),
             slenderness,
@@ -348,9 +348,9 @@ class RingKernel(FilmKernel):
             pad,
         )
 
-    def _grid(self, grid: Grid) -> GridStruct:
+    def _grid(self, grid: Grid) -> Any:
         floats = grid.line, grid.face, grid.value
-        return GridStruct(
+        return structure("rf_grid")(
             len(grid.span),
             len(grid.width),
             self._place(grid.span, np.int32),
@@ -416,7 +416,7 @@ class RingKernel(FilmKernel):
         discrete equations. With the lines of the grid held dJ/de = 6 P.(dA P). Openings are at pressure 0.
         """
         e, w = _float(eccentricity), _float(source)
-        levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), GridWorkStruct()
+        levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), structure("rf_grid_work")()
         J, slope = np.empty((levels, n)), np.empty((levels, 2, n) if slopes else 0)
         places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data if slopes else None]
         status = loops()["rf_ring_potential"](
@@ -565,7 +565,7 @@ def solve_stencil(stencil: Stencil, value: Array, guess: np.ndarray, others: Arr
     held = np.ascontiguousarray(stencil.held, dtype=np.uint8)
     pressure, full = np.array(value, dtype=float), np.array(guess, dtype=np.uint8)
     answers = np.array(others, dtype=float)
-    struct = StencilStruct(lines, nodes, *(row.ctypes.data for row in (*rows, held)))
+    struct = structure("rf_stencil")(lines, nodes, *(row.ctypes.data for row in (*rows, held)))
     places = pressure.ctypes.data, full.ctypes.data, len(answers), answers.ctypes.data
     status = loops()["rf_stencil_film"](byref(struct), *places)
     if status == Status.NO_MEMORY:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ctypes import byref
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from ...core.errors import ConvergenceError, InputError, warn_user
 from ...core.model import Array
 from ...native.film_kernels import Status
 from ...native.library import loops
-from ...native.structs import OilCellsStruct, OilWorkStruct
+from ...native.structs import structure
 from .geometry import TURN, FilmGeometry, Span
 
 # The cells of a film that conserves its oil: lines that stay in the bearing, cells along half the length.
@@ -294,7 +294,7 @@ def solve_oil(
     struct, kept = oil_struct(cells)
     P, content = np.array(pressure, dtype=float), np.array(theta, dtype=float)
     full = np.zeros(P.shape, dtype=np.uint8) if guess is None else np.array(guess, dtype=np.uint8)
-    work, places = OilWorkStruct(), (full.ctypes.data, P.ctypes.data, content.ctypes.data)
+    work, places = structure("rf_oil_work")(), (full.ctypes.data, P.ctypes.data, content.ctypes.data)
     status = loops()["rf_oil_film"](byref(struct), by_newton, guess is not None, *places, byref(work))
     del kept
     report_search(status)
@@ -337,7 +337,7 @@ def oil_response(
     return real[1] + 1j * others[1] if np.iscomplexobj(storage) else real[1]
 
 
-def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
+def oil_struct(cells: OilCells) -> tuple[Any, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
     faces = (np.broadcast_to(face, cells.opening.shape) for face in cells[:2])
@@ -350,7 +350,7 @@ def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     if cells.old is not None:
         kept.append(_float(cells.old))
     old = None if cells.old is None else kept[-1].ctypes.data
-    struct = OilCellsStruct(
+    struct = structure("rf_oil_cells")(
         *(lines, nodes, *factors, *cells[7:9], old, opening, fed, flow, len(cells.flow), cells.backward)
     )
     return struct, kept

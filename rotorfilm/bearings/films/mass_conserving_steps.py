@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from ctypes import byref, c_int64
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,9 +19,8 @@ from ...core.model import Array
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native.film_kernels import Status
 from ...native.library import loops
-from ...native.master_structs import MessageStruct
 from ...native.spec import NativeParameter, NativeSpec, parameter
-from ...native.structs import OilFilmStruct, OilFoundStruct, OilGapStruct, OilPastStruct, OilShapeStruct
+from ...native.structs import structure
 from ..reaction import NOMINAL_SPEED, StepTrial, input_vector
 from .mass_conserving import (
     FILM,
@@ -572,7 +571,7 @@ class ShapeNumbers(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, ShapeNumbers]:
+def shape_of(film: ConservedFilm) -> tuple[Any, ShapeNumbers]:
     """Return a film as C reads it, and the arrays that it must outlive.
 
     Raises
@@ -597,7 +596,9 @@ def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, ShapeNumbers]:
     )
     ends = float(cells.center[0]), supply.center_pressure, supply.end_pressure
     places = [row.ctypes.data for row in kept]
-    return OilShapeStruct(*cells.opening.shape, len(supply.fed), *places, *ends, film.slenderness), kept
+    return structure("rf_oil_shape")(
+        *cells.opening.shape, len(supply.fed), *places, *ends, film.slenderness
+    ), kept
 
 
 def sharpened_oil(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
@@ -628,7 +629,7 @@ def step_oil(
         If the search for the cavity does not end.
     """
     content, before = (_float(row) for row in past[:2])
-    history = OilPastStruct(content.ctypes.data, before.ctypes.data, past[2])
+    history = structure("rf_oil_past")(content.ctypes.data, before.ctypes.data, past[2])
     rows = [_float(row) for row in gap]
     found, made = _found(film, near)
     status = loops()["rf_oil_step"](
@@ -696,7 +697,11 @@ class MovingFilm(NamedTuple):
         ConvergenceError
             If the search for the cavity does not end.
         """
-        block, why, at = np.empty(HEAD + len(ROWS) * self.film.cells.opening.size), MessageStruct(), motion
+        block, why, at = (
+            np.empty(HEAD + len(ROWS) * self.film.cells.opening.size),
+            structure("rf_message")(),
+            motion,
+        )
         at = _float(motion)
         _report(
             loops()["rf_oil_begin"](byref(self._struct), at.ctypes.data, block.ctypes.data, byref(why)), why
@@ -708,7 +713,7 @@ class MovingFilm(NamedTuple):
 
         Raises as `begin`.
         """
-        end, work, why, at = block.copy(), (c_int64 * 2)(), MessageStruct(), _float(motion)
+        end, work, why, at = block.copy(), (c_int64 * 2)(), structure("rf_message")(), _float(motion)
         status = loops()["rf_oil_travel"](
             byref(self._struct), t, at.ctypes.data, dt, end.ctypes.data, work, byref(why)
         )
@@ -716,8 +721,8 @@ class MovingFilm(NamedTuple):
         return end, work[0], work[1]
 
     @property
-    def _struct(self) -> OilFilmStruct:
-        return OilFilmStruct(shape_of(self.film)[0], *self[1:])
+    def _struct(self) -> Any:
+        return structure("rf_oil_film_si")(shape_of(self.film)[0], *self[1:])
 
 
 def block_of(heads: tuple[float, Array, Array, Array], rows: Mapping[str, np.ndarray]) -> Array:
@@ -736,18 +741,18 @@ def parts_of(
     return (float(length[0]), motion, answer, passed), {**cells, "full": full}
 
 
-def _gap(rows: list[Array]) -> OilGapStruct:
-    return OilGapStruct(*(row.ctypes.data for row in rows))
+def _gap(rows: list[Array]) -> Any:
+    return structure("rf_oil_gap")(*(row.ctypes.data for row in rows))
 
 
 def _found(
     film: ConservedFilm, near: tuple[Array, np.ndarray]
-) -> tuple[tuple[Array, Array, np.ndarray, Array], OilFoundStruct]:
+) -> tuple[tuple[Array, Array, np.ndarray, Array], Any]:
     """Return the arrays of a film that is sought, and what C reads of them."""
     shape = film.cells.opening.shape
     theta, full = np.array(near[0], dtype=float, order="C"), np.array(near[1], dtype=np.uint8, order="C")
     found = np.empty(shape), theta, full, np.empty(shape)
-    return found, OilFoundStruct(*(row.ctypes.data for row in found))
+    return found, structure("rf_oil_found")(*(row.ctypes.data for row in found))
 
 
 def _state(
@@ -756,7 +761,7 @@ def _state(
     rate: float,
     status: int,
     found: tuple[Array, Array, np.ndarray, Array],
-    made: OilFoundStruct,
+    made: Any,
 ) -> ConservedState:
     report_search(status)
     pressure, theta, full, old = found

@@ -30,7 +30,7 @@ from ...core.results import BearingLosses
 from ...native.film_kernels import Batch, Status
 from ...native.library import loops
 from ...native.spec import NativeSpec, parameter
-from ...native.structs import RecessPadStruct, RecessStruct
+from ...native.structs import structure
 from ..films.finite_volumes import are_counts
 from ..films.geometry import TURN, FilmGeometry, Pad
 from ..reaction import KernelReaction, broadcast_state
@@ -581,8 +581,8 @@ class DamKernel:
     def __init__(self, rows: Array, dimensions: Sequence[float], extrapolated: bool) -> None:
         self._arguments = (rows, list(dimensions), extrapolated)
         self.dimensions = tuple(dimensions)
-        self._pads = (RecessPadStruct * len(rows))(*map(_pad_struct, rows))
-        self.struct = RecessStruct(addressof(self._pads), len(rows), *dimensions, extrapolated)
+        self._pads = (structure("rf_recess_pad") * len(rows))(*map(_pad_struct, rows))
+        self.struct = structure("rf_recess")(addressof(self._pads), len(rows), *dimensions, extrapolated)
         self._reference = byref(self.struct)
         self._at = loops()["rf_recess_at"]
 
@@ -629,6 +629,6 @@ class DamKernel:
         return loops()["rf_recess_least"](self._reference, _Two(x, y), byref(pad)), pad.value
 
 
-def _pad_struct(row: Array) -> RecessPadStruct:
+def _pad_struct(row: Array) -> Any:
     counts = row[8:13].astype(int).tolist()
-    return RecessPadStruct(*row[:8].tolist(), tuple(counts[:3]), tuple(counts[3:]))
+    return structure("rf_recess_pad")(*row[:8].tolist(), tuple(counts[:3]), tuple(counts[3:]))

@@ -19,7 +19,7 @@ from ...core.errors import (
 )
 from ...core.inputs import quantities
 from ...core.model import Array
-from ...native.structs import ROW, WAVE
+from ...native.ball_kernel import ROW, WAVE
 from .ball_element import BallElement, BallLaw, EllipticContact, RunningBalls
 
 # What balls and rings are made of.

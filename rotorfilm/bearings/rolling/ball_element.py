@@ -29,9 +29,8 @@ from ...core.inputs import arguments, quantities
 from ...core.model import MOST_LEFT, Array
 from ...core.readable import Readable
 from ...native import NativeSpec, Status
-from ...native.ball_kernel import DEGREES, BallKernel, BallsAt
+from ...native.ball_kernel import DEGREES, ROW, BallKernel, BallsAt
 from ...native.spec import parameter
-from ...native.structs import ROW
 from ..formulas import EllipticIntegrals, curvature_ratio, elliptic_integrals
 from ..reaction import KernelReaction
 

@@ -15,7 +15,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization
 from ...core.readable import Readable
 from ...core.signals import Signal, signals_of
-from ...native.structs import ROW
+from ...native.ball_kernel import ROW
 from ..contact import ContactGrid, in_series, require_state_space
 from .ball_bearing import BallBearing
 from .ball_element import BallElement, BallRest, require_balls

@@ -18,11 +18,11 @@ typedef struct rf_speeds {
 
 /* What the speed changes of a rotor whose modes are those of another one: rates of its modal coordinates, real
    parts and then imaginary ones, per rad/s that it turns faster. */
-typedef struct rf_spin {
+typedef struct rf_spin_rates {
     double speed;         /* of the modes */
     const double *matrix; /* 2 modes x 2 modes; NULL where the speed changes nothing, or is that of the modes */
     const double *rest;   /* 2 modes: at the rest about which motion is counted */
-} rf_spin;
+} rf_spin_rates;
 
 /* Acceleration of the ground over time, linear between the times and none before and after them. */
 typedef struct rf_ground {
@@ -47,7 +47,7 @@ typedef struct rf_march {
     rf_scheme scheme;
     rf_journals journals;
     rf_speeds profile;
-    rf_spin spin;
+    rf_spin_rates spin;
     rf_ground ground;
     const double *scales; /* 4 n: make x, y, vx, vy of each journal dimensionless */
     double longest, shortest; /* step [s] */

@@ -6,7 +6,7 @@ import pytest
 from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
 from rotorfilm.bearings.oil.oil import RANGE, viscosity_table
 from rotorfilm.core.errors import InputError, ValidityWarning
-from rotorfilm.native.structs import OilStruct
+from rotorfilm.native.structs import structure
 
 CELSIUS = 273.15
 
@@ -117,7 +117,7 @@ def test_the_table_of_a_kernel_is_the_law():
         T = RANGE[0] + (k + np.linspace(0.0, 1.0, 5)) * (RANGE[1] - RANGE[0]) / cells
         spline = basis @ table.coefficients[k : k + 6]
         assert spline == pytest.approx(np.log(oil.law.viscosity(T)), abs=3e-9 if 0 < k < cells - 1 else 1e-6)
-    assert OilStruct._fields_[0][0] == "cells"
+    assert structure("rf_oil")._fields_[0][0] == "cells"
 
 
 def _quintic_basis(u):
