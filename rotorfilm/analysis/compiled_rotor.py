@@ -422,7 +422,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
     for spring, damper in SUPPORTS:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
-        shifted = A - B[:, : len(K0)] @ _support_rows(parts, K0, C0)
+        shifted = A - B[:, : len(K0)] @ np.hstack([K0[:, None] * parts.rows, C0[:, None] * parts.rows])
         found = modes(shifted, rate)
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
@@ -457,10 +457,6 @@ def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     if not np.all(stiffness > 0.0):
         stiffness = np.full(count, float(np.abs(s.stiffness).max()) or 1.0)
     return stiffness, abs(speed) or math.sqrt(float(stiffness.max()) / mass)
-
-
-def _support_rows(parts: Parts, spring: Array, damper: Array) -> Array:
-    return np.hstack([spring[:, None] * parts.rows, damper[:, None] * parts.rows])
 
 
 def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:

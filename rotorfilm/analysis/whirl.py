@@ -95,10 +95,14 @@ def whirl_threshold(
     require_reaction("reaction", reaction, JournalForce)
     require_positive("mass", mass)
     force = checked_load(load)
-    low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    speeds = _speeds(
+        *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    )
     passed: list[str] = []
     search = _settling if hasattr(reaction, "at_rest") else _searched
-    found = search(reaction, force, mass, (low, high), passed)
+    with _passing(passed):
+        first = _first_carried(reaction, force, speeds.tolist())
+    found = search(reaction, force, mass, speeds, first, passed)
     if found.speed is None and passed:
         return replace(found, reason=f"{found.reason}; equilibria of the search are in doubt: {passed[0]}")
     return found
@@ -145,32 +149,32 @@ def _passing(passed: list[str]) -> Iterator[None]:
 
 
 def _searched(
-    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
+    reaction: Reaction, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
 ) -> WhirlThreshold:
-    """Return the threshold by stiffness and damping at the equilibria."""
+    """Return the threshold by stiffness and damping at the equilibria, from the first speed that has one."""
     stable: list[bool] = []
-    before, rests = None, _scan(reaction, load, *ends)
-    while True:
+    before: Coefficients | None = None
+    for speed in speeds[first:].tolist():
         with _passing(passed):
-            at = next(rests, None)
-        if at is None:
-            return WhirlThreshold(reason=_why_none(stable, *ends))
+            at = coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
         if damping_has_rank_one(at):
             return WhirlThreshold(reason=critical_mass(at).reason)
         stable.append(is_stable(at, mass))
         if before is not None and stable[-2:] == [True, False]:
             return _refined(reaction, load, mass, (before, at), passed)
         before = at
+    return WhirlThreshold(reason=_why_none(stable, speeds))
 
 
 def _settling(
-    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
+    reaction: Reaction, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
 ) -> WhirlThreshold:
     """Return the threshold by the exponents of rotor and bearing together."""
 
     def least_damped(at: Equilibrium) -> complex:
         if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
-            return leading_exponent(reaction, at, mass)
+            # Where nothing grows it is one that is damped, not always the least: only its sign counts.
+            return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
         film = at_rest(settled(reaction, at.position, at.speed))
         return complex(film.modes(at.position, at.speed, mass)[0])
 
@@ -178,12 +182,9 @@ def _settling(
         with _passing(passed):
             return least_damped(equilibrium(reaction, load, speed)).real
 
-    speeds = _speeds(*ends)
-    with _passing(passed):
-        first = _first_carried(reaction, load, speeds.tolist())
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
-        return WhirlThreshold(reason=_why_none(stable, *ends))
+        return WhirlThreshold(reason=_why_none(stable, speeds))
     with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
@@ -206,14 +207,6 @@ def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float
 def _speeds(low: float, high: float) -> Array:
     points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
     return np.geomspace(low, high, points)
-
-
-def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
-    """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
-    speeds = _speeds(low, high).tolist()
-    for speed in speeds[_first_carried(reaction, load, speeds) :]:
-        at = equilibrium(reaction, load, speed)
-        yield coefficients(reaction, at.position, at.speed)
 
 
 def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
@@ -279,8 +272,8 @@ def _threshold(
     )
 
 
-def _why_none(stable: list[bool], low: float, high: float) -> str:
-    between = f"from {low:.6g} to {high:.6g} rad/s"
+def _why_none(stable: list[bool], speeds: Array) -> str:
+    between = f"from {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
     if not stable:
         return f"no static equilibrium at any speed {between}"
     if all(stable):
@@ -485,15 +478,6 @@ class CountedThreshold(WhirlThreshold):
 
     growing_below: int
     growing_above: int
-
-
-def leading_exponent(reaction: Remembering, at: Equilibrium, mass: float) -> complex:
-    """Return the exponent of a rigid mass [kg] on a film at an equilibrium that grows most [1/s].
-
-    Where the count says that nothing grows it is one that is damped, mostly of the half-speed whirl, and not
-    always the least damped: its sign counts, not its size.
-    """
-    return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
 
 
 def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedThreshold:
