@@ -124,9 +124,11 @@ class CouplingCase:
 
     def drift(self, run: PilotRun) -> Drift:
         """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""
+        return drift(self.rotor, self.reaction, run.laws, self._inner(run))
+
+    def _inner(self, run: PilotRun) -> InnerMotion:
         own = run.outcome.trajectory
-        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
-        return drift(self.rotor, self.reaction, run.laws, motion)
+        return inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
 
     def instability(self, scheme: Scheme, angle: float) -> str:
         """Return why a run cannot be stable, by linear theory where the rotor starts; empty if it may be."""
@@ -192,7 +194,7 @@ class CouplingCase:
         samples = samples_of(self.reaction, own, self.rotor.profile.speeds[0])
         whole = 0.999 * min(run.outcome.macro_step, own.time[-1])
         regular = [samples[0], *(each for each in samples if each.time > whole)]
-        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
+        motion = self._inner(run)
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
         force = self.reaction.force(motion.position, motion.velocity, speed)
         slopes = self.reaction.jacobian(motion.position, motion.velocity, speed)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
@@ -85,17 +85,11 @@ def cosimulate(
     """
     require_times(macro_step, duration)
     films = film_fmu if isinstance(film_fmu, Mapping) else {"": film_fmu}
-
-    def attempt(scheme: Scheme, macro_step: float, duration: float) -> CoSimulation:
-        return _run(rotor_fmu, films, scheme, macro_step, duration, None)
-
-    wanted = _required(scheme)
-    choice = None
-    if isinstance(wanted, Auto):
-        choice = choose_scheme(attempt, wanted, macro_step=macro_step, duration=duration)
-        wanted = choice.scheme
-    result = _run(rotor_fmu, films, wanted, macro_step, duration, progress)
-    return result if choice is None else replace(result, choice=choice)
+    attempt, wanted = partial(_run, rotor_fmu, films), _required(scheme)
+    if not isinstance(wanted, Auto):
+        return attempt(wanted, macro_step, duration, progress)
+    choice = choose_scheme(attempt, wanted, macro_step=macro_step, duration=duration)
+    return replace(attempt(choice.scheme, macro_step, duration, progress), choice=choice)
 
 
 def _required(scheme: Scheme | Auto | str | None) -> Scheme | Auto:
@@ -114,7 +108,7 @@ def _run(
     scheme: Scheme,
     macro_step: float,
     duration: float,
-    progress: Callable[[float], None] | None,
+    progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
     """Open all partners and couple them."""
     with ExitStack() as stack:
@@ -145,7 +139,7 @@ def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:
     FmuError
         If the file cannot be read, is no Co-Simulation FMU of FMI 2.0 or 3.0, or cannot be instantiated.
     """
-    return _opened(path, lambda description: False)
+    return _opened(path, exchanges=False)
 
 
 def open_rotor(path: Path, *, held: bool) -> AbstractContextManager[FmuSlave]:
@@ -159,19 +153,17 @@ def open_rotor(path: Path, *, held: bool) -> AbstractContextManager[FmuSlave]:
     held : bool
         Whether it need not take more than held forces.
     """
-
-    def exchanges(description: Any) -> bool:
-        enough = held or any(local_name(v.name) == BASE_TIME for v in description.modelVariables)
-        return description.modelExchange is not None and not (description.coSimulation is not None and enough)
-
-    return _opened(path, exchanges)
+    return _opened(path, exchanges=True, held=held)
 
 
 @contextmanager
-def _opened(path: Path, exchanges: Callable[[Any], bool]) -> Iterator[FmuSlave]:
-    """Open an FMU, for Model Exchange where its description asks for that."""
+def _opened(path: Path, *, exchanges: bool, held: bool = True) -> Iterator[FmuSlave]:
+    """Open an FMU; one that may be for Model Exchange is, where Co-Simulation will not do."""
     with extracted(path) as (description, folder):
-        slave = (ExchangeRotor if exchanges(description) else FmuSlave)(description, folder)
+        enough = held or any(local_name(v.name) == BASE_TIME for v in description.modelVariables)
+        enough = enough and description.coSimulation is not None
+        exchange = exchanges and description.modelExchange is not None and not enough
+        slave = (ExchangeRotor if exchange else FmuSlave)(description, folder)
         try:
             yield slave
         finally:

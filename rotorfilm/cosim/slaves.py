@@ -147,15 +147,12 @@ class Slave:
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs; inputs not named keep their start values."""
-        raise NotImplementedError
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs."""
-        raise NotImplementedError
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] under the inputs set."""
-        raise NotImplementedError
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
@@ -171,7 +168,6 @@ class Slave:
 
     def restore(self, state: Any) -> None:
         """Return to a state."""
-        raise NotImplementedError
 
     def release(self, state: Any) -> None:
         """Forget a state."""
