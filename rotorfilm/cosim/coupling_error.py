@@ -18,7 +18,7 @@ from ..core.model import Array, Reaction
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
-from .cosim_run import CoSimulation, coupled
+from .cosim_run import CoSimulation, coupled, first_possible
 from .coupling_loop import coupling_loop, dominant_eigenvalue
 from .partners import Partners
 from .schemes import (
@@ -167,13 +167,11 @@ class CouplingCase:
         PartialResultError
             If the journal cannot be followed even at the shortest step.
         """
-        for scheme, angle in PILOTS[:-1]:
-            try:
-                return self.run(scheme, angle, gentle=True), angle
-            except PartialResultError:
-                continue
-        scheme, angle = PILOTS[-1]
-        return self.run(scheme, angle, gentle=True), angle
+
+        def run(scheme: Scheme, angle: float) -> tuple[PilotRun, float]:
+            return self.run(scheme, angle, gentle=True), angle
+
+        return first_possible(run, PILOTS, PartialResultError)
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.

@@ -24,7 +24,7 @@ from ..core.model import Dynamic, Model
 from ..core.results import Trajectory, orbit_distance
 from ..fmu.instance import extracted
 from ..rotors.force_law import BASE_TIME
-from .cosim_run import Choice, CoSimulation, Trial, couple, require_times
+from .cosim_run import Choice, CoSimulation, Trial, couple, first_possible, require_times
 from .fmu_slave import ExchangeRotor, FmuSlave, local_name
 from .schemes import GaussSeidel, Newton, Scheme, SIExp3
 from .slaves import InProcessSlave, Slave, SteppedPartner
@@ -112,16 +112,17 @@ def _run(
 ) -> CoSimulation:
     """Open all partners and couple them."""
     with ExitStack() as stack:
+
+        def opened(film: Film) -> Slave:
+            if isinstance(film, str | PathLike):
+                return stack.enter_context(open_fmu(film))
+            return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
+
         if isinstance(rotor, str | PathLike):
             first: Slave = stack.enter_context(open_rotor(rotor, held=not scheme.needs.laws))
         else:
             first = InProcessSlave(rotor)
-        others: dict[str, Slave] = {
-            station: stack.enter_context(open_fmu(film))
-            if isinstance(film, str | PathLike)
-            else (SteppedPartner if isinstance(film, SteppedReaction) else InProcessSlave)(film)
-            for station, film in films.items()
-        }
+        others = {station: opened(film) for station, film in films.items()}
         return couple(
             first, others, macro_step=macro_step, duration=duration, scheme=scheme, progress=progress
         )
@@ -253,13 +254,11 @@ def choose_scheme(attempt: Attempt, auto: Auto, *, macro_step: float, duration: 
 
 def _reference(attempt: Attempt, macro_step: float, length: float) -> Trajectory:
     """Return a run with shorter macro steps."""
-    for scheme, times in REFERENCES[:-1]:
-        try:
-            return attempt(scheme, macro_step / times, length).trajectory
-        except (ContactError, InputError, ConvergenceError, CouplingError):
-            continue
-    scheme, times = REFERENCES[-1]
-    return attempt(scheme, macro_step / times, length).trajectory
+
+    def run(scheme: Scheme, times: int) -> Trajectory:
+        return attempt(scheme, macro_step / times, length).trajectory
+
+    return first_possible(run, REFERENCES, ContactError, InputError, ConvergenceError, CouplingError)
 
 
 def _tried(
@@ -285,10 +284,11 @@ def _tried(
         elif error > tolerance:
             reason = f"not accurate enough: off by {error:.2g}"
         else:
-            taken, calls = True, _calls(run)
-            reason = f"stable, off by {error:.2g}, {calls:.3g} film calls per step: the cheapest that will do"
-    said = {"orbit_error": error, "spectral_radius": radius, "film_calls": run and _calls(run)}
-    return Trial(scheme=scheme, reason=reason, **said), taken
+            taken = True
+            reason = f"stable, off by {error:.2g}, {_calls(run):.3g} film calls per step: the cheapest that will do"
+    calls = None if run is None else _calls(run)
+    said = Trial(scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason)
+    return said, taken
 
 
 def _failure(failure: PartialResultError) -> str:
