@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from ..core.errors import (
     ContactError,
@@ -26,6 +28,8 @@ from .partners import Partners, Record
 from .schemes import MEMORY, GaussSeidel, Sample, Scheme, started
 from .slaves import Slave
 from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
+
+T = TypeVar("T")
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
@@ -152,6 +156,14 @@ def _is_coarse(result: CoSimulation) -> bool:
     """Return whether the steps were too long for the motion, by bursts or throughout."""
     local = result.watch.local_error
     return result.coupling.coarse or (local is not None and local > COARSE)
+
+
+def first_possible(make: Callable[..., T], options: Sequence[tuple[Any, ...]], *errors: type[Exception]) -> T:
+    """Return what the first option makes that does not raise one of these errors; the last one may."""
+    for option in options[:-1]:
+        with suppress(*errors):
+            return make(*option)
+    return make(*options[-1])
 
 
 def require_times(macro_step: float, duration: float) -> None:

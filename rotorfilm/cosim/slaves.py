@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import byref
+from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -147,15 +148,12 @@ class Slave:
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs; inputs not named keep their start values."""
-        raise NotImplementedError
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs."""
-        raise NotImplementedError
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] under the inputs set."""
-        raise NotImplementedError
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
@@ -171,7 +169,6 @@ class Slave:
 
     def restore(self, state: Any) -> None:
         """Return to a state."""
-        raise NotImplementedError
 
     def release(self, state: Any) -> None:
         """Forget a state."""
@@ -388,6 +385,7 @@ class SteppedPartner(_Held):
 # Partners as the compiled loop calls them: the functions of an FMU's library, or a kernel of ours.
 
 
+@dataclass(eq=False)
 class CompiledPartner:
     """A partner with its references by the names of its signals.
 
@@ -406,19 +404,14 @@ class CompiledPartner:
         What the kernel reads.
     """
 
-    def __init__(
-        self,
-        struct: Any,
-        inputs: dict[str, int],
-        outputs: dict[str, int],
-        knowns: dict[str, int],
-        rates: list[int],
-        states: list[int],
-        own: Any = None,
-        tables: Any = None,
-    ) -> None:
-        self.struct, self.inputs, self.outputs, self.knowns = struct, inputs, outputs, knowns
-        self.rates, self.states, self.own, self._tables = rates, states, own, tables
+    struct: Any
+    inputs: dict[str, int]
+    outputs: dict[str, int]
+    knowns: dict[str, int]
+    rates: list[int]
+    states: list[int]
+    own: Any = None
+    tables: Any = None
 
     def __del__(self) -> None:
         if self.own is not None:

@@ -32,11 +32,11 @@ COMPILED = {".so", ".dll", ".dylib"}
 """Files that run on one platform."""
 
 VERIFIED = "0.7.0"
-"""The version of pythonfmu for which `pythonfmu_api` counts references."""
+"""The version of pythonfmu for which `python/slave.py` counts references."""
 
 
 def require_verified_version() -> None:
-    """Raise FmuError unless the installed pythonfmu is the one that `pythonfmu_api` was verified for.
+    """Raise FmuError unless the installed pythonfmu is the one that `python/slave.py` was verified for.
 
     With libraries that count differently, the references it takes would leak instances, or crash the host.
     """

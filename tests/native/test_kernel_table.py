@@ -141,13 +141,13 @@ def test_a_new_kernel_is_one_file_and_one_row(tree):
 def test_every_row_has_its_file_and_every_file_its_row():
     files = {path.stem.removeprefix("kernel_") for path in FOLDER.rglob("kernel_*.c")}
     assert set(TABLE) == files
-    assert {name for row in TABLE.values() for name in row.libraries} | {LOOPS, MASTER} == set(
+    assert {name for row in TABLE.values() for name in row[0]} | {LOOPS, MASTER} == set(
         kernel_table.libraries()
     )
 
 
 def test_every_picture_is_of_a_row():
-    assert {path.stem for path in PICTURES.glob("*.png")} == {row.picture for row in TABLE.values()}
+    assert {path.stem for path in PICTURES.glob("*.png")} == {row[1] for row in TABLE.values()}
 
 
 @pytest.mark.parametrize("kernel", TABLE)

@@ -144,7 +144,7 @@ def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> byte
         )
     name = f"{library}-{_key(sources)}-{target.folder}.{target.suffix}"
     return cached(
-        _cache_folder() / name,
+        cache_folder() / "platforms" / name,
         from_bytes=bytes,
         build=lambda: _compile(target, sources, library),
         to_bytes=bytes,
@@ -168,10 +168,6 @@ def _compile(target: Target, sources: Mapping[str, bytes], library: str) -> byte
         if ran.returncode != 0:
             raise FmuError(f"zig must compile the library for {target.folder}, got: {ran.stderr.strip()}")
         return (folder / output).read_bytes()
-
-
-def _cache_folder() -> Path:
-    return cache_folder() / "platforms"
 
 
 def _key(sources: Mapping[str, bytes]) -> str:

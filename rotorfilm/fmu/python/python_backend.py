@@ -27,7 +27,6 @@ SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"
-API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
 LIBRARY = {
     f"{PACKAGE}.native",
@@ -128,8 +127,7 @@ ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 
 import importlib
 
-from {api} import keep
-from {slave} import {base}
+from {slave} import {base}, keep
 
 # PythonFMU runs this file for each instance and then releases its globals, which it only borrowed.
 keep(globals())
@@ -220,7 +218,6 @@ def _resources(
     entry = f"{component}_{tag}"
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
-        api=bundle.modules[API],
         slave=bundle.modules[SLAVE],
         base=base,
         modules=f"({modules}\n)",
