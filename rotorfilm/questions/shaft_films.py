@@ -177,7 +177,7 @@ def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftRung(BaseRung):
-    """An answer by one model of the shaft and one film for each journal; a rung adds `answer` and `estimate`.
+    """An answer by one model of the shaft and one film for each journal; a question adds how it is found.
 
     Attributes
     ----------
@@ -202,6 +202,14 @@ class ShaftRung(BaseRung):
     def unit(self) -> WorkUnit:
         """One problem of its own."""
         return WorkUnit(f"problems of {self.name}", (self.how, id(self.model), id(self.films)))
+
+    def answer(self, before: Found | None) -> Found:
+        """Return its answer, from that of a lower rung or alone."""
+        raise NotImplementedError
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of its answer without running a richer model."""
+        raise NotImplementedError
 
     def rest(self, found: Found) -> RotorEquilibrium:
         """Return the rotor at rest, of an answer."""

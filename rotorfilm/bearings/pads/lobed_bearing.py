@@ -22,7 +22,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.results import BearingLosses
 from ...native import JournalKernel, Status
-from ...native.film_kernels import LobePlace, LobesKernel
+from ...native.film_kernels import LobesKernel
 from ...native.spec import NativeSpec, journal_spec
 from ..films.geometry import TURN
 from ..films.law import BoundKernel
@@ -294,7 +294,7 @@ class LobedBearing(FilmReaction, PadBearing):
         kernels = {extent: self.film.kernel(extent, self.slenderness) for extent in self.extents}
         films = [JournalKernel(kernels[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
-            LobePlace(lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
+            (lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
             for lobe in self.lobes
         ]
         return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
