@@ -620,8 +620,8 @@ def whitened(pair: CouplingIntegrals) -> CouplingIntegrals:
     """Return the integrals of a pair in coordinates in which M = 1."""
     lower = np.asarray(np.linalg.cholesky(pair.source), dtype=np.float64)
     inverse = np.linalg.inv(lower)
-    matrices = (inverse @ matrix @ inverse.swapaxes(-1, -2) for matrix in pair[:5])
-    return CouplingIntegrals(*matrices, lower.swapaxes(-1, -2))
+    K, M_chi, K_chi, M_turn, K_turn = (inverse @ matrix @ inverse.swapaxes(-1, -2) for matrix in pair[:5])
+    return CouplingIntegrals(K, M_chi, K_chi, M_turn, K_turn, lower.swapaxes(-1, -2))
 
 
 class WhitenedFunctions(NamedTuple):

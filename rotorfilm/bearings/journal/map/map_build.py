@@ -106,7 +106,8 @@ def load_table(path: Path) -> tuple[TableAxes, dict[str, Array]]:
 def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     """Write axes and fields as plain arrays; a failure leaves the earlier file."""
     content = io.BytesIO()
-    np.savez_compressed(content, **axes._asdict(), **{name: fields[name] for name in FIELDS})
+    arrays = {**axes._asdict(), **{name: fields[name] for name in FIELDS}}
+    np.savez_compressed(content, **arrays)  # type: ignore[arg-type]
     write_whole(path, content.getvalue())
 
 
