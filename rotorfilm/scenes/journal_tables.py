@@ -420,8 +420,8 @@ def film_remarks(
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
-        bearing = warmed(bearing, film or _quick(bearing), speed, load)
-        film = film and film.at_temperature(bearing.temperature)
+        warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
+        bearing, film = warm, film and film.at_temperature(warm.temperature)
     return said(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 

@@ -16,17 +16,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    Generic,
-    NamedTuple,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 from ..analysis.equilibrium import UNLOADED
 from ..core.errors import InputError, SceneError, brief, shortened
@@ -396,15 +386,15 @@ def reader_of(makes: type, name: str) -> Reader:
     if hasattr(hint, "__metadata__"):
         found: Reader = hint.__metadata__[0]
         return found
-    union = get_origin(hint) in (Union, UnionType)
+    union = isinstance(hint, UnionType)
     kind, *others = [one for one in get_args(hint) if one is not NoneType] if union else [hint]
     many = get_args(kind) if get_origin(kind) is tuple else ()
     plain = {bool: flag, str: text}.get(kind) or COUNTS.get(name)
     if plain is not None:
         return plain
-    if is_dataclass(kind):
+    if isinstance(kind, type) and is_dataclass(kind):
         return Table(kind)
-    if many and is_dataclass(many[0]):
+    if many and isinstance(many[0], type) and is_dataclass(many[0]):
         return TableList(many[0])
     number = _quantity_of(makes, name)
     if many:
