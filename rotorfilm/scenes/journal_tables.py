@@ -32,7 +32,7 @@ from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, said
 from .lubricant_table import Lubricant, OiledTable
-from .reading import COUNTS, Count, Counts, Keyed, Variant, fields_of, keys_of, made_from, takes
+from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
 
 ORDER = Count(FUNCTIONS)
 
@@ -46,7 +46,7 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
     return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
 
 
-NODES = Counts(("over", "turning", "moving"), MAP_NODES)
+NODES = counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
 RUPTURES: dict[str, Callable[[], Keyed]] = {

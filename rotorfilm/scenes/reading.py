@@ -584,53 +584,43 @@ class Count:
         return value
 
 
-@dataclass(frozen=True)
-class Counts:
-    """Reader of a list of positive whole numbers.
+def counts(names: Sequence[str], most: int) -> Reader:
+    """Return a reader of a list of positive whole numbers, whose product is limited.
 
-    Attributes
+    Parameters
     ----------
-    names : tuple of str
+    names : sequence of str
         What they are.
     most : int
         Their largest product, of `rotorfilm.core.limits`.
     """
+    each = Several(Count(most), len(names), len(names), f"[{', '.join(names)}]")
 
-    names: tuple[str, ...]
-    most: int
+    @takes(*each.takes)
+    def read(where: str, value: Any) -> tuple[int, ...]:
+        found = each(where, value)
+        if math.prod(found) > most:
+            raise SceneError(f"{where} must multiply to at most {most}, got {brief(value)}")
+        return found
 
-    def __call__(self, where: str, value: Any) -> tuple[int, ...]:
-        """Return the numbers; raise SceneError if they are none or beyond the limits."""
-        if not isinstance(value, list) or len(value) != len(self.names):
-            raise SceneError(f"{where} must be [{', '.join(self.names)}], got {brief(value)}")
-        counts = tuple(Count(self.most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
-        if math.prod(counts) > self.most:
-            raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
-        return counts
+    return read
+
+
+def named(variants: Mapping[str, Callable[[], Any]]) -> Reader:
+    """Return a reader of the name of one of several things that have no parameters."""
+
+    @takes(variants)
+    def read(where: str, value: Any) -> Any:
+        return choose(where, value, variants)()
+
+    return read
 
 
 COUNTS: dict[str, Reader] = {
     "node": Count(SHAFT_ELEMENTS, 0),
-    "cells": Counts(("around", "along"), FILM_CELLS),
+    "cells": counts(("around", "along"), FILM_CELLS),
 }
 """Readers of whole numbers, whose limits no type tells, by the name of the key."""
-
-
-@dataclass(frozen=True)
-class Named:
-    """Reader of the name of one of several things that have no parameters.
-
-    Attributes
-    ----------
-    variants : mapping of str to callable
-        What makes each thing, by its name.
-    """
-
-    variants: Mapping[str, Callable[[], Any]]
-
-    def __call__(self, where: str, value: Any) -> Any:
-        """Return the thing of this name."""
-        return choose(where, value, self.variants)()
 
 
 # Records of a scene file: rows of numbers in a CSV file next to it, or in the scene itself.
