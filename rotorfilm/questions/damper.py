@@ -44,7 +44,6 @@ from ..core.answers import (
     Rung,
     Work,
     WorkUnit,
-    counted_rung,
 )
 from ..core.errors import (
     AbsentError,
@@ -75,6 +74,7 @@ from ..scenes.excitation_table import BladeLossTable, RunUpTable
 from ..scenes.film_rungs import MAP_MADE, Counted
 from .coupling import coupling_ladder
 from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .variants import counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

@@ -25,7 +25,6 @@ from ..core.units import CELSIUS
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly
 from ..studies import (
-    JournalStability,
     StudyModel,
     StudyResult,
     comparison_bearing,
@@ -330,7 +329,7 @@ class DemoResult(Readable):
         Coupled runs beside the monolithic one.
     attitude_angle : dict of str to ndarray [rad]
         By film, at the eccentricity ratios of `stability`.
-    stability : JournalStability
+    stability : StudyResult
         Whirl threshold by film.
     accuracy : StudyResult
         Error and cost of the force by film.
@@ -344,7 +343,7 @@ class DemoResult(Readable):
     critical_macro_angle: float | None
     coupling: CouplingStudy
     attitude_angle: dict[str, Array]
-    stability: JournalStability
+    stability: StudyResult
     accuracy: StudyResult
 
     @property

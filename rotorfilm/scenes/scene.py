@@ -55,6 +55,7 @@ QUANTITIES = {
     "film_parameter": "lambda of a ball bearing: smallest film / roughness",
     "power_loss": "heat made in a film at its equilibrium [W]",
     "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
+    "maximum_pressure": "largest in a film at its equilibrium [Pa]",
     "temperature": "of the oil that leaves a film of an oil at its equilibrium, in the mean [K]",
     "maximum_temperature": "highest in a film of an oil at its equilibrium [K]",
     "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",

@@ -24,7 +24,7 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.cli.question_printing import print_question
+from rotorfilm.cli.answer_printing import print_question
 from rotorfilm.core.errors import AbsentError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.core.model import prepared_tangent
 from rotorfilm.questions import ladder_of
