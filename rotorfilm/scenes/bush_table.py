@@ -28,7 +28,7 @@ from ..core.limits import WORN_NODES
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.signals import units
-from .reading import Count, Named, Quantity, Taking, fields_of, made_from, one_of, takes
+from .reading import Count, Quantity, Taking, fields_of, made_from, named, one_of, takes
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -89,13 +89,13 @@ class BushTable(Taking):
     liner_conductivity: float | None = None
     shaft_conductivity: float | None = None
     friction: Annotated[Friction | None, _read_friction] = None
-    shaft_heat: Annotated[ExactShaft | ApproximateShaft, Named(SHAFT_HEATS)] = field(
+    shaft_heat: Annotated[ExactShaft | ApproximateShaft, named(SHAFT_HEATS)] = field(
         default_factory=ExactShaft
     )
-    balance: Annotated[ContactBalance | GlobalBalance, Named(BALANCES)] = field(
+    balance: Annotated[ContactBalance | GlobalBalance, named(BALANCES)] = field(
         default_factory=ContactBalance
     )
-    melting: Annotated[SharedMelting | LocalMelting, Named(MELTINGS)]
+    melting: Annotated[SharedMelting | LocalMelting, named(MELTINGS)]
     nodes: Annotated[int, Count(WORN_NODES)]
 
     def __post_init__(self) -> None:

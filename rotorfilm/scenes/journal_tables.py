@@ -31,7 +31,7 @@ from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, said
 from .lubricant_table import Lubricant, OiledTable
-from .reading import COUNTS, Count, Counts, Keyed, Variant, fields_of, keys_of, made_from, takes
+from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
 
 ORDER = Count(FUNCTIONS)
 
@@ -45,7 +45,7 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
     return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
 
 
-NODES = Counts(("over", "turning", "moving"), MAP_NODES)
+NODES = counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
 RUPTURES: dict[str, Callable[[], Keyed]] = {
@@ -419,8 +419,8 @@ def film_remarks(
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
-        bearing = warmed(bearing, film or _quick(bearing), speed, load)
-        film = film and film.at_temperature(bearing.temperature)
+        warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
+        bearing, film = warm, film and film.at_temperature(warm.temperature)
     return said(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 

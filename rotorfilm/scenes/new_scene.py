@@ -56,7 +56,7 @@ EXAMPLES: dict[str, Values] = {
             "load": "10 N",
             "mass": "33 g",
             "cells": 24,
-        },
+        }
     },
     "shaft": {
         "shaft": {
@@ -70,7 +70,7 @@ EXAMPLES: dict[str, Values] = {
             "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
             "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
             "highest_frequency": "100 Hz",
-        },
+        }
     },
     "damper": {
         "damper": {
@@ -84,12 +84,7 @@ EXAMPLES: dict[str, Values] = {
         "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
     },
     "lobed_journal": {
-        "lobed_journal": {
-            **PADS,
-            "preset": "elliptical",
-            "assembled_clearance": "70 um",
-            "preload": 0.5,
-        },
+        "lobed_journal": {**PADS, "preset": "elliptical", "assembled_clearance": "70 um", "preload": 0.5},
         **ROTOR,
     },
     "pressure_dam": {
@@ -199,14 +194,14 @@ def _inside(reader: Reader) -> str:
         return f"{each}: {', '.join(_keys(reader.table))}"
     if isinstance(reader, Variant):
         return f"{reader.tag}: {', '.join(reader.variants)}"
-    names = getattr(reader, "variants", None) or _names(reader)
+    names = _names(reader)
     return f"one of {', '.join(names)}" if names else ""
 
 
 def _names(reader: Reader) -> Mapping[str, Any]:
-    """Return the names that a reader says it takes."""
+    """Return the names that a reader says it takes, if it takes nothing else."""
     shapes = getattr(reader, "takes", ())
-    return next((one for one in shapes if isinstance(one, Mapping)), {})
+    return shapes[0] if len(shapes) == 1 and isinstance(shapes[0], Mapping) else {}
 
 
 def _keys(table: TableType[Any]) -> Iterator[str]:

@@ -16,17 +16,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    Generic,
-    NamedTuple,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 from ..analysis.equilibrium import UNLOADED
 from ..core.errors import InputError, SceneError, brief, shortened
@@ -396,15 +386,15 @@ def reader_of(makes: type, name: str) -> Reader:
     if hasattr(hint, "__metadata__"):
         found: Reader = hint.__metadata__[0]
         return found
-    union = get_origin(hint) in (Union, UnionType)
+    union = isinstance(hint, UnionType)
     kind, *others = [one for one in get_args(hint) if one is not NoneType] if union else [hint]
     many = get_args(kind) if get_origin(kind) is tuple else ()
     plain = {bool: flag, str: text}.get(kind) or COUNTS.get(name)
     if plain is not None:
         return plain
-    if is_dataclass(kind):
+    if isinstance(kind, type) and is_dataclass(kind):
         return Table(kind)
-    if many and is_dataclass(many[0]):
+    if many and isinstance(many[0], type) and is_dataclass(many[0]):
         return TableList(many[0])
     number = _quantity_of(makes, name)
     if many:
@@ -594,53 +584,43 @@ class Count:
         return value
 
 
-@dataclass(frozen=True)
-class Counts:
-    """Reader of a list of positive whole numbers.
+def counts(names: Sequence[str], most: int) -> Reader:
+    """Return a reader of a list of positive whole numbers, whose product is limited.
 
-    Attributes
+    Parameters
     ----------
-    names : tuple of str
+    names : sequence of str
         What they are.
     most : int
         Their largest product, of `rotorfilm.core.limits`.
     """
+    each = Several(Count(most), len(names), len(names), f"[{', '.join(names)}]")
 
-    names: tuple[str, ...]
-    most: int
+    @takes(*each.takes)
+    def read(where: str, value: Any) -> tuple[int, ...]:
+        found = each(where, value)
+        if math.prod(found) > most:
+            raise SceneError(f"{where} must multiply to at most {most}, got {brief(value)}")
+        return found
 
-    def __call__(self, where: str, value: Any) -> tuple[int, ...]:
-        """Return the numbers; raise SceneError if they are none or beyond the limits."""
-        if not isinstance(value, list) or len(value) != len(self.names):
-            raise SceneError(f"{where} must be [{', '.join(self.names)}], got {brief(value)}")
-        counts = tuple(Count(self.most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
-        if math.prod(counts) > self.most:
-            raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
-        return counts
+    return read
+
+
+def named(variants: Mapping[str, Callable[[], Any]]) -> Reader:
+    """Return a reader of the name of one of several things that have no parameters."""
+
+    @takes(variants)
+    def read(where: str, value: Any) -> Any:
+        return choose(where, value, variants)()
+
+    return read
 
 
 COUNTS: dict[str, Reader] = {
     "node": Count(SHAFT_ELEMENTS, 0),
-    "cells": Counts(("around", "along"), FILM_CELLS),
+    "cells": counts(("around", "along"), FILM_CELLS),
 }
 """Readers of whole numbers, whose limits no type tells, by the name of the key."""
-
-
-@dataclass(frozen=True)
-class Named:
-    """Reader of the name of one of several things that have no parameters.
-
-    Attributes
-    ----------
-    variants : mapping of str to callable
-        What makes each thing, by its name.
-    """
-
-    variants: Mapping[str, Callable[[], Any]]
-
-    def __call__(self, where: str, value: Any) -> Any:
-        """Return the thing of this name."""
-        return choose(where, value, self.variants)()
 
 
 # Records of a scene file: rows of numbers in a CSV file next to it, or in the scene itself.

@@ -35,7 +35,6 @@ from .journal_tables import JournalTable
 from .lubricant_table import LubricantTable
 from .reading import (
     Count,
-    Named,
     Several,
     Table,
     TableList,
@@ -43,6 +42,7 @@ from .reading import (
     fields_of,
     keys_of,
     made_from,
+    named,
     read_table,
     require_table,
     takes,
@@ -384,7 +384,7 @@ class ShaftTable(Taking):
     speeds: SpeedRangeTable
     disks: tuple[DiskTable, ...]
     unbalances: tuple[UnbalanceTable, ...]
-    beam: Annotated[Beam, Named(BEAMS)]
+    beam: Annotated[Beam, named(BEAMS)]
     highest_frequency: float | None = None
     compressor: CompressorTable | None = None
 
