@@ -350,7 +350,7 @@ class KernelReaction(StaticReaction):
         return force
 
     def prepare_tangent(self: _Compiled) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
         call, report = self.kernel.tangent, self.report
 
         def tangent(

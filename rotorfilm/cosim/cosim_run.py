@@ -22,9 +22,8 @@ from ..core.limits import STEPS
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from .compiled_loop import CompiledRun, compiled_run
-from .partner_interface import Sample
 from .partners import Partners, Record
-from .schemes import MEMORY, GaussSeidel, Scheme, started
+from .schemes import MEMORY, GaussSeidel, Sample, Scheme, started
 from .slaves import Slave
 from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
 
@@ -185,7 +184,7 @@ class _Run:
         self._keep(self._partners.start())
         self._record.work[0] = list(self._partners.work.values())
         kept = self._record, self._watch, self._macro_step, self._points
-        self._compiled = compiled_run(self._partners, self._scheme, *kept, gentle=self._gentle)
+        self._compiled = compiled_run(self._partners, self._scheme, *kept, self._gentle)
 
     def reached(self) -> Iterator[Iterator[float]]:
         """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""

@@ -20,9 +20,19 @@ from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
 from .cosim_run import CoSimulation, coupled
 from .coupling_loop import coupling_loop, dominant_eigenvalue
-from .partner_interface import Bench, Sample, StationMotion, Tangents
 from .partners import Partners
-from .schemes import MEMORY, GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
+from .schemes import (
+    MEMORY,
+    Bench,
+    GaussSeidel,
+    Jacobi,
+    Sample,
+    Scheme,
+    SIExp,
+    SIExp3,
+    StationMotion,
+    Tangents,
+)
 from .slaves import InProcessSlave
 from .watch import quietly
 

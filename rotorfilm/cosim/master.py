@@ -25,8 +25,7 @@ from ..core.results import Trajectory, orbit_distance
 from ..fmu.instance import extracted
 from ..rotors.force_law import BASE_TIME
 from .cosim_run import Choice, CoSimulation, Trial, couple, require_times
-from .fmu_slave import ExchangeRotor, FmuSlave
-from .partner_interface import local_name
+from .fmu_slave import ExchangeRotor, FmuSlave, local_name
 from .schemes import GaussSeidel, Newton, Scheme, SIExp3
 from .slaves import InProcessSlave, Slave, SteppedPartner
 from .watch import quietly

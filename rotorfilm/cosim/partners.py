@@ -14,18 +14,8 @@ from ..core.model import Array, Linearization
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name
-from .partner_interface import (
-    Bench,
-    JournalPlaces,
-    Needs,
-    Sample,
-    StationMotion,
-    Tangents,
-    no_tangents,
-    sources,
-    wired,
-)
-from .slaves import Slave
+from .schemes import Bench, Needs, Sample, StationMotion, Tangents, no_tangents
+from .slaves import JournalPlaces, Slave, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""

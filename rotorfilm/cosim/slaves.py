@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import byref
 from enum import IntEnum
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,13 +16,103 @@ from scipy.linalg import expm
 from ..bearings.reaction import SteppedReaction
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints, in_time
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, names, units
+from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MASS_OUTPUTS, MOTION_NAMES, indices, names, units
 from ..fmu.reference import advance
 from ..native.library import master
 from ..native.spec import HasKernel
 from ..native.structs import constant, structure
 from ..rotors.force_law import ForceLaw
-from .partner_interface import Wiring
+from ..rotors.structure import station_name, station_names
+
+# How rotor and films are connected: by the names of their signals.
+
+
+Names = tuple[Sequence[str], Sequence[str]]
+"""Of the inputs and of the outputs of a partner."""
+
+
+class JournalPlaces(NamedTuple):
+    """The signals of journals as indices of a rotor's inputs and outputs."""
+
+    force: list[int]
+    position: list[int]
+    velocity: list[int]
+
+
+class Wiring(NamedTuple):
+    """Which signals of a rotor belong to its journals, by name; x and y of each station in turn.
+
+    Attributes
+    ----------
+    stations : tuple of str
+        The empty name is that of a rotor with one journal.
+    force, position, velocity : tuple of str, length 2 n_stations
+    """
+
+    stations: tuple[str, ...]
+    force: tuple[str, ...]
+    position: tuple[str, ...]
+    velocity: tuple[str, ...]
+
+    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> JournalPlaces:
+        """Return where the signals of the journals are among those of the rotor."""
+        return JournalPlaces(
+            [inputs.index(name) for name in self.force],
+            [outputs.index(name) for name in self.position],
+            [outputs.index(name) for name in self.velocity],
+        )
+
+
+def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
+    """Return the signals of the journals, having checked that rotor and films have all that connects them.
+
+    Parameters
+    ----------
+    rotor : (sequence of str, sequence of str)
+        Names of its inputs and outputs.
+    films : mapping of str to the same
+        By station.
+
+    Raises
+    ------
+    InputError
+        If there is no film, or a signal is missing.
+    """
+    if not films:
+        raise InputError("films must be one at least, got none")
+    motions, forces = zip(*(station_names(station) for station in films), strict=True)
+    taken, told = rotor
+    for (station, (inputs, outputs)), motion, force in zip(films.items(), motions, forces, strict=True):
+        indices("rotor must have the inputs", taken, force)
+        indices("film must have the outputs", outputs, FORCE_OUTPUTS)
+        require_no_mass(outputs, taken)
+        indices("rotor must have the outputs", told, list(sources(told, station, inputs).values()))
+        indices("rotor must have the outputs", told, motion)
+    return Wiring(
+        tuple(films),
+        tuple(name for own in forces for name in own),
+        tuple(name for own in motions for name in own[:2]),
+        tuple(name for own in motions for name in own[2:]),
+    )
+
+
+def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
+    """Raise InputError where a film adds mass that the rotor does not take; names of outputs and inputs."""
+    if MASS_OUTPUTS[0] in film and MASS_OUTPUTS[0] not in rotor:
+        raise InputError(
+            f"film must not add mass to a rotor without inputs for it, got the outputs {list(MASS_OUTPUTS)}: "
+            "an exchange of accelerations multiplies its error by -mass/rotor mass, and diverges where the "
+            "oil is heavier than the rotor; mount(rotor, ...) has both in one FMU"
+        )
+
+
+def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict[str, str]:
+    """Return, for each input of a film, the output of the rotor that feeds it."""
+    own = {name: station_name(station, name) for name in inputs}
+    return {name: at if name in MOTION_NAMES or at in outputs else name for name, at in own.items()}
+
+
+# What a master asks of its partners, and models in this process as such partners.
 
 
 class Call(IntEnum):

@@ -22,9 +22,8 @@ from ..core.errors import (
 from ..core.model import Array
 from ..core.readable import Readable
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
-from .partner_interface import Tangents
 from .partners import Partners, Record
-from .schemes import Adaptive, Scheme, extrapolation
+from .schemes import Adaptive, Scheme, Tangents, extrapolation
 
 # Finds, from the exchanged forces alone, whether a co-simulation chatters past its stability limit.
 #

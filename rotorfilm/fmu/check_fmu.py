@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,14 +18,12 @@ from scipy.integrate import DOP853
 from ..core.errors import FmuError, brief
 from ..core.files import read_text
 from ..core.model import Array
-from .binaries import libraries, require_whole
 from .instance import (
     ADJOINT_DERIVATIVES,
     DERIVATIVES,
     SERIAL_STATES,
     STATES,
     Instance,
-    Instance3,
     extracted,
     instantiated,
     known_nominals,
@@ -37,6 +36,7 @@ from .instance import (
     unknowns_of,
     variables_of,
 )
+from .native.platforms import libraries, require_whole
 
 REFERENCE_TOLERANCE = 1e-8
 """Largest accepted deviation from the reference, relative to the largest value of each output."""
@@ -150,13 +150,12 @@ def _check_adjoint(subject: _Subject) -> CheckItem:
 def _check_state(subject: _Subject) -> CheckItem:
     if subject.description.coSimulation is None or not provides(subject.folder, STATES, SERIAL_STATES):
         return _absent("no FMU states in Co-Simulation")
-    first = instantiated(subject.description, subject.folder, False)
-    second = instantiated(subject.description, subject.folder, False)
-    try:
-        count = state_differences(subject.description, first, second)
-    finally:
-        first.close()
-        second.close()
+    description, folder = subject.description, subject.folder
+    with (
+        closing(instantiated(description, folder, False)) as first,
+        closing(instantiated(description, folder, False)) as second,
+    ):
+        count = state_differences(description, first, second)
     return CheckItem("", count == 0, float(count), "values that differ after restoring and after serializing")
 
 
@@ -187,12 +186,9 @@ def _visit(subject: _Subject, measure: Callable[[Any, Instance, Array], float]) 
     rows = np.array([starts_of(subject.description, "input")])
     if subject.reference is not None:
         rows = subject.reference[:: max(1, len(subject.reference) // 8), 1 : 1 + inputs]
-    instance = instantiated(subject.description, subject.folder, exchange)
-    try:
+    with closing(instantiated(subject.description, subject.folder, exchange)) as instance:
         instance.initialize(references_of(subject.description, "input"), rows[0].tolist())
         return max(measure(subject.description, instance, row) for row in rows)
-    finally:
-        instance.close()
 
 
 def _absent(remark: str) -> CheckItem:
@@ -247,7 +243,6 @@ def derivative_error(description: Any, instance: Instance, inputs: Array) -> flo
 
 def adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
     """Return the largest deviation of adjoint from directional derivatives, relative to its row."""
-    assert isinstance(instance, Instance3)
     unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
     instance.set(references_of(description, "input"), inputs.tolist())
     exact = _columns(instance, unknowns, knowns)
@@ -343,16 +338,13 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     """
     inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    instance = instantiated(description, folder, False)
-    try:
+    with closing(instantiated(description, folder, False)) as instance:
         instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
             instance.step(float(time[k - 1]), float(time[k] - time[k - 1]))
             instance.set(inputs, values[k].tolist())
             rows.append(instance.get(outputs))
-    finally:
-        instance.close()
     return np.array(rows)
 
 
@@ -361,17 +353,14 @@ def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
     nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
-    instance = instantiated(description, folder, True)
-    try:
-        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0])).next_time
+    with closing(instantiated(description, folder, True)) as instance:
+        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0]))
         x = instance.states(len(nominal))
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
             x, next_event = _between(instance, time[k - 1], x, time[k], nominal, next_event)
             instance.set(inputs, values[k].tolist())
             rows.append(instance.get(outputs))
-    finally:
-        instance.close()
     return np.array(rows)
 
 
@@ -382,7 +371,7 @@ def _between(
     while next_event is not None and next_event <= end:
         x = _integrated(instance, t, x, next_event, nominal)
         t = next_event
-        next_event = instance.event().next_time
+        next_event = instance.event()
         if next_event is not None and next_event <= t:
             raise FmuError(f"the next event must be after t = {t!r} s, got {next_event!r}")
     return _integrated(instance, t, x, end, nominal), next_event

@@ -7,7 +7,7 @@ import uuid
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,8 +22,6 @@ from .archive import to_zip
 from .description import (
     Dependencies,
     Description,
-    Dialect2,
-    Dialect3,
     delayed_dependencies,
     dependencies,
     fmi_variables,
@@ -145,71 +143,62 @@ def export_fmu(
     subject = as_exported(subject) if native and isinstance(subject, Model) else subject
     inputs = np.array(list(start_values(subject, start or {}).values()))
     require_output(subject, inputs)
+    described = {
+        "identifier": name,
+        "title": title,
+        "copyright": copyright_line(),
+        "stop_time": float(stop_time),
+        "step_size": float(step_size),
+        "author": author,
+        "structured": bool(prefix),
+    }
     if native and spec is not None:
         export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix)
-        contents = _native_contents(export, step_size, author)
+        contents = _native_contents(export, described)
     else:
-        contents = _python_contents(subject, name, prefix, inputs, stop_time, step_size, author)
+        contents = _python_contents(subject, prefix, inputs, described)
     target.parent.mkdir(parents=True, exist_ok=True)
     return write_whole(target, to_zip(contents))
 
 
-def _native_contents(export: Export, step_size: float, author: str) -> dict[str, bytes]:
+def _native_contents(export: Export, described: dict[str, Any]) -> dict[str, bytes]:
     """Return all files of a native FMU by path."""
     variables, model = native_model_variables(export), export.model
-    times = np.linspace(0.0, export.stop_time, 7).tolist()
     description = Description(
-        identifier=export.component,
-        title=export.title,
+        **described,
         tool=native_tool(),
-        copyright=copyright_line(),
         interfaces=interfaces_of(model, export.version),
         categories=CATEGORIES,
         variables=variables,
-        dependencies=_dependencies(model, export.inputs, times),
-        stop_time=float(export.stop_time),
-        step_size=float(step_size),
+        dependencies=_dependencies(model, export.inputs, np.linspace(0.0, export.stop_time, 7).tolist()),
         sources=source_names(),
-        author=author,
-        structured=bool(export.prefix),
     )
-    dialect = Dialect2() if export.version == "2.0" else Dialect3()
     contents = native_files(export, variables)
-    token = _guid({**contents, **resource(export, variables, ""), "xml": to_xml(description, dialect, "")})
+    token = _guid(contents | resource(export, variables, ""), description, export.version)
     contents |= resource(export, variables, token)
-    return {**contents, "modelDescription.xml": to_xml(description, dialect, token)}
+    return {**contents, "modelDescription.xml": to_xml(description, export.version, token)}
 
 
 def _python_contents(
-    model: Model | Stepped,
-    component: str,
-    prefix: str,
-    inputs: Array,
-    stop_time: float,
-    step_size: float,
-    author: str,
+    model: Model | Stepped, prefix: str, inputs: Array, described: dict[str, Any]
 ) -> dict[str, bytes]:
     """Return all files of an FMU of the python backend by path."""
     start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
-    variables = fmi_variables(model, prefix, start)
-    contents = python_files(model, component, title_of(model), start, variables, prefix)
-    contents |= terminal_files(model, component, prefix, icon=False)
+    component, variables = described["identifier"], fmi_variables(model, prefix, start)
     description = Description(
-        identifier=component,
-        title=title_of(model),
+        **described,
         tool=python_tool(),
-        copyright=copyright_line(),
         interfaces=PYTHON_INTERFACES,
         categories=PYTHON_CATEGORIES,
         variables=variables,
         dependencies=_dependencies(model, inputs, (0.0,)),
-        stop_time=float(stop_time),
-        step_size=float(step_size),
-        author=author,
-        structured=bool(prefix),
     )
-    guid = _guid({**contents, "xml": to_xml(description, Dialect2(), "")})
-    return {**contents, "modelDescription.xml": to_xml(description, Dialect2(), guid)}
+    contents = python_files(model, component, description.title, start, variables, prefix)
+    contents |= terminal_files(model, component, prefix, icon=False)
+    return {
+        **contents,
+        "modelDescription.xml": to_xml(description, "2.0", _guid(contents, description, "2.0")),
+    }
 
 
 def _dependencies(model: Model | Stepped, inputs: Array, times: Sequence[float]) -> Dependencies:
@@ -218,8 +207,9 @@ def _dependencies(model: Model | Stepped, inputs: Array, times: Sequence[float])
     return dependencies(model, inputs, times)
 
 
-def _guid(contents: Mapping[str, bytes]) -> str:
-    return str(uuid.uuid5(NAMESPACE, content_hash(contents)))
+def _guid(contents: Mapping[str, bytes], description: Description, version: str) -> str:
+    """Return the guid that follows from all else in an FMU."""
+    return str(uuid.uuid5(NAMESPACE, content_hash({**contents, "xml": to_xml(description, version, "")})))
 
 
 # What an export asks for: rules of its arguments, and the model that goes into the FMU.
@@ -292,19 +282,10 @@ def title_of(model: Model | Stepped) -> str:
     return (type(model).__doc__ or type(model).__name__).strip().splitlines()[0]
 
 
-@runtime_checkable
-class NamedModel(Protocol):
-    """What a model may add: the name of its FMU, where the caller gives none."""
-
-    @property
-    def component(self) -> str:
-        """An ASCII identifier."""
-
-
 def component_of(model: Any) -> str:
-    """Return the name of the FMU of a model."""
-    if isinstance(model, NamedModel):
-        return model.component
+    """Return the name of the FMU of a model: what it calls its `component`, or its class in snake case."""
+    if hasattr(model, "component"):
+        return str(model.component)
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(model).__name__).lower()
 
 

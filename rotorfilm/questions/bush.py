@@ -31,12 +31,12 @@ from ..bearings.bush import (
     wear_by_one_moment,
     wear_by_two_moments,
 )
-from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, MadeRung, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.bush_table import BushTable
 from ..scenes.excitation_table import StepLoadTable
-from ..scenes.families import Family, Remark, said
+from ..scenes.families import Remark, said
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -51,7 +51,7 @@ CLOSED_ERROR = 1e-3
 """Order of magnitude of the error of its closed form."""
 
 
-def speed_rung(bush: MeltingBush, load: float) -> MadeRung:
+def speed_rung(bush: MeltingBush, load: float) -> VariantRung:
     """Return the critical speed [rad/s] of the unworn bush under a load [N], by its heat into the shaft."""
     is_exact = isinstance(bush.shaft_heat, ExactShaft)
     unit, exact = (
@@ -72,7 +72,7 @@ def speed_rung(bush: MeltingBush, load: float) -> MadeRung:
         error = abs(change) / (at.shaft_flux + change + at.liner_flux)
         return ErrorEstimate(error, "defect of the exact flux", {exact: 1})
 
-    return MadeRung(
+    return VariantRung(
         name="exact" if is_exact else FLUX,
         answer=answer,
         estimate=estimate,
@@ -287,7 +287,7 @@ def wear_rung(
     *,
     within: float = AT_CRITICAL,
     prior: float = 0.0,
-) -> MadeRung:
+) -> VariantRung:
     """Return a rung of the wear [m]: by how much farther than unworn the shaft settles.
 
     Its error is that by `judge`, unless there is no wear or it begins at the critical speed itself. No wear
@@ -303,10 +303,10 @@ def wear_rung(
         certain = found.value == 0.0 and margin < -within
         return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
 
-    return MadeRung(name=name, answer=answer, estimate=estimate, expected=expected, prior=prior)
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=expected, prior=prior)
 
 
-def moment_rung(run: BushRun, *, closed: bool, moments: int) -> MadeRung:
+def moment_rung(run: BushRun, *, closed: bool, moments: int) -> VariantRung:
     """Return wear by one or two moments of the profile, under a load that does not fall."""
     own = run.closed if closed else run.exact
     name = f"{'one moment' if moments == 1 else 'two moments'}{CLOSED if closed else ''}"
@@ -365,7 +365,7 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     return error, doubt if apart > DISAGREEMENT else ""
 
 
-def end_rung(run: BushRun) -> MadeRung:
+def end_rung(run: BushRun) -> VariantRung:
     """Return where the wear under a constant load ends: the critical speed has grown to the speed."""
     rich, own, stage = run.exact, run.closed, run.stages[-1]
 
@@ -410,7 +410,7 @@ def require_end(size: float) -> float:
     return size
 
 
-def local_end_rung(run: BushRun) -> MadeRung:
+def local_end_rung(run: BushRun) -> VariantRung:
     """Return where the wear under a constant load ends if each point melts by itself, in closed form."""
     stage = run.stages[0]
 
@@ -430,7 +430,7 @@ def local_end_rung(run: BushRun) -> MadeRung:
     return wear_rung(run, "end of the wear", answer, judge, lambda _: {ENDS: 1})
 
 
-def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> MadeRung:
+def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> VariantRung:
     """Return wear by nodes, so many a side, on an arc that the contact just fills at the end.
 
     It is for loads that fall, and where each point melts by itself.
@@ -618,15 +618,7 @@ def bush_remarks(run: BushRun) -> tuple[str, ...]:
     return said(REMARKS, bush_numbers(run))
 
 
-FAMILY = Family(
-    table=BushTable,
-    ladders={
-        "critical_speed": bush_ladder,
-        "wear": wear_ladder,
-    },
-    answer=lambda scene, _: scene.melting(),
-    example={
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
-)
+LADDERS = {
+    "critical_speed": bush_ladder,
+    "wear": wear_ladder,
+}

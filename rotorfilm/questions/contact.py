@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..bearings.contact import HERTZ_LOAD, ContactLaw, FixedSteps, SineLoad, SmallMotion, reduce_contact, ride
-from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, MadeRung, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array
 from ..scenes.contact_motions import (
@@ -26,9 +26,7 @@ from ..scenes.contact_motions import (
     natural_frequency,
     unknowns,
 )
-from ..scenes.contact_table import ContactTable
-from ..scenes.families import Family
-from ..scenes.solve_contact import answer_contact
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -66,7 +64,7 @@ def contact_rung(
     *,
     companion: str = "order increments",
     failures: tuple[type[Exception], ...] = (ConvergenceError,),
-) -> MadeRung:
+) -> VariantRung:
     """Return a rung of a quantity [m].
 
     Parameters
@@ -97,10 +95,10 @@ def contact_rung(
         except failures as error:
             return ErrorEstimate(1.0, companion, work, doubt=f"no companion: {error}")
 
-    return MadeRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
+    return VariantRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
 
 
-def formula_rung(films: RestingFilms, bound: float) -> MadeRung:
+def formula_rung(films: RestingFilms, bound: float) -> VariantRung:
     """Return the film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     The dry contact has the approach -2, in Hertzian units. The bound was measured in `FORMULA_RANGE`.
@@ -119,10 +117,10 @@ def formula_rung(films: RestingFilms, bound: float) -> MadeRung:
         return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
 
     name = "formula of Nijenbanning et al."
-    return MadeRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
 
 
-def grid_rung(films: RestingFilms, cells: int) -> MadeRung:
+def grid_rung(films: RestingFilms, cells: int) -> VariantRung:
     """Return a stationary contact on cells x cells of the shortest rectangle.
 
     Its error is the order increment from less cells, and that from two rectangles on coarse grids. A film
@@ -146,7 +144,7 @@ def grid_rung(films: RestingFilms, cells: int) -> MadeRung:
     )
 
 
-def unbounded_rung(films: RestingFilms, place: int, cells: int) -> MadeRung:
+def unbounded_rung(films: RestingFilms, place: int, cells: int) -> VariantRung:
     """Return a grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
     `place` is that of the rectangle in `INLETS`. The error is a share of both extrapolations, in the length
@@ -226,24 +224,9 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(rungs=tuple(rungs), unit="m", remarks=remarks, within=ISOTHERMAL)
 
 
-FAMILY = Family(
-    table=ContactTable,
-    ladders=dict.fromkeys(QUANTITIES, contact_ladder),
-    answer=answer_contact,
-    example={
-        "contact": {
-            "diameter": "20 mm",
-            "modulus": "206 GPa",
-            "poisson_ratio": 0.3,
-            "viscosity": "8 mPa s",
-            "pressure_coefficient": "5 1/GPa",
-            "speed": "0.9 m/s",
-            "load": "10 N",
-            "mass": "33 g",
-            "cells": 24,
-        },
-    },
-)
+LADDERS = {
+    **dict.fromkeys(QUANTITIES, contact_ladder),
+}
 
 
 # The approach of a rolling ball on its reduced law, over time.
@@ -258,7 +241,7 @@ ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
 
 
-def law_rung(films: RestingFilms, shaken: ShakenBall) -> MadeRung:
+def law_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
     """Return the deepest approach of a motion on the reduced law of the contact under its static load.
 
     Its error is that of grid and rectangle at rest, of the fit, and of the law's one load.
@@ -497,7 +480,7 @@ class FollowedFilm:
         return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
 
 
-def film_rung(followed: FollowedFilm, cells: int, *, extrapolated: bool = False) -> MadeRung:
+def film_rung(followed: FollowedFilm, cells: int, *, extrapolated: bool = False) -> VariantRung:
     """Return the smallest value over the motion of the full film on one grid.
 
     Its error are the increments of steps, cells and rectangle; where it is `extrapolated`, without the errors
@@ -564,7 +547,7 @@ def newton(cells: int) -> WorkUnit:
     return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
 
 
-def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[MadeRung, ...]:
+def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[VariantRung, ...]:
     """Return the rungs of a ball whose load jumps or swings."""
     shaken = contact_motion(scene)
     followed = FollowedFilm(films=films, shaken=shaken)
@@ -590,7 +573,7 @@ SLACKEST = 0.05
 """Load below which there is no contact at rest to speak of."""
 
 
-def slow_rung(films: RestingFilms, shaken: ShakenBall) -> MadeRung:
+def slow_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
     """Return the extreme of a quantity over the loads, as if each had acted for long.
 
     Of the approach it is always that of the largest load. The error is that of grid and rectangle, and what

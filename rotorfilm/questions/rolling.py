@@ -19,11 +19,9 @@ from ..bearings.rolling import (
     palmgren_stiffness,
     stribeck_load,
 )
-from ..core.answers import ErrorEstimate, Found, Ladder, MadeRung, WorkUnit, beside_bound, relative_change
+from ..core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.rolling import (
     Balls,
     BallTable,
@@ -36,6 +34,7 @@ from ..scenes.rolling import (
     single_of,
     with_law,
 )
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -186,7 +185,7 @@ RESTS = WorkUnit("rests of a ball bearing")
 ANGLES = "contacts at their running angles"
 
 
-def closed_rung(bearing: Balls, asked: BallQuestion) -> MadeRung:
+def closed_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
     """Return Stribeck's load and Palmgren's stiffness: a radial load, no clearance, no inertia."""
 
     def answer(before: Found | None) -> Found:
@@ -200,7 +199,7 @@ def closed_rung(bearing: Balls, asked: BallQuestion) -> MadeRung:
         near = asked.rest(with_law(bearing, StaticBalls()))
         return asked.moved(bearing, found.value, near, CLOSED)
 
-    return MadeRung(
+    return VariantRung(
         name="closed form", answer=answer, estimate=estimate, expected=lambda _: {CLOSED: 1}, prior=0.05
     )
 
@@ -211,7 +210,7 @@ def is_radial(bearing: BallBearing) -> bool:
     return not bearing.separates and still and bearing.growth == 0.0
 
 
-def law_rung(bearing: Balls, asked: BallQuestion) -> MadeRung:
+def law_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
     """Return the rest by the law of a bearing: static or running balls."""
 
     def answer(before: Found | None) -> Found:
@@ -224,10 +223,10 @@ def law_rung(bearing: Balls, asked: BallQuestion) -> MadeRung:
         return ErrorEstimate(asked.own_bound(found.solution), ANGLES, bound=True)
 
     name = "static balls" if is_static(bearing) else "running balls"
-    return MadeRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {RESTS: 1})
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {RESTS: 1})
 
 
-def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> MadeRung:
+def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung:
     """Return the rest by running balls, with the oil films of the most loaded one in all contacts."""
     rich = with_inertia(bearing)
 
@@ -244,7 +243,7 @@ def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> MadeRung:
         films = film_spread(wet) * asked.row.distance(asked.value(dry), found.value)
         return ErrorEstimate(asked.own_bound(wet) + films, f"{ANGLES}, films by load", bound=True)
 
-    return MadeRung(
+    return VariantRung(
         name="running balls on films", answer=answer, estimate=estimate, expected=lambda _: {RESTS: 3}
     )
 
@@ -342,21 +341,4 @@ def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceC
     ]
 
 
-FAMILY = Family(
-    table=BallTable,
-    ladders=dict.fromkeys(QUANTITIES, ball_ladder),
-    models=film_models,
-    example={
-        "ball_bearing": {
-            "balls": 16,
-            "ball_diameter": "7.938 mm",
-            "pitch_diameter": "46.5 mm",
-            "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride",
-            "arrangement": "back_to_back",
-            "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-)
+LADDERS = dict.fromkeys(QUANTITIES, ball_ladder)

@@ -19,10 +19,10 @@ from ..analysis.rotor_matrices import (
     whirl_near,
 )
 from ..analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     SpeedEvent,
     Start,
-    Threshold,
     Whirl,
     on_films,
     secant_speed,
@@ -35,20 +35,15 @@ from ..core.answers import (
     ErrorEstimate,
     Found,
     Ladder,
-    MadeRung,
     Work,
     WorkUnit,
     beside_bound,
-    counted_rung,
 )
 from ..core.errors import AbsentError, InputError
 from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
-from ..scenes.families import Family
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, WarmRest
-from ..scenes.shaft_table import ShaftTable
-from ..scenes.solve_shaft import solve_rotor
 from .film_motions import ORBIT_UNITS as ORBITS
 from .film_statics import moving_heat
 from .shaft_films import (
@@ -64,6 +59,7 @@ from .shaft_films import (
     with_fields,
 )
 from .shaft_orbits import PEAK, shaft_orbit_ladder, shaft_peak_ladder
+from .variants import VariantRung, counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -74,7 +70,7 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-EVENTS: dict[str, SpeedEvent] = {"critical_speed": Critical(), "whirl_threshold": Threshold()}
+EVENTS: dict[str, SpeedEvent] = {"critical_speed": CRITICAL, "whirl_threshold": THRESHOLD}
 """What happens at the speeds that may be asked for."""
 
 SHAFT_ROUNDOFF = float(np.finfo(float).eps)
@@ -132,7 +128,8 @@ class ShaftSpeedRung(ShaftRung):
         # Static shapes may be so far off that another whirl is nearer to theirs.
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
-        found = [whirl_of(self.event, self.model.rotor, self.films, start) for start in starts]
+        bearings = self.films.reaction, self.films.turning
+        found = [whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
@@ -224,11 +221,11 @@ class ShaftSpeedRung(ShaftRung):
 
     def rate(self, whirl: Whirl) -> float:
         """Return by how much what must vanish changes with the speed [1]."""
-        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
+        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
 
     def moving(self, found: Found) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
-        if not isinstance(self.event, Threshold):
+        if self.event is not THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)
@@ -320,7 +317,7 @@ RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 """Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
 
 
-def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> MadeRung:
+def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
     """Return a critical speed, or the threshold, on films with a temperature field.
 
     It is found by secants from that by T1, of the rung, and its error is that of the model of the shaft, and
@@ -356,29 +353,8 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> MadeRung:
     return counted_rung(name, ("answers", name), seconds, solve, judge)
 
 
-JOURNAL = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
-"""The bearings of the example."""
-
-FAMILY = Family(
-    table=ShaftTable,
-    ladders={
-        **dict.fromkeys(EVENTS, shaft_ladder),
-        **dict.fromkeys(ORBITS, shaft_orbit_ladder),
-        PEAK: shaft_peak_ladder,
-    },
-    answer=solve_rotor,
-    example={
-        "shaft": {
-            "material": {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"},
-            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
-            "bearings": [
-                {"name": "left", "node": 0, "journal": JOURNAL},
-                {"name": "right", "node": 4, "journal": JOURNAL},
-            ],
-            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
-            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
-            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
-            "highest_frequency": "100 Hz",
-        },
-    },
-)
+LADDERS = {
+    **dict.fromkeys(EVENTS, shaft_ladder),
+    **dict.fromkeys(ORBITS, shaft_orbit_ladder),
+    PEAK: shaft_peak_ladder,
+}

@@ -19,10 +19,8 @@ from ..core.answers import (
     ErrorEstimate,
     Found,
     Ladder,
-    MadeRung,
     Rung,
     WorkUnit,
-    counted_rung,
     relative_change,
 )
 from ..core.model import Reaction
@@ -45,10 +43,11 @@ from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
+from .variants import VariantRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.schema import JournalTable
     from ..scenes.shaft_table import ShaftTable
 
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
@@ -347,7 +346,7 @@ class RotorHeat:
         return steps_error(rung, found, own, rests)
 
 
-def warm_rung(rung: ShaftRung, heat: RotorHeat) -> MadeRung:
+def warm_rung(rung: ShaftRung, heat: RotorHeat) -> VariantRung:
     """Return a rung on films of one temperature, whose error is also that by heat, which a level shares."""
     name = f"{heat.level.name}, {rung.name}"
 
@@ -355,15 +354,7 @@ def warm_rung(rung: ShaftRung, heat: RotorHeat) -> MadeRung:
         about = rung.estimate(found, before, tolerance)
         return with_heat(about, lambda: heat.error(rung, found, tolerance), f"estimates of {name}")
 
-    return MadeRung(
-        name=name,
-        answer=rung.answer,
-        estimate=estimate,
-        expected=rung.expected,
-        prior=rung.prior,
-        refines=rung.refines,
-        shares=heat,
-    )
+    return replace(with_estimate(rung, estimate, heat), name=name)
 
 
 def at_temperatures(films: ShaftFilms, temperatures: Mapping[str, float]) -> ShaftFilms:
@@ -491,7 +482,7 @@ def field_orbit(
     rests: Callable[[], dict[str, WarmRest]],
     make: Callable[[ShaftFilms], ShaftRung],
     films: ShaftFilms,
-) -> MadeRung:
+) -> VariantRung:
     """Return an orbit on films that keep a temperature field.
 
     Its error is that on these films, and what theirs changes of the linear orbit by T1, `uniform`.

@@ -15,7 +15,7 @@ from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized
 from ..analysis.periodic_orbit import RotorAnswers, distance, reach_of, rest_position, rotor_answers
 from ..analysis.speed_events import on_films
 from ..bearings.seal import AnnularSeal
-from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, MadeRung, Rung, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Reaction
 from ..core.results import Coefficients, Trajectory
@@ -34,6 +34,7 @@ from .shaft_films import (
     film_levels,
     shaft_ladder_on,
 )
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -330,7 +331,7 @@ class ShakenShaft:
         return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
 
 
-def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShakenShaft) -> MadeRung:
+def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShakenShaft) -> VariantRung:
     """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
     Its error is the distance to the run in elements half as long, on richer films, in finer steps. Of those
@@ -366,7 +367,7 @@ def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: Sh
         moved = abs(shaken.peak(thick) - found.value) / found.value * bound / share
         return ErrorEstimate(error + moved, f"{method}, and with the bound of the map", work)
 
-    return MadeRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
 
 
 def _largest_bound(films: ShaftFilms, run: Trajectory) -> float:

@@ -113,7 +113,7 @@ def test_rectangle_is_extrapolated_to_the_infinite_one():
     )
     films = RestingFilms(table=table, quantity="approach")
     assert (pytest.approx(0.1), pytest.approx(5.0)) == (films.ball.V, films.ball.Q0)
-    rungs = {rung.name: rung for rung in ladder_of(replace(scene, contact=table)).rungs}
+    rungs = {rung.name: rung for rung in ladder_of(scene.with_tables(contact=table)).rungs}
     found = rungs["grid 96 x 96, unbounded"].answer(None)
     assert found.value / films.ball.film_scale == pytest.approx(-1.804, abs=2e-3)
     assert films.value(64, {}) == pytest.approx(-1.8200, abs=1e-3)
@@ -272,10 +272,10 @@ def test_numbers_of_what_is_left_out():
 
 def test_what_is_left_out_is_told():
     scene = scene_of()
-    hot = replace(scene, contact=replace(scene.contact, speed=20.0, viscosity=0.1))
+    hot = scene.with_tables(contact=replace(scene.contact, speed=20.0, viscosity=0.1))
     assert any(line.startswith("heat: the oil that flows back") for line in ladder_of(hot).remarks)
     mild = replace(scene.contact, roelands=True, compressible=True)
-    assert ladder_of(replace(scene, contact=mild)).remarks == ()
+    assert ladder_of(scene.with_tables(contact=mild)).remarks == ()
 
 
 def test_shipped_scene_is_met():

@@ -301,7 +301,7 @@ class SqueezeFilmDamper(SqueezeInertia):
         return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
 
     def portable(self) -> Self:
-        """Return this damper with a film that carries the table it needs; see `model.Portable`."""
+        """Return this damper with a film that carries the table it needs; see `model.Reaction`."""
         carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
 

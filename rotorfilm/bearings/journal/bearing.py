@@ -182,7 +182,7 @@ class JournalBearing(FilmReaction, WarmFilm):
         return journal_spec(kernel, tables, dimensions, fixed=bool(tables) and "range" not in tables)
 
     def portable(self) -> JournalBearing:
-        """Return this bearing with a film that carries the table it needs; see `model.Portable`."""
+        """Return this bearing with a film that carries the table it needs; see `model.Reaction`."""
         film = self.fitted_film
         carried = self._options.tabulated(self.slenderness) or film
         return self if carried is film else replace(self, film=carried)

@@ -418,7 +418,7 @@ class FrozenFilm(StaticReaction):
         return np.stack([self._response(*state)[:, columns] for state in states], axis=-1)
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float

@@ -390,7 +390,7 @@ class LobedBearing(FilmReaction, PadBearing):
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
-        """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
+        """Return this bearing with a film that carries the maps it needs; see `model.Reaction`."""
         if not isinstance(self.film, PadMapFilm):
             return self
         tables = tuple(self.film.table(extent, self.slenderness) for extent in dict.fromkeys(self.extents))

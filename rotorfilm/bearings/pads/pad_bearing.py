@@ -110,7 +110,7 @@ class PadBearing(WarmBearing):
         return self.clearance * (1.0 - max(self.preloads))
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff leaves of the force [N], as pads press each other; see `NoisyReaction`."""
+        """Return what roundoff leaves of the force [N], as pads press each other; see `model.Reaction`."""
         return _ROUNDOFF * self.force_scale * abs(speed)
 
 

@@ -207,7 +207,7 @@ class TiltingPadBearing(Called, TiltingPads):
         )
 
     def portable(self) -> TiltingPadBearing:
-        """Return this bearing with a film that carries the map it needs; see `model.Portable`."""
+        """Return this bearing with a film that carries the map it needs; see `model.Reaction`."""
         if not isinstance(self.film, PadMapFilm):
             return self
         table = self.film.table(self.extent, self.slenderness)

@@ -27,7 +27,6 @@ SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"
-STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
 API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
 LIBRARY = {
@@ -61,11 +60,11 @@ class Bundle(NamedTuple):
     modules: dict[str, str]
 
 
-def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
+def bundle_source(modules: Iterable[str]) -> Bundle:
     """Return the source that a model with classes from `modules` needs.
 
-    Of this package that is what those modules, and the module `slave` of the slave, import; a user's module
-    goes along by itself.
+    Of this package that is what those modules, and the module of the slave, import; a user's module goes
+    along by itself.
 
     Raises
     ------
@@ -75,19 +74,19 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = import_closure({slave, *own}.union(*(module.needs for module in read.values())), SHELVES)
-    companions = _companions(own.union(*(module.needs for module in read.values())))
+    sources = import_closure({SLAVE, *own}.union(*(needs for _, needs in read.values())), SHELVES)
+    companions = _companions(own.union(*(needs for _, needs in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
     # FMUs of the same models, which read the same before the folder of the first is gone.
     models = {"models": " ".join(sorted(own)).encode()}
     package = f"{PACKAGE}_{content_hash({**sources, **companions, **models})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
-    texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
+    texts = {name: ast.unparse(tree).encode() for name, (tree, _) in read.items()}
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
     files = {module_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
     files.update({f"{package}/{name}": content for name, content in companions.items()})
-    files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
+    files.update({f"{names[name]}.py": renamed_source(read[name][0], names).encode() for name in users})
     return Bundle(files, names)
 
 
@@ -156,16 +155,6 @@ class Slave({base}):
 '''
 
 
-class SlaveClass(NamedTuple):
-    """The class that runs a model, and the module it is in."""
-
-    module: str
-    name: str
-
-
-STEPPED = SlaveClass(STEPPED_SLAVE, "SteppedSlave")
-
-
 def python_tool() -> str:
     """Return what made the FMU, with versions."""
     return f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})"
@@ -188,13 +177,12 @@ def python_files(
     """
     require_verified_version()
     data = encode(model)
-    slave = SlaveClass(SLAVE, "ModelSlave") if isinstance(model, Model) else STEPPED
-    bundle = bundle_source(class_modules(data), slave.module)
+    bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
+    texts, base = (PYTHON, "ModelSlave") if isinstance(model, Model) else (PYTHON_STEPPED, "SteppedSlave")
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, prefix, start, bundle, slave),
+        **_resources(data, component, prefix, start, bundle, base),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -213,9 +201,12 @@ def _require_rebuilt(data: Any) -> None:
 
 
 def _resources(
-    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
+    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, base: str
 ) -> dict[str, bytes]:
-    """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
+    """Return the files that PythonFMU reads: the entry module, the model as data, and the source.
+
+    The class `base` of the slave's module runs the model.
+    """
     settings = {"component": prefix, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
     tag = content_hash({**bundle.files, "model.json": text})
@@ -223,8 +214,8 @@ def _resources(
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
         api=bundle.modules[API],
-        slave=bundle.modules[slave.module],
-        base=slave.name,
+        slave=bundle.modules[SLAVE],
+        base=base,
         modules=f"({modules}\n)",
         title=component,
         tag=tag,
