@@ -576,5 +576,3 @@ def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, 
         )
         for name, film in films.items()
     }
-
-

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..bearings.assemblies import ParallelReaction, Sprung
 from ..bearings.damper import PorousDamper, SqueezeFilmDamper
-from ..bearings.films.kernel_film import BoundKernel
+from ..bearings.films.law import BoundKernel
 from ..bearings.linear import LinearBearing
 from ..bearings.reaction import FilmReaction
 from ..bearings.rub import RubRing

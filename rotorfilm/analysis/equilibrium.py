@@ -11,8 +11,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.oil.laminar import warn_of_flow
-from ..bearings.oil.oil import warn_of_pressure
+from ..bearings.oil.oil import warn_of_flow, warn_of_pressure
 from ..bearings.reaction import WalledReaction, relative_film
 from ..core.errors import (
     ConvergenceError,

@@ -135,7 +135,7 @@ class JournalReaction(Feedthrough):
 
 
 class _Film(Protocol):
-    """A film of one bearing in SI units, as `films.law.BoundFilm`."""
+    """A film of one bearing in SI units, as `films.law.BoundKernel`."""
 
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]: ...
 

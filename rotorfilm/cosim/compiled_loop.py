@@ -100,8 +100,8 @@ class CompiledRun:
             record=structure("rf_record")(
                 m=m,
                 columns=record.outputs.shape[1],
-                position=self._ints(record.at.position),
-                velocity=self._ints(record.at.velocity),
+                position=self._ints(record.position_at),
+                velocity=self._ints(record.velocity_at),
                 speed=-1 if record.speed_at is None else record.speed_at,
                 derived=record.tangents.shape[1] > 0,
             ),
@@ -123,7 +123,7 @@ class CompiledRun:
         self._x, driven = rotor.state.copy(), self._driven
         driven.mode, driven.x = constant("RF_INTEGRATED"), self._held(self._x)
         driven.nominal = self._floats(rotor.nominals)
-        driven.base = self._floats(rotor.base[self._partners.places.force])
+        driven.base = self._floats(rotor.base[self._partners.places[0]])
         driven.drive_refs = self._refs([self.rotor.inputs[name] for name in self._partners.wiring.force])
 
     def rests(self) -> bool:

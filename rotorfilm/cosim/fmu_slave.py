@@ -191,13 +191,8 @@ class ExchangeRotor(Integrated, FmuSlave):
         self._kink = np.inf
         slopes = (unknown.variable for unknown in description.derivatives or ())
         self.nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
-        self.state, self._base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
+        self.state, self.base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
         self._input = self._instance.port(list(self._references["input"].values()))
-
-    @property
-    def base(self) -> Array:
-        """The start values of the inputs."""
-        return self._base
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs."""
@@ -208,7 +203,7 @@ class ExchangeRotor(Integrated, FmuSlave):
     def _initialize(self, values: Mapping[str, float]) -> None:
         event = self._instance.initialize(self._inputs(values), list(values.values()))
         self.state = self._instance.states(len(self._states))
-        self._base = np.array(self._input.get())
+        self.base = np.array(self._input.get())
         self._scheduled(event)
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
@@ -258,7 +253,7 @@ class ExchangeRotor(Integrated, FmuSlave):
 
     def pass_kink(self, t: float, x: Array) -> None:
         """Pass through event mode at a time event."""
-        self._move(t, x, self._base)
+        self._move(t, x, self.base)
         self._scheduled(self._instance.event())
 
     def _scheduled(self, event: float | None) -> None:

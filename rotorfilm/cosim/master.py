@@ -125,17 +125,12 @@ def _run(
         others: dict[str, Slave] = {
             station: stack.enter_context(open_fmu(film))
             if isinstance(film, str | PathLike)
-            else in_process(film)
+            else (SteppedPartner if isinstance(film, SteppedReaction) else InProcessSlave)(film)
             for station, film in films.items()
         }
         return couple(
             first, others, macro_step=macro_step, duration=duration, scheme=scheme, progress=progress
         )
-
-
-def in_process(film: Any) -> Slave:
-    """Return a film of this package as a partner."""
-    return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
 
 
 def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:
@@ -284,28 +279,24 @@ def _tried(
     length: float,
 ) -> tuple[Trial, bool]:
     """Return what a trial says, and whether the scheme will do."""
-
-    def trial(reason: str, error: float | None = None, run: CoSimulation | None = None) -> Trial:
-        radius = None if run is None else run.watch.spectral_radius
-        calls = None if run is None else _calls(run)
-        return Trial(
-            scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason
-        )
-
+    run, radius, error, taken = None, None, None, False
     try:
         run = attempt(scheme, macro_step, length)
     except InputError as failure:
-        return trial(str(failure)), False
+        reason = str(failure)
     except PartialResultError as failure:
-        return trial(_failure(failure)), False
-    error = _distance(run.trajectory, reference)
-    radius = run.watch.spectral_radius
-    if radius is not None and radius > 1.0 and run.watch.warnings:
-        return trial(f"unstable: grows by a factor of {radius:.4g} per macro step", error, run), False
-    if error > tolerance:
-        return trial(f"not accurate enough: off by {error:.2g}", error, run), False
-    reason = f"stable, off by {error:.2g}, {_calls(run):.3g} film calls per step: the cheapest that will do"
-    return trial(reason, error, run), True
+        reason = _failure(failure)
+    else:
+        error, radius = _distance(run.trajectory, reference), run.watch.spectral_radius
+        if radius is not None and radius > 1.0 and run.watch.warnings:
+            reason = f"unstable: grows by a factor of {radius:.4g} per macro step"
+        elif error > tolerance:
+            reason = f"not accurate enough: off by {error:.2g}"
+        else:
+            taken, calls = True, _calls(run)
+            reason = f"stable, off by {error:.2g}, {calls:.3g} film calls per step: the cheapest that will do"
+    said = {"orbit_error": error, "spectral_radius": radius, "film_calls": run and _calls(run)}
+    return Trial(scheme=scheme, reason=reason, **said), taken
 
 
 def _failure(failure: PartialResultError) -> str:

@@ -31,12 +31,8 @@ Names = tuple[Sequence[str], Sequence[str]]
 """Of the inputs and of the outputs of a partner."""
 
 
-class JournalPlaces(NamedTuple):
-    """The signals of journals as indices of a rotor's inputs and outputs."""
-
-    force: list[int]
-    position: list[int]
-    velocity: list[int]
+Places = tuple[list[int], list[int], list[int]]
+"""Where forces, positions and velocities of journals are among a rotor's inputs and outputs."""
 
 
 class Wiring(NamedTuple):
@@ -54,9 +50,9 @@ class Wiring(NamedTuple):
     position: tuple[str, ...]
     velocity: tuple[str, ...]
 
-    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> JournalPlaces:
+    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> Places:
         """Return where the signals of the journals are among those of the rotor."""
-        return JournalPlaces(
+        return (
             [inputs.index(name) for name in self.force],
             [outputs.index(name) for name in self.position],
             [outputs.index(name) for name in self.velocity],
@@ -212,26 +208,24 @@ class Integrated(Slave):
         The state at present.
     nominals : ndarray, shape (n_states,)
         Typical magnitudes of the states.
+    base : ndarray, shape (n_inputs,)
+        The inputs beside the forces of films.
     rates, outcome, matrices : callable
         (t, x, u) -> dx/dt, the outputs, and the exact derivatives.
     """
 
     state: Array
     nominals: Array
+    base: Array
     rates: Callable[[float, Array, Array], Array]
     outcome: Callable[[float, Array, Array], Array]
     matrices: Callable[[float, Array, Array], Linearization]
     _t = 0.0
     _integrator: LawIntegrator | None = None
 
-    @property
-    def base(self) -> Array:
-        """The inputs beside the forces of films, shape (n_inputs,)."""
-        raise NotImplementedError
-
     def next_kink(self, t: float) -> float:
         """Return the first time after t [s] at which the rates have a kink; infinite without one."""
-        raise NotImplementedError
+        return np.inf
 
     def pass_kink(self, t: float, x: Array) -> None:
         """Go beyond a kink at the time t [s]."""
@@ -280,7 +274,7 @@ class InProcessSlave(_Held, Integrated):
         self.differentiates = hasattr(model, "linearization")
         # Asked once: checks against protocols are slow.
         self._moving = model if isinstance(model, Dynamic) else None
-        self.state = np.zeros(0)
+        self.state, self.base = np.zeros(0), self._u
         self._kinks: tuple[float, ...] = ()
         self.nominals = np.array([signal.nominal for signal in model.states])
         self.outcome = model.output
@@ -317,7 +311,7 @@ class InProcessSlave(_Held, Integrated):
 
     def restore(self, state: tuple[float, Array, Array]) -> None:
         """Return to time, states and inputs."""
-        self._t, self.state, self._u = state[0], state[1].copy(), state[2].copy()
+        self._t, self.state, self._u[:] = state[0], state[1].copy(), state[2]
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Whether it is a rotor, that is, has states."""
@@ -343,11 +337,6 @@ class InProcessSlave(_Held, Integrated):
         """Raise what the model raises where its kernel failed."""
         self.get()
         self.jacobian(self.outputs, self.inputs)
-
-    @property
-    def base(self) -> Array:
-        """The inputs beside the forces of films."""
-        return self._u
 
     def next_kink(self, t: float) -> float:
         """Return the next kink after t [s]."""
@@ -540,7 +529,7 @@ class LawIntegrator:
 
     def __init__(self, system: Integrated, wiring: Wiring) -> None:
         self._system, self._inputs = system, system.base.copy()
-        self._at = wiring.places(system.inputs, system.outputs)
+        self._force, self._position, self._velocity = wiring.places(system.inputs, system.outputs)
         self._matrices: Linearization | None = None
 
     def advance(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
@@ -607,12 +596,12 @@ class LawIntegrator:
     def _rates(self, t: float, x: Array, law: ForceLaw) -> Array:
         motion = self._system.outcome(t, x, self._inputs)
         u = self._inputs.copy()
-        u[self._at.force] = law.at(t, motion[self._at.position], motion[self._at.velocity])
+        u[self._force] = law.at(t, motion[self._position], motion[self._velocity])
         return self._system.rates(t, x, u)
 
     def _loop(self, matrices: Linearization, law: ForceLaw) -> Array:
-        feedback = law.stiffness @ matrices.C[self._at.position] + law.damping @ matrices.C[self._at.velocity]
-        closed: Array = matrices.A - matrices.B[:, self._at.force] @ feedback
+        feedback = law.stiffness @ matrices.C[self._position] + law.damping @ matrices.C[self._velocity]
+        closed: Array = matrices.A - matrices.B[:, self._force] @ feedback
         return closed
 
 

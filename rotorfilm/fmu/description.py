@@ -52,22 +52,26 @@ Unknown = tuple[int, list[tuple[int, str]]]
 """One entry of a ModelStructure: its value reference, and what it depends on, and how, as FMI spells it."""
 
 
-def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
+def dependencies(model: Model | Stepped, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
     """Return the dependencies of `model` from its exact derivatives.
 
     An unknown counts as independent of an input or state only if that derivative is exactly zero at the
     start values and at `SAMPLES` generic points about them, as linear only if it is the same at all of them;
     wherever derivatives are undefined, as where a film at rest has none, the other points decide, and if no
-    point has derivatives, all may depend.
+    point has derivatives, all may depend. Of a model with its own integrator all outputs follow from all
+    inputs.
 
     Parameters
     ----------
-    model : Model
+    model : Model or Stepped
     start : ndarray, shape (n_inputs,)
         Start values of the inputs.
     times : sequence of float [s]
         An unknown with the same value at all of them counts as independent of time.
     """
+    if isinstance(model, Stepped):
+        every = np.ones((len(model.outputs), len(model.inputs)), dtype=bool)
+        return Dependencies(every, every[:, :0], np.zeros(len(every), dtype=bool), every, delayed=True)
     points = _points(model, start)
     found = [matrix for x, u in points if (matrix := _matrix(model, x, u)) is not None]
     shape = (len(model.outputs) + len(model.states), len(model.inputs) + len(model.states))
@@ -79,15 +83,6 @@ def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) ->
         bent = nonzero & (np.any(stack != stack[0], axis=0) | (len(found) < SAMPLES))
     count = len(model.inputs)
     return Dependencies(nonzero[:, :count], nonzero[:, count:], _on_time(model, points[-1], times), bent)
-
-
-def delayed_dependencies(model: Stepped) -> Dependencies:
-    """Return the dependencies of a model with its own integrator: all outputs follow from all inputs."""
-    shape = len(model.outputs), len(model.inputs)
-    every = np.ones(shape, dtype=bool)
-    return Dependencies(
-        every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True
-    )
 
 
 def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable: bool) -> list[Unknown]:

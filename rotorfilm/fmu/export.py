@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,41 +17,13 @@ from ..core.inputs import arguments, quantity
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, in_time
 from ..core.signals import Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec, sized_spec
-from .archive import to_zip
-from .description import (
-    Dependencies,
-    Description,
-    delayed_dependencies,
-    dependencies,
-    fmi_variables,
-    terminal_files,
-    to_xml,
-)
-from .native.native_backend import (
-    CATEGORIES,
-    Export,
-    copyright_line,
-    interfaces_of,
-    native_files,
-    native_model_variables,
-    native_tool,
-    resource,
-    source_names,
-)
-from .python.python_backend import (
-    CATEGORIES as PYTHON_CATEGORIES,
-    INTERFACES as PYTHON_INTERFACES,
-    content_hash,
-    python_files,
-    python_tool,
-)
-from .reference import from_state_space
+from .archive import copyright_line, to_zip
+from .native.native_backend import Export, native_contents
+from .python.python_backend import python_contents
+from .reference import answered, begun, from_state_space
 
 if TYPE_CHECKING:
     import control
-
-NAMESPACE = uuid.UUID("6f0f6a52-9c0e-5d6b-8a53-3f5f1d7b2c11")
-"""Namespace of the guids, which are uuid5 of an FMU's content."""
 
 
 @arguments
@@ -154,62 +125,11 @@ def export_fmu(
     }
     if native and spec is not None:
         export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix)
-        contents = _native_contents(export, described)
+        contents = native_contents(export, described)
     else:
-        contents = _python_contents(subject, prefix, inputs, described)
+        contents = python_contents(subject, prefix, inputs, described)
     target.parent.mkdir(parents=True, exist_ok=True)
     return write_whole(target, to_zip(contents))
-
-
-def _native_contents(export: Export, described: dict[str, Any]) -> dict[str, bytes]:
-    """Return all files of a native FMU by path."""
-    variables, model = native_model_variables(export), export.model
-    description = Description(
-        **described,
-        tool=native_tool(),
-        interfaces=interfaces_of(model, export.version),
-        categories=CATEGORIES,
-        variables=variables,
-        dependencies=_dependencies(model, export.inputs, np.linspace(0.0, export.stop_time, 7).tolist()),
-        sources=source_names(),
-    )
-    contents = native_files(export, variables)
-    token = _guid(contents | resource(export, variables, ""), description, export.version)
-    contents |= resource(export, variables, token)
-    return {**contents, "modelDescription.xml": to_xml(description, export.version, token)}
-
-
-def _python_contents(
-    model: Model | Stepped, prefix: str, inputs: Array, described: dict[str, Any]
-) -> dict[str, bytes]:
-    """Return all files of an FMU of the python backend by path."""
-    start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
-    component, variables = described["identifier"], fmi_variables(model, prefix, start)
-    description = Description(
-        **described,
-        tool=python_tool(),
-        interfaces=PYTHON_INTERFACES,
-        categories=PYTHON_CATEGORIES,
-        variables=variables,
-        dependencies=_dependencies(model, inputs, (0.0,)),
-    )
-    contents = python_files(model, component, description.title, start, variables, prefix)
-    contents |= terminal_files(model, component, prefix, icon=False)
-    return {
-        **contents,
-        "modelDescription.xml": to_xml(description, "2.0", _guid(contents, description, "2.0")),
-    }
-
-
-def _dependencies(model: Model | Stepped, inputs: Array, times: Sequence[float]) -> Dependencies:
-    if isinstance(model, Stepped):
-        return delayed_dependencies(model)
-    return dependencies(model, inputs, times)
-
-
-def _guid(contents: Mapping[str, bytes], description: Description, version: str) -> str:
-    """Return the guid that follows from all else in an FMU."""
-    return str(uuid.uuid5(NAMESPACE, content_hash({**contents, "xml": to_xml(description, version, "")})))
 
 
 # What an export asks for: rules of its arguments, and the model that goes into the FMU.
@@ -298,20 +218,13 @@ def require_component(component: str) -> None:
 def require_output(model: Model | Stepped, inputs: Array) -> None:
     """Raise unless the model has an output at its start values."""
     try:
-        output = require_finite("output", _first_output(model, inputs))
+        output = require_finite("output", answered(model, 0.0, begun(model, inputs), inputs))
     except Exception as error:
         raise InputError(
             f"start must be values at which the model has an output, got {inputs.tolist()}: {error}"
         ) from error
     if output.shape != (len(model.outputs),):
         raise FmuError(f"output must have shape ({len(model.outputs)},), got {output.shape}")
-
-
-def _first_output(model: Model | Stepped, inputs: Array) -> Array:
-    if isinstance(model, Stepped):
-        return model.answer(model.start(inputs))
-    state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
-    return model.output(0.0, state, inputs)
 
 
 def start_values(model: Model | Stepped, start: Mapping[str, float | str]) -> dict[str, float]:

@@ -14,16 +14,15 @@ from ..analysis import coefficients, equilibrium
 from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
 from ..bearings.pads import (
     LobedBearing,
-    LobeShare,
     PadFilm,
     PadGridFilm,
     PadMapFilm,
     PadResolution,
     PressureDamBearing,
     TiltingPadBearing,
-    TiltingPads,
     differenced_slopes,
     is_pad_mappable,
+    lobe_share,
 )
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
@@ -97,13 +96,13 @@ class PadCandidate(FilmCandidate):
         bearing = self.reaction
         if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
             return math.inf
-        film, place = bearing.film, (at.position, at.speed)
-        shares = [LobeShare(bearing, film, lobe, *place) for lobe in bearing.lobes]
+        place, film = (at.position, at.speed), bearing.film
+        shares = (lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
+        force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
-            return sum(share.force for share in shares) / math.hypot(*at.load)
+            return force / math.hypot(*at.load)
         found = coefficients(bearing, at.position, at.speed)
-        stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
-        return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
+        return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
 def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
@@ -323,7 +322,7 @@ class TiltingCandidate(FilmCandidate):
         return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
     return differenced_slopes(bearing, e, w, STEP)
 
@@ -397,9 +396,7 @@ def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-PRESSURE_DAM = film_ladders(
-    _dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"]
-)
+PRESSURE_DAM = film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"])
 
 
 # Questions about tilting pads: K and C are those at the shaft's frequency.

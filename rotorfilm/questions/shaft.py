@@ -325,8 +325,9 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
     """
     name = f"{level.level}, {rung.model.name}, {level.grid}"
     seconds = 4.0 * len(rung.films.on_oil) * level.seconds
+    unit = WorkUnit(f"speeds of {name}", ("speeds", name), nominal=seconds)
 
-    def solve(before: Found | None) -> tuple[float, tuple[Found, dict[str, WarmRest]]]:
+    def answer(before: Found | None) -> Found:
         uniform = before is not None and isinstance(before.solution, ShaftSpeed)
         whirl = rung.answer(before if uniform else None).solution.whirls[0]
         structure, event = rung.model.rotor.structure, rung.event
@@ -344,13 +345,13 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
         near = secant_speed(
             lead_at, whirl.at.speed, rung.rate(whirl), near=NEAR, farthest=FARTHEST, most=RESTS
         )
-        return near.speed, near.solution
+        return Found(near.speed, {unit: 1}, near.solution)
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         inner, rests = found.solution
-        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level))
+        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level), name)
 
-    return counted_rung(name, ("answers", name), seconds, solve, judge)
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
 
 
 LADDERS = {

@@ -24,8 +24,7 @@ from ..bearings.films.geometry import (
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
-from ..bearings.oil.laminar import TAYLOR, TURBULENT, film_reynolds
-from ..bearings.oil.oil import compression
+from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report

@@ -25,8 +25,7 @@ from ...core.signals import MOTION_NAMES
 from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
-from ..films.kernel_film import BoundKernel
-from ..films.law import options
+from ..films.law import BoundKernel, options
 from ..reaction import NOMINAL_SPEED, Size, require_size
 from .squeeze_films import LayerModes, PorousLayer, SqueezeFilm, layer_modes
 from .squeeze_inertia import SqueezeInertia, warn_of_length, warn_of_short_seals

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import hashlib
 import json
 import warnings
 from collections.abc import Iterable, Mapping
@@ -11,11 +10,12 @@ from importlib.metadata import version as installed_version
 from typing import Any, NamedTuple
 
 from ...core.errors import FmuError
-from ...core.model import Model, Stepped
+from ...core.model import Array, Model, Stepped
 from ...core.signals import Variable
 from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from ...native.library import FILMS, LOOPS, library_path
-from ..archive import binaries, licenses, require_verified_version
+from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
+from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
 from ..documentation import PYTHON, PYTHON_STEPPED, to_html
 from .codec import class_modules, decode, encode, shortened
 from .usermodule import read_user_module, renamed_source
@@ -33,7 +33,7 @@ LIBRARY = {
     f"{PACKAGE}.native",
     f"{PACKAGE}.bearings.films.mass_conserving_steps",
     f"{PACKAGE}.bearings.rolling.ball_element",
-    f"{PACKAGE}.bearings.pads.tilting_pads",
+    f"{PACKAGE}.bearings.pads.tilting_bearing",
 }
 """What a module imports that calls the compiled library."""
 
@@ -88,15 +88,6 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     files.update({f"{package}/{name}": content for name, content in companions.items()})
     files.update({f"{names[name]}.py": renamed_source(read[name][0], names).encode() for name in users})
     return Bundle(files, names)
-
-
-def content_hash(contents: Mapping[str, bytes]) -> str:
-    """Return 16 hexadecimal digits that change with any name or content."""
-    digest = hashlib.sha256()
-    for name, content in sorted(contents.items()):
-        for part in (name.encode(), content):
-            digest.update(len(part).to_bytes(8, "big") + part)
-    return digest.hexdigest()[:16]
 
 
 def _companions(modules: Iterable[str]) -> dict[str, bytes]:
@@ -155,12 +146,34 @@ class Slave({base}):
 '''
 
 
-def python_tool() -> str:
-    """Return what made the FMU, with versions."""
-    return f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})"
+def python_contents(
+    model: Model | Stepped, prefix: str, inputs: Array, described: dict[str, Any]
+) -> dict[str, bytes]:
+    """Return all files of the FMU by path; `described` is what any description says.
+
+    Raises
+    ------
+    FmuError
+        If the model cannot be carried, or the installed pythonfmu is not the verified version.
+    """
+    start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
+    variables = fmi_variables(model, prefix, start)
+    description = Description(
+        **described,
+        tool=f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})",
+        interfaces=INTERFACES,
+        categories=CATEGORIES,
+        variables=variables,
+        dependencies=dependencies(model, inputs),
+    )
+    component = description.identifier
+    contents = _files(model, component, description.title, start, variables, prefix)
+    contents |= terminal_files(model, component, prefix, icon=False)
+    guid = guid_of(contents, to_xml(description, "2.0", ""))
+    return {**contents, "modelDescription.xml": to_xml(description, "2.0", guid)}
 
 
-def python_files(
+def _files(
     model: Model | Stepped,
     component: str,
     title: str,
@@ -168,13 +181,7 @@ def python_files(
     variables: tuple[Variable, ...],
     prefix: str,
 ) -> dict[str, bytes]:
-    """Return all files of the FMU but the XML, by path.
-
-    Raises
-    ------
-    FmuError
-        If the model cannot be carried, or the installed pythonfmu is not the verified version.
-    """
+    """Return all files but the XML and the terminals, by path."""
     require_verified_version()
     data = encode(model)
     bundle = bundle_source(class_modules(data))
