@@ -140,7 +140,7 @@ def _uniform_heat(
     if heat.error * SAFETY < tolerance and has_field(bearing):
         steps = HeatSteps(bearing, start)
         heat, how, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
-    return *with_moving(judge, bearing, heat, how), doubt
+    return *with_moving(judge.moving(bearing), heat, how), doubt
 
 
 def balance_at(bearing: JournalBearing, own: WarmRest) -> float:
@@ -167,9 +167,8 @@ def with_heat(
     return ErrorEstimate(total, method, {WorkUnit(work): 1}, bound=bound, doubt=doubt, shared=heat.error)
 
 
-def with_moving(judge: RestJudge, bearing: Any, heat: HeatError, method: str) -> tuple[HeatError, str]:
+def with_moving(moving: float, heat: HeatError, method: str) -> tuple[HeatError, str]:
     """Return an error by heat and how it is known, with that by heat which moves with the journal."""
-    moving = judge.moving(bearing)
     if not moving:
         return heat, method
     bound = heat.bound or moving > heat.error
@@ -208,7 +207,7 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Variant
         else:
             steps = HeatSteps(bearing, own)
             heat, method, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
-        heat, method = with_moving(judge, bearing, heat, method)
+        heat, method = with_moving(judge.moving(bearing), heat, method)
         return ErrorEstimate(heat.error, method, bound=heat.bound, doubt=doubt)
 
     return counted_rung(name, ("answers", name), question.field_rests * level.seconds, solve, judge)

@@ -59,7 +59,7 @@ from .shaft_films import (
     with_fields,
 )
 from .shaft_orbits import PEAK, shaft_orbit_ladder, shaft_peak_ladder
-from .variants import VariantRung
+from .variants import VariantRung, counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -325,9 +325,8 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
     """
     name = f"{level.level}, {rung.model.name}, {level.grid}"
     seconds = 4.0 * len(rung.films.on_oil) * level.seconds
-    unit = WorkUnit(f"speeds of {name}", ("speeds", name), nominal=seconds)
 
-    def answer(before: Found | None) -> Found:
+    def solve(before: Found | None) -> tuple[float, tuple[Found, dict[str, WarmRest]]]:
         uniform = before is not None and isinstance(before.solution, ShaftSpeed)
         whirl = rung.answer(before if uniform else None).solution.whirls[0]
         structure, event = rung.model.rotor.structure, rung.event
@@ -345,13 +344,13 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
         near = secant_speed(
             lead_at, whirl.at.speed, rung.rate(whirl), near=NEAR, farthest=FARTHEST, most=RESTS
         )
-        return Found(near.speed, {unit: 1}, near.solution)
+        return near.speed, near.solution
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         inner, rests = found.solution
-        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level), name)
+        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level))
 
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+    return counted_rung(name, ("answers", name), seconds, solve, judge)
 
 
 LADDERS = {

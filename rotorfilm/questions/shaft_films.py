@@ -43,7 +43,7 @@ from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
-from .variants import VariantRung
+from .variants import VariantRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
     from ..scenes.journal_tables import JournalTable
@@ -305,7 +305,7 @@ def steps_error(rung: ShaftRung, found: Found, own: float, rests: Mapping[str, W
     )
     doubt = next((one.doubt for one in steps.values() if one.doubt), "")
     heat = heat_error(own, start, (last, before, coarse, fine, long), rung.distance)
-    return *with_moving(rung, found, heat, "steps towards T3"), doubt
+    return *with_moving(rung.moving(found), heat, "steps towards T3"), doubt
 
 
 @dataclass(frozen=True, eq=False)
@@ -354,15 +354,7 @@ def warm_rung(rung: ShaftRung, heat: RotorHeat) -> VariantRung:
         about = rung.estimate(found, before, tolerance)
         return with_heat(about, lambda: heat.error(rung, found, tolerance), f"estimates of {name}")
 
-    return VariantRung(
-        name=name,
-        answer=rung.answer,
-        estimate=estimate,
-        expected=rung.expected,
-        prior=rung.prior,
-        refines=rung.refines,
-        shares=heat,
-    )
+    return replace(with_estimate(rung, estimate, heat), name=name)
 
 
 def at_temperatures(films: ShaftFilms, temperatures: Mapping[str, float]) -> ShaftFilms:
@@ -448,12 +440,13 @@ def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level
         return value_on(rung, found, field_rests(rung.films, at, one))
 
     grid = grid_error(level, own, value, rung.distance)
-    return *with_moving(rung, found, HeatError(grid, True), "cells twice as long, half the layers"), ""
+    method = "cells twice as long, half the layers"
+    return *with_moving(rung.moving(found), HeatError(grid, True), method), ""
 
 
-def with_fields(about: ErrorEstimate, heat: HeatFound, name: str) -> ErrorEstimate:
+def with_fields(about: ErrorEstimate, heat: HeatFound) -> ErrorEstimate:
     """Return the error of a rotor's model with that of the heat in its films, which no other rung shares."""
-    return with_heat(about, lambda: heat, f"estimates of {name}")._replace(shared=0.0)
+    return with_heat(about, lambda: heat, "")._replace(shared=0.0)
 
 
 def field_orbits(
@@ -496,21 +489,19 @@ def field_orbit(
     """
     name = f"{level.level}, {make(replace(films, journals={})).name}, {level.grid}"
     seconds = 2.0 * len(films.on_oil) * level.seconds
-    unit = WorkUnit(f"orbits of {name}", ("orbits", name), nominal=seconds)
 
-    def answer(before: Found | None) -> Found:
+    def solve(before: Found | None) -> tuple[float, tuple[Found, ShaftRung]]:
         frozen = {}
         for station, own in rests().items():
             film = films.journals[station].frozen(own.reaction)
             frozen[station] = replace(film, rich=film.reaction, rich_name="itself")  # there is no richer one
         rung = make(films.changed(frozen))
         found = rung.answer(None)
-        return Found(found.value, {unit: 1}, (found, rung))
+        return found.value, (found, rung)
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         inner, rung = found.solution
         about = rung.estimate(inner, None, tolerance)
-        heat = field_error(uniform, uniform.answer(None), rests(), level)
-        return with_fields(about, heat, name)
+        return with_fields(about, field_error(uniform, uniform.answer(None), rests(), level))
 
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+    return counted_rung(name, ("answers", name), seconds, solve, judge)
