@@ -33,6 +33,7 @@ PATHS = {
         CALL.format(["solve", str(SCENE)]),
         {"rich.progress"},
         OTHER_PARTS - {"cli", "rotors"}
+        | OTHER_FAMILIES
         | {
             "analysis.simulate",
             "bearings.rolling",

@@ -7,7 +7,7 @@ from rotorfilm.core import sources
 MAKERS = {
     "rotorfilm.bearings.contact.contact_law": (
         {"contact.film_newton", "contact.stationary", "contact.film_equations"},
-        {"contact.contact_run", "contact.ball_support", "journal.bearing"},
+        {"contact.contact_steps", "contact.ball_support", "journal.bearing"},
     ),
     "rotorfilm.bearings.journal.groove_map": (
         {"films.geometry", "films.finite_volumes", "films.map_fit"},

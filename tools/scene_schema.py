@@ -92,10 +92,6 @@ def shape_schema(shape: Any, units: dict[str, str]) -> dict[str, Any]:
             return {"oneOf": [_tagged(tag, name, one, units) for name, one in variants.items()]}
         case readers.Count(least=least, most=most):
             return {"type": "integer", "minimum": least, "maximum": most}
-        case readers.Counts(names=names, most=most):
-            return shape_schema([readers.Count(most)] * len(names), units)
-        case readers.Named(variants=names):
-            return {"enum": list(names)}
         case list():
             return _list_schema(shape, units)
         case tuple():

@@ -16,8 +16,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 from rotorfilm.bearings.bush import MeltingBush
+from rotorfilm.bearings.bush.bush_reaction import LocalMelting
 from rotorfilm.bearings.bush.melting import GlobalBalance
-from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.scenes import Scene
 
 from .drawn import Truth

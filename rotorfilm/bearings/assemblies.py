@@ -1,10 +1,10 @@
-"""Several reactions on one journal, as a bearing beside a seal, or beside a ring that is rubbed."""
+"""Reactions at one place of a journal: a bearing beside a seal or a rubbed ring, a damper with springs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from ..core.inputs import quantities
 from ..core.model import (
     Array,
     Force,
+    InertialReaction,
     Reaction,
     Tangent,
     carries_load,
@@ -28,9 +29,63 @@ from ..native.spec import HasKernel, NativeSpec
 from .reaction import InertialModel, WalledReaction, broadcast_state, minimum_film
 
 
+class SharedReaction(InertialModel):
+    """What a reaction made of `reactions` at one place takes from them: wall, size and added mass."""
+
+    @property
+    def clearance(self: Any) -> float:
+        """The smallest radial clearance [m]."""
+        return min(reaction.clearance for reaction in self.reactions)
+
+    @property
+    def largest_eccentricity_ratio(self: Any) -> float:
+        """Eccentricity ratio, of the smallest clearance, to which all are meant."""
+        if not np.isfinite(self.clearance):
+            return 1.0
+        return min(
+            largest_eccentricity_ratio(one) * (one.clearance / self.clearance) for one in self.reactions
+        )
+
+    @property
+    def nominal_force(self: Any) -> float:
+        """The largest nominal force [N]."""
+        return max(reaction.outputs[0].nominal for reaction in self.reactions)
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether one of them adds a mass to the rotor."""
+        return bool(self._heavy)
+
+    @property
+    def _heavy(self: Any) -> list[InertialReaction]:
+        return [heavy for reaction in self.reactions if (heavy := inertial(reaction))]
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the added mass of all [kg], shape (2, 2, ...)."""
+        q, v, omega = broadcast_state(position, velocity, speed)
+        return np.sum([np.zeros((2, *q.shape)), *(one.mass(q, v, omega) for one in self._heavy)], axis=0)
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
+        q, v, omega = broadcast_state(position, velocity, speed)
+        none = np.zeros((2, 2, 5, *q.shape[1:]))
+        return np.sum([none, *(one.mass_slopes(q, v, omega) for one in self._heavy)], axis=0)
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the inertia of one ends, for whirl at [rad/s].
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion.
+        """
+        for heavy in self._heavy:
+            heavy.require_range(frequency)
+
+
 @quantities
 @dataclass(frozen=True)
-class ParallelReaction(InertialModel):
+class ParallelReaction(SharedReaction):
     """Reactions without states on one journal: their forces and added masses add up.
 
     Parameters
@@ -56,22 +111,6 @@ class ParallelReaction(InertialModel):
                 raise InputError(f"reactions must have no states, got {reaction!r}")
 
     @property
-    def clearance(self) -> float:
-        """The smallest radial clearance [m]."""
-        return min(reaction.clearance for reaction in self.reactions)
-
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio, of the smallest clearance, to which all are meant."""
-        reaches = [largest_eccentricity_ratio(one) * one.clearance for one in self.reactions]
-        return min(reaches) / self.clearance if np.isfinite(self.clearance) else 1.0
-
-    @property
-    def nominal_force(self) -> float:
-        """The largest nominal force [N]."""
-        return max(reaction.outputs[0].nominal for reaction in self.reactions)
-
-    @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed, as of the reaction with the smallest nominal displacement."""
         return min((reaction.inputs for reaction in self.reactions), key=lambda signals: signals[0].nominal)
@@ -81,11 +120,6 @@ class ParallelReaction(InertialModel):
         """Whether one of them is a bearing, not a seal."""
         return any(map(carries_load, self.reactions))
 
-    @property
-    def has_inertia(self) -> bool:
-        """Whether one of them adds a mass to the rotor."""
-        return any(inertial(reaction) for reaction in self.reactions)
-
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film of all [m], shape (...), of journals at positions (2, ...) [m]."""
         q = require_vector("position", position)
@@ -93,31 +127,6 @@ class ParallelReaction(InertialModel):
 
     def require_film(self, position: Array) -> None:
         """Do nothing: each reaction says itself where it is touched."""
-
-    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return the added mass of all [kg], shape (2, 2, ...)."""
-        q, v, omega = broadcast_state(position, velocity, speed)
-        heavy = [one for reaction in self.reactions if (one := inertial(reaction))]
-        return np.sum([np.zeros((2, *q.shape)), *(one.mass(q, v, omega) for one in heavy)], axis=0)
-
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
-        q, v, omega = broadcast_state(position, velocity, speed)
-        heavy = [one for reaction in self.reactions if (one := inertial(reaction))]
-        none = np.zeros((2, 2, 5, *q.shape[1:]))
-        return np.sum([none, *(one.mass_slopes(q, v, omega) for one in heavy)], axis=0)
-
-    def require_range(self, frequency: float) -> None:
-        """Warn, or raise InputError, where the inertia of one ends, for whirl at [rad/s].
-
-        Parameters
-        ----------
-        frequency : float [rad/s]
-            Of the motion.
-        """
-        for reaction in self.reactions:
-            if heavy := inertial(reaction):
-                heavy.require_range(frequency)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
@@ -133,7 +142,7 @@ class ParallelReaction(InertialModel):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class Sprung(InertialModel):
+class Sprung(SharedReaction):
     """A reaction in parallel with equal springs along x and y: F = reaction - stiffness * position.
 
     The springs are preloaded so that they carry the static load where the rotor is centered: give the rotor
@@ -160,19 +169,12 @@ class Sprung(InertialModel):
         require_positive("stiffness", self.stiffness)
 
     @property
-    def clearance(self) -> float:
-        """Radial clearance of the reaction [m]."""
-        return self.reaction.clearance
+    def reactions(self) -> tuple[Reaction]:
+        """The reaction alone: its springs add no mass, and have no wall."""
+        return (self.reaction,)
 
-    @property
-    def carries_load(self) -> bool:
-        """Whether it is a bearing: its springs carry the rotor, whatever is beside them."""
-        return True
-
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the reaction is meant."""
-        return largest_eccentricity_ratio(self.reaction)
+    carries_load: ClassVar[bool] = True
+    """Whether it is a bearing: its springs carry the rotor, whatever is beside them."""
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film of the reaction [m], shape (...), of journals at positions (2, ...) [m]."""
@@ -182,42 +184,6 @@ class Sprung(InertialModel):
         """Raise FilmContactError where the journal touches; a reaction with a wall of its own does itself."""
         if not isinstance(self.reaction, WalledReaction):
             super().require_film(position)
-
-    @property
-    def nominal_force(self) -> float:
-        """Nominal force of the reaction [N]."""
-        return self.reaction.outputs[0].nominal
-
-    @property
-    def has_inertia(self) -> bool:
-        """Whether the reaction adds the mass of its oil to the rotor."""
-        return inertial(self.reaction) is not None
-
-    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return the added mass of the reaction [kg], shape (2, 2, ...), zeros without inertia."""
-        heavy = inertial(self.reaction)
-        if heavy is None:
-            return np.zeros((2, *np.shape(position)))
-        return heavy.mass(position, velocity, speed)
-
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
-        heavy = inertial(self.reaction)
-        if heavy is None:
-            return np.zeros((2, 2, 5, *np.shape(position)[1:]))
-        return heavy.mass_slopes(position, velocity, speed)
-
-    def require_range(self, frequency: float) -> None:
-        """Warn, or raise InputError, where the inertia of the reaction ends, for whirl at [rad/s].
-
-        Parameters
-        ----------
-        frequency : float [rad/s]
-            Of the motion.
-        """
-        heavy = inertial(self.reaction)
-        if heavy is not None:
-            heavy.require_range(frequency)
 
     def force_along(
         self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -85,10 +86,8 @@ class TabulatedBearing(Feedthrough):
         columns = np.column_stack([self.speeds, *(np.reshape(t, (-1, 4)) for t in self._tables)])
         return write_csv(path, dict(zip(HEADINGS, columns.T.tolist(), strict=True)))
 
-    @property
-    def clearance(self) -> float:
-        """Infinite: the table does not know where the wall is."""
-        return math.inf
+    clearance: ClassVar[float] = math.inf
+    """Infinite: the table does not know where the wall is."""
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -187,10 +186,8 @@ class LinearBearing(Feedthrough):
             matrix = array if array.ndim else float(array) * np.eye(2)
             object.__setattr__(self, name, tuple(tuple(row) for row in matrix.tolist()))
 
-    @property
-    def clearance(self) -> float:
-        """Infinite: the journal may go anywhere."""
-        return math.inf
+    clearance: ClassVar[float] = math.inf
+    """Infinite: the journal may go anywhere."""
 
     @property
     def inputs(self) -> tuple[Signal, ...]:

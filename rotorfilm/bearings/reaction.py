@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import InitVar, dataclass
-from typing import Any, NamedTuple, Protocol, cast, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +23,6 @@ from ..core.model import (
     Force,
     JournalForce,
     Linearization,
-    Reaction,
     Stepped,
     Tangent,
     force_of,
@@ -79,16 +78,10 @@ def input_vector(u: ArrayLike) -> Array:
     return values
 
 
-class _Law(Protocol):
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-
 class Called:
     """What makes a reaction a function: of position, velocity and speed, as its `force`."""
 
-    def __call__(self: _Law, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    def __call__(self: JournalForce, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...)."""
         return self.force(position, velocity, speed)
 
@@ -101,162 +94,43 @@ class Feedthrough(Called):
         """No states: the reaction is quasi-static."""
         return ()
 
-    def output(self: _Law, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+    def output(self: JournalForce, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
         values = input_vector(u)
         return self.force(values[:2], values[2:4], values[4])
 
-    def linearization(self: _Law, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+    def linearization(self: JournalForce, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
         values = input_vector(u)
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
 
-class _Sized(Protocol):
-    @property
-    def clearance(self) -> float: ...
+class StaticReaction(Feedthrough):
+    """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
-    def nominal_force(self) -> float: ...
-
-
-class JournalReaction(Feedthrough):
-    """A static Model of a journal within a `clearance`, with forces about as large as its `nominal_force`."""
-
-    @property
-    def inputs(self: _Sized) -> tuple[Signal, ...]:
+    def inputs(self: JournalForce) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
         return journal_inputs(self.clearance, NOMINAL_SPEED)
 
     @property
-    def outputs(self: _Sized) -> tuple[Signal, ...]:
+    def outputs(self: Any) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(self.nominal_force)
-
-
-class _Film(Protocol):
-    """A film of one bearing in SI units, as `films.law.BoundFilm`."""
-
-    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]: ...
-
-    def tangent(
-        self, x: float, y: float, vx: float, vy: float, speed: float
-    ) -> tuple[float, float, list[float]]: ...
-
-    def force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
-
-    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
-
-
-class _Bound(Protocol):
-    @property
-    def bound_film(self) -> _Film: ...
-
-
-class FilmReaction(JournalReaction):
-    """A Reaction made from its `bound_film`, which knows where the journal touches."""
-
-    def force(self: _Bound, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the film force on the journal.
-
-        Parameters
-        ----------
-        position : array_like, shape (2, ...) [m]
-            Journal center from the bearing center.
-        velocity : array_like, shape (2, ...) [m/s]
-            Velocity of the journal center.
-        speed : array_like, shape (...) [rad/s]
-            Angular speed about +z, of either sign.
-
-        Returns
-        -------
-        ndarray, shape (2, ...) [N]
-
-        Raises
-        ------
-        InputError
-            If an argument is not finite or of the wrong shape, or the force overflows.
-        FilmContactError
-            If the journal touches the wall anywhere in the batch.
-        """
-        return self.bound_film.force(*broadcast_state(position, velocity, speed))
-
-    def jacobian(self: _Bound, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the exact derivatives of the force.
-
-        Parameters
-        ----------
-        position, velocity, speed
-            As in `force`.
-
-        Returns
-        -------
-        ndarray, shape (2, 5, ...)
-            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
-
-        Raises
-        ------
-        InputError, FilmContactError
-            As in `force`.
-        UndefinedDerivativeError
-            Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
-        """
-        return self.bound_film.jacobian(*broadcast_state(position, velocity, speed))
-
-    @property
-    def film_in_c(self) -> _Film | None:
-        """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
-        film: _Film | None = cast(_Bound, self).bound_film if "bound_film" in vars(type(self)) else None
-        return film
-
-    def prepare(self: _Bound) -> Force:
-        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
-        return self.bound_film.call
-
-    def prepare_tangent(self: _Bound) -> Tangent:
-        """Return force and derivatives as one function of five numbers, for searches state by state.
-
-        Returns
-        -------
-        callable
-            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
-            row). Raises what `jacobian` raises.
-        """
-        return self.bound_film.tangent
-
-    def prepared_force(self: _Bound, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        return self.bound_film.force(position, velocity, speed)
-
-    def prepared_jacobian(self: _Bound, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        return self.bound_film.jacobian(position, velocity, speed)
-
-
-class _Prepared(_Law, _Sized, Protocol):
-    def require_film(self, position: Array) -> None: ...
-
-    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
-
-    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
-
-
-class StaticReaction(JournalReaction):
-    """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
         return 1.0
 
-    def require_film(self: _Prepared, position: Array) -> None:
+    def require_film(self: Any, position: Array) -> None:
         """Raise FilmContactError unless the journal, at position (2, ...) [m], touches no wall.
 
         By default the wall is the circle of the clearance.
         """
         require_inside(position, self.clearance)
 
-    def force(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+    def force(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the force on the journal.
 
         Parameters
@@ -283,7 +157,7 @@ class StaticReaction(JournalReaction):
         self.require_film(q)
         return without_overflow(self.prepared_force, q, v, omega)
 
-    def jacobian(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+    def jacobian(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the exact derivatives of the force.
 
         Parameters
@@ -307,7 +181,7 @@ class StaticReaction(JournalReaction):
         self.require_film(q)
         return without_overflow(self.prepared_jacobian, q, v, omega)
 
-    def prepare(self: _Prepared) -> Force:
+    def prepare(self: Any) -> Force:
         """Return the force as a function of five numbers, for loops that go state by state.
 
         Returns
@@ -315,29 +189,64 @@ class StaticReaction(JournalReaction):
         callable
             (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
         """
-        return force_of(cast(Reaction, self))
+        return force_of(self)
+
+
+class FilmReaction(StaticReaction):
+    """A Reaction made from its `bound_film`, which knows where the journal touches."""
+
+    def force(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:  # type: ignore[override]
+        """Return the force on the journal, shape (2, ...) [N]; see `StaticReaction.force`."""
+        force: Array = self.bound_film.force(*broadcast_state(position, velocity, speed))
+        return force
+
+    def jacobian(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:  # type: ignore[override]
+        """Return the exact derivatives of the force, shape (2, 5, ...); see `StaticReaction.jacobian`.
+
+        Raises
+        ------
+        UndefinedDerivativeError
+            Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
+        """
+        slopes: Array = self.bound_film.jacobian(*broadcast_state(position, velocity, speed))
+        return slopes
+
+    @property
+    def film_in_c(self: Any) -> Any:
+        """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
+        return self.bound_film if "bound_film" in vars(type(self)) else None
+
+    def prepare(self: Any) -> Force:
+        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
+        return self.bound_film.call
+
+    def prepare_tangent(self: Any) -> Tangent:
+        """Return force and derivatives as one function of five numbers, for searches state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
+            row). Raises what `jacobian` raises.
+        """
+        return self.bound_film.tangent
+
+    def prepared_force(self: Any, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        return self.bound_film.force(position, velocity, speed)
+
+    def prepared_jacobian(self: Any, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        return self.bound_film.jacobian(position, velocity, speed)
 
 
 # Reactions whose force one kernel of the C library answers state by state.
 
 
-class _Kernel(Protocol):
-    def call(self, *state: float) -> tuple[float, float, int]: ...
-
-    def tangent(self, *state: float) -> tuple[float, float, list[float], int]: ...
-
-
-class _Compiled(Protocol):
-    @property
-    def kernel(self) -> _Kernel: ...
-
-    def report(self, status: int, state: tuple[float, ...]) -> None: ...
-
-
 class KernelReaction(StaticReaction):
     """A static reaction with a `kernel`, and a `report` that raises, or warns, by the status of a state."""
 
-    def prepare(self: _Compiled) -> Force:
+    def prepare(self: Any) -> Force:
         """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
         call, report = self.kernel.call, self.report
 
@@ -349,8 +258,8 @@ class KernelReaction(StaticReaction):
 
         return force
 
-    def prepare_tangent(self: _Compiled) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+    def prepare_tangent(self: Any) -> Tangent:
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
         call, report = self.kernel.tangent, self.report
 
         def tangent(
@@ -443,27 +352,11 @@ def added_mass(film: Coefficients) -> Array:
     return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
 
 
-class _Heavy(Protocol):
-    @property
-    def nominal_force(self) -> float: ...
-
-    @property
-    def has_inertia(self) -> bool: ...
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-
 class InertialModel(StaticReaction):
     """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `InertialReaction`."""
 
     @property
-    def outputs(self: _Heavy) -> tuple[Signal, ...]:
+    def outputs(self: Any) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal without that of its acceleration; the mass."""
         forces = force_outputs(self.nominal_force)
         if not self.has_inertia:
@@ -476,7 +369,7 @@ class InertialModel(StaticReaction):
         )
 
     def force_along(
-        self: _Heavy, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+        self: Any, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
     ) -> Array:
         """Return the force in a motion, that of the added mass included, shape (2, n) [N].
 
@@ -491,7 +384,7 @@ class InertialModel(StaticReaction):
             return force
         return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, speed), acceleration)
 
-    def output(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+    def output(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""
         values = input_vector(u)
         force = self.force(values[:2], values[2:4], values[4])
@@ -499,7 +392,7 @@ class InertialModel(StaticReaction):
             return force
         return np.concatenate([force, self.mass(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]])
 
-    def linearization(self: _Heavy, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+    def linearization(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D."""
         values = input_vector(u)
         D = self.jacobian(values[:2], values[2:4], values[4])
@@ -516,7 +409,11 @@ Complex = NDArray[np.complex128]
 
 
 class DynamicStiffness(Protocol):
-    """The stiffness that a journal feels in small motion, over the exponent of the motion."""
+    """The stiffness that a journal feels in small motion, over the exponent of the motion.
+
+    One of states that follow the journal has them as `at`, as of `StatesStiffness`: a rotor may take them as
+    states of its own.
+    """
 
     def __call__(self, s: complex) -> tuple[Complex, Complex]:
         """Return K(s) [N/m] and dK/ds [N s/m], shape (2, 2) each: the force changes by -K(s) q e^(s t).
@@ -533,15 +430,6 @@ class DynamicStiffness(Protocol):
         ----------
         s : complex [1/s]
         """
-
-
-@runtime_checkable
-class StateSpaceStiffness(Protocol):
-    """A `DynamicStiffness` of states that follow the journal, which a rotor may take as states of its own."""
-
-    @property
-    def at(self) -> Linearization:
-        """The states about the rest; its inputs begin with x, y, vx, vy, its outputs with the force."""
 
 
 @dataclass(frozen=True)
@@ -666,8 +554,8 @@ def coefficients_of(
 # The units of the film force of a journal, which dimensions and viscosity of its bearing make.
 
 
-class Size(Protocol):
-    """Dimensions of a bearing."""
+class Dimensions(Protocol):
+    """Dimensions of a bearing, and the viscosity of its film."""
 
     @property
     def radius(self) -> float:
@@ -681,17 +569,6 @@ class Size(Protocol):
     def clearance(self) -> float:
         """Radial clearance [m], the unit of eccentricity ratios."""
 
-
-def require_size(bearing: Size, *further: str) -> None:
-    """Raise InputError unless sizes and further fields are positive, and the clearance below the radius."""
-    require_each(bearing, require_positive, "radius", "length", "clearance", *further)
-    if bearing.clearance >= bearing.radius:
-        raise InputError(f"clearance must be below the radius {bearing.radius!r}, got {bearing.clearance!r}")
-
-
-class Dimensions(Size, Protocol):
-    """Dimensions of a bearing, and the viscosity of its film."""
-
     @property
     def film_length(self) -> float:
         """Axial length that is film [m]."""
@@ -701,12 +578,11 @@ class Dimensions(Size, Protocol):
         """Dynamic viscosity of the film [Pa s]."""
 
 
-class _Scaled(Protocol):
-    @property
-    def slenderness(self) -> float: ...
-
-    @property
-    def force_scale(self) -> float: ...
+def require_size(bearing: Any, *further: str) -> None:
+    """Raise InputError unless sizes and further fields are positive, and the clearance below the radius."""
+    require_each(bearing, require_positive, "radius", "length", "clearance", *further)
+    if bearing.clearance >= bearing.radius:
+        raise InputError(f"clearance must be below the radius {bearing.radius!r}, got {bearing.clearance!r}")
 
 
 class FilmUnits:
@@ -728,7 +604,7 @@ class FilmUnits:
         return self.film_viscosity * self.film_length * self.radius**3 / self.clearance**2
 
     @property
-    def nominal_force(self: _Scaled) -> float:
+    def nominal_force(self: Any) -> float:
         """Force of a middling motion at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
 

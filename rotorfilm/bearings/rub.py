@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,17 +35,6 @@ class RubContact(NamedTuple):
     normal_force: Array
     friction_force: Array
     slip: Array
-
-
-class _Frame(NamedTuple):
-    """Distance from the center, the directions out and along, the velocities in both, contact or not."""
-
-    distance: Array
-    out: Array
-    along: Array
-    sinking: Array
-    sliding: Array
-    touches: Array
 
 
 @quantities
@@ -101,10 +90,8 @@ class RubRing(StaticReaction):
         require_each(self, require_non_negative, "friction_coefficient", "dissipation")
         keep_pair(self, "ring_center")
 
-    @property
-    def clearance(self) -> float:
-        """Infinite: the rotor may go into the ring."""
-        return math.inf
+    clearance: ClassVar[float] = math.inf
+    """Infinite: the rotor may go into the ring."""
 
     @property
     def nominal_force(self) -> float:
@@ -131,29 +118,29 @@ class RubRing(StaticReaction):
     def contact(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> RubContact:
         """Return depth, forces and slip of a rotor; the arguments are those of `force`."""
         q, v, omega = broadcast_state(position, velocity, speed)
-        at = self._frame(q, v)
-        slip = at.sliding + self.radius * omega
-        normal = self._normal(at)
-        return RubContact(at.distance - self.gap, normal, -normal * self._rubbed(slip), slip)
+        distance, _, _, sinking, sliding = self._frame(q, v)
+        slip, normal = sliding + self.radius * omega, self._normal(distance, sinking)
+        return RubContact(distance - self.gap, normal, -normal * self._rubbed(slip), slip)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
-        at = self._frame(position, velocity)
-        rubbed = self._rubbed(at.sliding + self.radius * speed)
-        return -self._normal(at) * (at.out + rubbed * at.along)
+        distance, out, along, sinking, sliding = self._frame(position, velocity)
+        rubbed = self._rubbed(sliding + self.radius * speed)
+        return -self._normal(distance, sinking) * (out + rubbed * along)
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape."""
-        at = self._frame(position, velocity)
-        n, t, e = at.out, at.along, at.distance
-        slip = at.sliding + self.radius * speed
-        normal, rubbed, sharper = self._normal(at), self._rubbed(slip), self._sharper(slip)
+        e, n, t, sinking, sliding = self._frame(position, velocity)
+        slip, friction, v = sliding + self.radius * speed, self.friction_coefficient, self.slip_velocity
+        # `rubbed` is friction per normal force, `sharper` its derivative by the slip.
+        normal, rubbed = self._normal(e, sinking), self._rubbed(slip)
+        sharper = friction * v**2 / np.hypot(slip, v) ** 3
         pressed = np.where(normal > 0.0, self.stiffness, 0.0)
         depth, lost = e - self.gap, self.dissipation
-        by_place = pressed * ((1.0 + lost * at.sinking) * n + depth * lost * at.sliding / e * t)
+        by_place = pressed * ((1.0 + lost * sinking) * n + depth * lost * sliding / e * t)
         by_rate = pressed * depth * lost * n
         # The directions turn with the place: dn = t (t.dq)/e, dt = -n (t.dq)/e.
-        turned = normal / e * (t - rubbed * n - sharper * at.sinking * t)
+        turned = normal / e * (t - rubbed * n - sharper * sinking * t)
         slopes = np.zeros((2, 5, *e.shape))
         push = n + rubbed * t
         slopes[:, :2] = -push[:, None] * by_place - turned[:, None] * t
@@ -161,27 +148,19 @@ class RubRing(StaticReaction):
         slopes[:, 4] = -normal * sharper * self.radius * t
         return slopes
 
-    def _frame(self, position: Array, velocity: Array) -> _Frame:
+    def _frame(self, position: Array, velocity: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Return the distance from the center, the directions out and along, and the velocities in both."""
         away = position - np.reshape(self.ring_center, (2, *(1,) * (position.ndim - 1)))
-        distance = np.hypot(away[0], away[1])
-        touches = distance > self.gap
-        distance = np.where(touches, distance, np.maximum(distance, np.finfo(float).tiny))
+        distance = np.maximum(np.hypot(away[0], away[1]), np.finfo(float).tiny)
         out = away / distance
         along = np.stack([-out[1], out[0]])
-        return _Frame(
-            distance, out, along, np.sum(out * velocity, axis=0), np.sum(along * velocity, axis=0), touches
-        )
+        return distance, out, along, np.sum(out * velocity, axis=0), np.sum(along * velocity, axis=0)
 
-    def _normal(self, at: _Frame) -> Array:
+    def _normal(self, distance: Array, sinking: Array) -> Array:
         """Return the normal force, shape (...)."""
-        pressed = self.stiffness * (at.distance - self.gap) * (1.0 + self.dissipation * at.sinking)
-        return np.where(at.touches, np.maximum(pressed, 0.0), 0.0)
+        pressed = self.stiffness * (distance - self.gap) * (1.0 + self.dissipation * sinking)
+        return np.where(distance > self.gap, np.maximum(pressed, 0.0), 0.0)
 
     def _rubbed(self, slip: Array) -> Array:
         """Return the friction per normal force, of the sign of the slip."""
         return self.friction_coefficient * slip / np.hypot(slip, self.slip_velocity)
-
-    def _sharper(self, slip: Array) -> Array:
-        """Return its derivative by the slip."""
-        v = self.slip_velocity
-        return np.asarray(self.friction_coefficient * v**2 / np.hypot(slip, v) ** 3)

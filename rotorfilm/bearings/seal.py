@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -84,19 +84,6 @@ class SealFlow(Readable):
     reynolds_number: float
 
 
-class SealGap(NamedTuple):
-    """What the flow depends on: dimensions, pressure drop, fluid and friction, as of `AnnularSeal`."""
-
-    radius: float
-    length: float
-    clearance: float
-    pressure_drop: float
-    viscosity: float
-    density: float
-    inlet_loss: float
-    friction: HirsFriction
-
-
 class Stream(NamedTuple):
     """Steady flow at speeds (...): axial velocity V [m/s], lambda [1], and the share of V^2 in W^2 [1]."""
 
@@ -105,12 +92,12 @@ class Stream(NamedTuple):
     axial: np.ndarray
 
 
-def steady_flow(gap: SealGap, speed: np.ndarray) -> Stream:
+def steady_flow(seal: AnnularSeal, speed: np.ndarray) -> Stream:
     """Return the flow that takes the pressure drop, in the mean half as fast round as the shaft.
 
     Parameters
     ----------
-    gap : SealGap
+    seal : AnnularSeal
     speed : ndarray, shape (...) [rad/s]
         Complex too: the flow is analytic in it.
 
@@ -119,10 +106,10 @@ def steady_flow(gap: SealGap, speed: np.ndarray) -> Stream:
     pressure drop = density V^2 ((1 + inlet loss)/2 + lambda length/clearance), lambda V^2 = f W V with the
     friction f of either wall, W^2 = V^2 + (radius speed/2)^2 (Childs 1983, J. Lubr. Technol. 105, 429-436).
     """
-    half, m = 0.5 * gap.radius * speed, gap.friction.exponent
-    entrance, slender = 0.5 * (1.0 + gap.inlet_loss), gap.length / gap.clearance
-    head = gap.pressure_drop / gap.density
-    scale = gap.friction.coefficient * (2.0 * gap.clearance * gap.density / gap.viscosity) ** m
+    half, m = 0.5 * seal.radius * speed, seal.friction.exponent
+    entrance, slender = 0.5 * (1.0 + seal.inlet_loss), seal.length / seal.clearance
+    head = seal.pressure_drop / seal.density
+    scale = seal.friction.coefficient * (2.0 * seal.clearance * seal.density / seal.viscosity) ** m
     # From above, where all of the pressure accelerates the fluid.
     velocity = np.sqrt(head / entrance) * np.ones_like(half)
     for _ in range(ROUNDS):
@@ -219,20 +206,16 @@ class AnnularSeal(InertialModel):
         require_kind("friction", self.friction, HirsFriction, "a HirsFriction")
         self._warn()
 
-    @property
-    def carries_load(self) -> bool:
-        """Whether it is a bearing: it is none, and no rigid support of a critical speed."""
-        return False
+    carries_load: ClassVar[bool] = False
+    """Whether it is a bearing: it is none, and no rigid support of a critical speed."""
 
     @property
     def slenderness(self) -> float:
         """Length / diameter [1]."""
         return self.length / (2.0 * self.radius)
 
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the coefficients are meant: 0.5."""
-        return SMALL
+    largest_eccentricity_ratio: ClassVar[float] = SMALL
+    """Eccentricity ratio to which the coefficients are meant: 0.5."""
 
     @property
     def nominal_force(self) -> float:
@@ -252,7 +235,7 @@ class AnnularSeal(InertialModel):
         ----------
         speed : float [rad/s]
         """
-        stream = steady_flow(self.gap, np.asarray(require_number("speed", speed)))
+        stream = steady_flow(self, np.asarray(require_number("speed", speed)))
         V = float(stream.velocity)
         return SealFlow(
             axial_velocity=V,
@@ -260,12 +243,6 @@ class AnnularSeal(InertialModel):
             friction_factor=float(stream.friction),
             reynolds_number=self._reynolds(V / float(np.sqrt(stream.axial))),
         )
-
-    @property
-    def gap(self) -> SealGap:
-        """What the flow depends on."""
-        own = (self.radius, self.length, self.clearance, self.pressure_drop)
-        return SealGap(*own, self.viscosity, self.density, self.inlet_loss, self.friction)
 
     def matrices(self, speed: ArrayLike) -> SealMatrices:
         """Return K, k, C, c, M at speeds (...) [rad/s], each of that shape."""
@@ -299,7 +276,7 @@ class AnnularSeal(InertialModel):
         frequency : float [rad/s]
             Of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
         """
-        stream = steady_flow(self.gap, np.asarray(float(frequency)))
+        stream = steady_flow(self, np.asarray(float(frequency)))
         m, loss = self.friction.exponent, float(stream.friction) * self.length / self.clearance
         carried = 1.0 + self.inlet_loss + loss * (1.0 + (1.0 + m) * float(stream.axial))
         share = abs(frequency) * self.length / float(stream.velocity) / carried
@@ -351,8 +328,8 @@ def _values(seal: AnnularSeal, speed: Array) -> tuple[Array, Array]:
     """Return the coefficients and their derivatives, by a complex step: analytic in the speed."""
     step = _STEP * np.sqrt(seal.pressure_drop / seal.density) / seal.radius
     shifted = speed + 1j * step
-    stream = steady_flow(seal.gap, shifted)
-    found = np.stack(short_seal(seal.gap, stream, seal.inlet_swirl, shifted))
+    stream = steady_flow(seal, shifted)
+    found = np.stack(short_seal(seal, stream, shifted))
     return found.real, found.imag / step
 
 
@@ -427,12 +404,11 @@ class _Series(NamedTuple):
     square: Wide
 
 
-def short_seal(gap: SealGap, stream: Stream, swirl: float, speed: Wide) -> SealMatrices:
-    """Return the coefficients of a seal whose fluid comes in with `swirl` times the speed of the surface."""
-    numbers, transit = _numbers(gap, stream), gap.length / stream.velocity
-    found = _impedance(numbers)
-    turn, v0 = speed * transit, swirl - 0.5
-    scale = np.pi * gap.radius * gap.length * gap.density * stream.velocity**2 / gap.clearance
+def short_seal(seal: AnnularSeal, stream: Stream, speed: Wide) -> SealMatrices:
+    """Return the coefficients of a seal in a steady flow."""
+    transit, found = seal.length / stream.velocity, _impedance(_numbers(seal, stream))
+    turn, v0 = speed * transit, seal.inlet_swirl - 0.5
+    scale = np.pi * seal.radius * seal.length * seal.density * stream.velocity**2 / seal.clearance
     (by_p, by_q), (pp, pq, qq) = found.linear, found.square
     return SealMatrices(
         K=scale * (found.constant - turn**2 * (0.25 * pp + 0.5 * v0 * pq + v0**2 * qq)),
@@ -443,13 +419,13 @@ def short_seal(gap: SealGap, stream: Stream, swirl: float, speed: Wide) -> SealM
     )
 
 
-def _numbers(gap: SealGap, stream: Stream) -> _Numbers:
-    m, axial = gap.friction.exponent, stream.axial
-    loss = stream.friction * gap.length / gap.clearance
+def _numbers(seal: AnnularSeal, stream: Stream) -> _Numbers:
+    m, axial = seal.friction.exponent, stream.axial
+    loss = stream.friction * seal.length / seal.clearance
     drag = loss * (1.0 + (1.0 + m) * axial)
     return _Numbers(
         loss=loss,
-        inertance=1.0 + gap.inlet_loss + drag,
+        inertance=1.0 + seal.inlet_loss + drag,
         drag=drag,
         decay=loss * (1.0 + (1.0 + m) * (1.0 - axial)),
         exponent=m,

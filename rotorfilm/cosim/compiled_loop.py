@@ -100,8 +100,8 @@ class CompiledRun:
             record=structure("rf_record")(
                 m=m,
                 columns=record.outputs.shape[1],
-                position=self._ints(record.at.position),
-                velocity=self._ints(record.at.velocity),
+                position=self._ints(record.position_at),
+                velocity=self._ints(record.velocity_at),
                 speed=-1 if record.speed_at is None else record.speed_at,
                 derived=record.tangents.shape[1] > 0,
             ),
@@ -123,7 +123,7 @@ class CompiledRun:
         self._x, driven = rotor.state.copy(), self._driven
         driven.mode, driven.x = constant("RF_INTEGRATED"), self._held(self._x)
         driven.nominal = self._floats(rotor.nominals)
-        driven.base = self._floats(rotor.base[self._partners.places.force])
+        driven.base = self._floats(rotor.base[self._partners.places[0]])
         driven.drive_refs = self._refs([self.rotor.inputs[name] for name in self._partners.wiring.force])
 
     def rests(self) -> bool:
@@ -242,15 +242,13 @@ class CompiledRun:
         wiring, m = self._partners.wiring, record.size
         motion = [rotor.outputs[name] for name in (*wiring.position, *wiring.velocity)]
         lawful = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
-        mode, driven = constant("RF_HELD"), list(wiring.force)
-        if set(lawful) <= set(rotor.inputs):
-            mode, driven = constant("RF_LAWFUL"), lawful
-        room = max(
-            master()["rf_rotor_work"](len(rotor.states), m), len(lawful), len(motion) + len(rotor.states)
-        )
-        struct = structure("rf_rotor")(
+        takes = set(lawful) <= set(rotor.inputs)
+        mode, driven = ("RF_LAWFUL", lawful) if takes else ("RF_HELD", list(wiring.force))
+        n = len(rotor.states)
+        room = max(master()["rf_rotor_work"](n, m), len(lawful), len(motion) + n)
+        return structure("rf_rotor")(
             partner=addressof(rotor.struct),
-            mode=mode,
+            mode=constant(mode),
             stations=len(wiring.stations),
             outputs=len(record.rotor),
             output_refs=self._refs([rotor.outputs[name] for name in record.rotor]),
@@ -264,7 +262,6 @@ class CompiledRun:
             slopes=self._room(self._shapes[1][0] * self._shapes[1][1]),
             work=self._room(room),
         )
-        return struct
 
     def _station(self, station: str, film: CompiledPartner) -> Any:
         slave, (_, feeds) = self._partners.films[station], self._partners.feeds[station]
@@ -306,19 +303,8 @@ class CompiledRun:
 
 def _law(row: Array, m: int) -> ForceLaw:
     """Return the force law that the loop was driven by; see law.h."""
-    sizes = np.cumsum([m, m, m, m * m, m * m, m])
-    force, slope, curvature, stiffness, damping, position, velocity = np.split(row[1:], sizes)
-    square = (m, m)
-    return ForceLaw(
-        float(row[0]),
-        force,
-        slope,
-        curvature,
-        stiffness.reshape(square),
-        damping.reshape(square),
-        position,
-        velocity,
-    )
+    force, slope, curvature, K, C, q, v = np.split(row[1:], np.cumsum([m, m, m, m * m, m * m, m]))
+    return ForceLaw(float(row[0]), force, slope, curvature, K.reshape(m, m), C.reshape(m, m), q, v)
 
 
 def plan_of(scheme: Scheme) -> dict[str, int] | None:
@@ -339,8 +325,7 @@ def compiled_run(
     watch: Watch,
     macro_step: float,
     points: Sequence[float],
-    *,
-    gentle: bool = False,
+    gentle: bool,
 ) -> CompiledRun | None:
     """Return the macro steps in C of partners that were started; None where one needs Python."""
     plan = plan_of(scheme)

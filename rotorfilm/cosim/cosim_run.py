@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from ..core.errors import (
     ContactError,
@@ -22,11 +24,12 @@ from ..core.limits import STEPS
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from .compiled_loop import CompiledRun, compiled_run
-from .partner_interface import Sample
 from .partners import Partners, Record
-from .schemes import MEMORY, GaussSeidel, Scheme, started
+from .schemes import MEMORY, GaussSeidel, Sample, Scheme, started
 from .slaves import Slave
 from .watch import CouplingReport, CouplingWatch, Watch, inspect_coupling
+
+T = TypeVar("T")
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
@@ -155,6 +158,14 @@ def _is_coarse(result: CoSimulation) -> bool:
     return result.coupling.coarse or (local is not None and local > COARSE)
 
 
+def first_possible(make: Callable[..., T], options: Sequence[tuple[Any, ...]], *errors: type[Exception]) -> T:
+    """Return what the first option makes that does not raise one of these errors; the last one may."""
+    for option in options[:-1]:
+        with suppress(*errors):
+            return make(*option)
+    return make(*options[-1])
+
+
 def require_times(macro_step: float, duration: float) -> None:
     """Raise InputError unless both are finite and positive, and the steps no more than can be kept."""
     require_positive("macro_step", macro_step)
@@ -185,7 +196,7 @@ class _Run:
         self._keep(self._partners.start())
         self._record.work[0] = list(self._partners.work.values())
         kept = self._record, self._watch, self._macro_step, self._points
-        self._compiled = compiled_run(self._partners, self._scheme, *kept, gentle=self._gentle)
+        self._compiled = compiled_run(self._partners, self._scheme, *kept, self._gentle)
 
     def reached(self) -> Iterator[Iterator[float]]:
         """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""

@@ -18,11 +18,21 @@ from ..core.model import Array, Reaction
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
-from .cosim_run import CoSimulation, coupled
+from .cosim_run import CoSimulation, coupled, first_possible
 from .coupling_loop import coupling_loop, dominant_eigenvalue
-from .partner_interface import Bench, Sample, StationMotion, Tangents
 from .partners import Partners
-from .schemes import MEMORY, GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
+from .schemes import (
+    MEMORY,
+    Bench,
+    GaussSeidel,
+    Jacobi,
+    Sample,
+    Scheme,
+    SIExp,
+    SIExp3,
+    StationMotion,
+    Tangents,
+)
 from .slaves import InProcessSlave
 from .watch import quietly
 
@@ -114,9 +124,11 @@ class CouplingCase:
 
     def drift(self, run: PilotRun) -> Drift:
         """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""
+        return drift(self.rotor, self.reaction, run.laws, self._inner(run))
+
+    def _inner(self, run: PilotRun) -> InnerMotion:
         own = run.outcome.trajectory
-        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
-        return drift(self.rotor, self.reaction, run.laws, motion)
+        return inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
 
     def instability(self, scheme: Scheme, angle: float) -> str:
         """Return why a run cannot be stable, by linear theory where the rotor starts; empty if it may be."""
@@ -155,13 +167,11 @@ class CouplingCase:
         PartialResultError
             If the journal cannot be followed even at the shortest step.
         """
-        for scheme, angle in PILOTS[:-1]:
-            try:
-                return self.run(scheme, angle, gentle=True), angle
-            except PartialResultError:
-                continue
-        scheme, angle = PILOTS[-1]
-        return self.run(scheme, angle, gentle=True), angle
+
+        def run(scheme: Scheme, angle: float) -> tuple[PilotRun, float]:
+            return self.run(scheme, angle, gentle=True), angle
+
+        return first_possible(run, PILOTS, PartialResultError)
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
@@ -182,7 +192,7 @@ class CouplingCase:
         samples = samples_of(self.reaction, own, self.rotor.profile.speeds[0])
         whole = 0.999 * min(run.outcome.macro_step, own.time[-1])
         regular = [samples[0], *(each for each in samples if each.time > whole)]
-        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
+        motion = self._inner(run)
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
         force = self.reaction.force(motion.position, motion.velocity, speed)
         slopes = self.reaction.jacobian(motion.position, motion.velocity, speed)

@@ -23,8 +23,8 @@ from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.readable import Readable
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 from ..rotors.force_law import ForceLaw
-from .partner_interface import Bench, Names, Sample, StationMotion, Tangents, sources, wired
-from .schemes import GaussSeidel, Newton, Scheme
+from .schemes import Bench, GaussSeidel, Newton, Sample, Scheme, StationMotion, Tangents
+from .slaves import Names, sources, wired
 
 CONVERGED = 1e-11
 """Tolerance of Newton's iteration, which is exact after one correction here."""

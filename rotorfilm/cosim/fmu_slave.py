@@ -15,12 +15,11 @@ from fmpy.fmi1 import FMICallException
 
 from ..core.errors import FilmContactError, FmuError, InputError
 from ..core.model import Array, Linearization
+from ..core.signals import from_fmi_name
 from ..fmu.instance import (
     DERIVATIVES,
     STATES,
-    EventInfo,
     Port,
-    Slopes,
     instantiated,
     nominal_of,
     provides,
@@ -28,8 +27,7 @@ from ..fmu.instance import (
 )
 from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from .partner_interface import Wiring, local_name, references_of
-from .slaves import Call, CompiledPartner, Integrated, Slave
+from .slaves import Call, CompiledPartner, Integrated, Slave, Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
@@ -65,7 +63,7 @@ class FmuSlave(Slave):
         self._instance = instantiated(description, folder, exchange)
         # Values are exchanged in each step: their references are told once.
         self._ports: dict[tuple[str, ...], Port] = {}
-        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Slopes] = {}
+        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Callable[[], Array]] = {}
         self._output = self._instance.port(list(self._references["output"].values()))
 
     def start(self, values: Mapping[str, float]) -> None:
@@ -135,7 +133,7 @@ class FmuSlave(Slave):
         wanted = tuple(unknowns), tuple(knowns)
         if wanted not in self._slopes_of:
             self._slopes_of[wanted] = self._instance.slopes(*wanted)
-        found: Array = self._calling("reading derivatives", self._slopes_of[wanted].get)
+        found: Array = self._calling("reading derivatives", self._slopes_of[wanted])
         return found
 
     def compiled(self, film: bool) -> CompiledPartner | None:
@@ -144,9 +142,8 @@ class FmuSlave(Slave):
             return None
         version, component, functions = self._instance.entry()
         inputs, outputs = self._references["input"], self._references["output"]
-        struct = structure("rf_partner")(
-            kind=constant(f"RF_IS_FMI{version}"), component=component, states=len(self._states), **functions
-        )
+        kind, states = constant(f"RF_IS_FMI{version}"), len(self._states)
+        struct = structure("rf_partner")(kind=kind, component=component, states=states, **functions)
         return CompiledPartner(struct, inputs, outputs, inputs, self._slopes, self._states)
 
     def fail(self, call: Call, status: int, t: float) -> None:
@@ -194,13 +191,8 @@ class ExchangeRotor(Integrated, FmuSlave):
         self._kink = np.inf
         slopes = (unknown.variable for unknown in description.derivatives or ())
         self.nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
-        self.state, self._base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
+        self.state, self.base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
         self._input = self._instance.port(list(self._references["input"].values()))
-
-    @property
-    def base(self) -> Array:
-        """The start values of the inputs."""
-        return self._base
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs."""
@@ -211,7 +203,7 @@ class ExchangeRotor(Integrated, FmuSlave):
     def _initialize(self, values: Mapping[str, float]) -> None:
         event = self._instance.initialize(self._inputs(values), list(values.values()))
         self.state = self._instance.states(len(self._states))
-        self._base = np.array(self._input.get())
+        self.base = np.array(self._input.get())
         self._scheduled(event)
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
@@ -261,12 +253,31 @@ class ExchangeRotor(Integrated, FmuSlave):
 
     def pass_kink(self, t: float, x: Array) -> None:
         """Pass through event mode at a time event."""
-        self._move(t, x, self._base)
+        self._move(t, x, self.base)
         self._scheduled(self._instance.event())
 
-    def _scheduled(self, event: EventInfo) -> None:
-        self._kink = np.inf if event.next_time is None else event.next_time
+    def _scheduled(self, event: float | None) -> None:
+        self._kink = np.inf if event is None else event
 
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)
         self._input.set(u.tolist())
+
+
+def references_of(description: Any, causality: str) -> dict[str, int]:
+    """Return the value references of the real inputs or outputs, by local name."""
+    references: dict[str, int] = {}
+    for variable in variables_of(description, causality):
+        name = local_name(variable.name)
+        if name in references:
+            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
+        references[name] = variable.valueReference
+    return references
+
+
+def local_name(name: str) -> str:
+    """Return the signal of `component.signal`; other spellings stay as they are."""
+    try:
+        return from_fmi_name(name)[1]
+    except InputError:
+        return name

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
@@ -24,9 +24,8 @@ from ..core.model import Dynamic, Model
 from ..core.results import Trajectory, orbit_distance
 from ..fmu.instance import extracted
 from ..rotors.force_law import BASE_TIME
-from .cosim_run import Choice, CoSimulation, Trial, couple, require_times
-from .fmu_slave import ExchangeRotor, FmuSlave
-from .partner_interface import local_name
+from .cosim_run import Choice, CoSimulation, Trial, couple, first_possible, require_times
+from .fmu_slave import ExchangeRotor, FmuSlave, local_name
 from .schemes import GaussSeidel, Newton, Scheme, SIExp3
 from .slaves import InProcessSlave, Slave, SteppedPartner
 from .watch import quietly
@@ -86,17 +85,11 @@ def cosimulate(
     """
     require_times(macro_step, duration)
     films = film_fmu if isinstance(film_fmu, Mapping) else {"": film_fmu}
-
-    def attempt(scheme: Scheme, macro_step: float, duration: float) -> CoSimulation:
-        return _run(rotor_fmu, films, scheme, macro_step, duration, None)
-
-    wanted = _required(scheme)
-    choice = None
-    if isinstance(wanted, Auto):
-        choice = choose_scheme(attempt, wanted, macro_step=macro_step, duration=duration)
-        wanted = choice.scheme
-    result = _run(rotor_fmu, films, wanted, macro_step, duration, progress)
-    return result if choice is None else replace(result, choice=choice)
+    attempt, wanted = partial(_run, rotor_fmu, films), _required(scheme)
+    if not isinstance(wanted, Auto):
+        return attempt(wanted, macro_step, duration, progress)
+    choice = choose_scheme(attempt, wanted, macro_step=macro_step, duration=duration)
+    return replace(attempt(choice.scheme, macro_step, duration, progress), choice=choice)
 
 
 def _required(scheme: Scheme | Auto | str | None) -> Scheme | Auto:
@@ -115,28 +108,24 @@ def _run(
     scheme: Scheme,
     macro_step: float,
     duration: float,
-    progress: Callable[[float], None] | None,
+    progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
     """Open all partners and couple them."""
     with ExitStack() as stack:
+
+        def opened(film: Film) -> Slave:
+            if isinstance(film, str | PathLike):
+                return stack.enter_context(open_fmu(film))
+            return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
+
         if isinstance(rotor, str | PathLike):
             first: Slave = stack.enter_context(open_rotor(rotor, held=not scheme.needs.laws))
         else:
             first = InProcessSlave(rotor)
-        others: dict[str, Slave] = {
-            station: stack.enter_context(open_fmu(film))
-            if isinstance(film, str | PathLike)
-            else in_process(film)
-            for station, film in films.items()
-        }
+        others = {station: opened(film) for station, film in films.items()}
         return couple(
             first, others, macro_step=macro_step, duration=duration, scheme=scheme, progress=progress
         )
-
-
-def in_process(film: Any) -> Slave:
-    """Return a film of this package as a partner."""
-    return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
 
 
 def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:
@@ -151,7 +140,7 @@ def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:
     FmuError
         If the file cannot be read, is no Co-Simulation FMU of FMI 2.0 or 3.0, or cannot be instantiated.
     """
-    return _opened(path, lambda description: False)
+    return _opened(path, exchanges=False)
 
 
 def open_rotor(path: Path, *, held: bool) -> AbstractContextManager[FmuSlave]:
@@ -165,19 +154,17 @@ def open_rotor(path: Path, *, held: bool) -> AbstractContextManager[FmuSlave]:
     held : bool
         Whether it need not take more than held forces.
     """
-
-    def exchanges(description: Any) -> bool:
-        enough = held or any(local_name(v.name) == BASE_TIME for v in description.modelVariables)
-        return description.modelExchange is not None and not (description.coSimulation is not None and enough)
-
-    return _opened(path, exchanges)
+    return _opened(path, exchanges=True, held=held)
 
 
 @contextmanager
-def _opened(path: Path, exchanges: Callable[[Any], bool]) -> Iterator[FmuSlave]:
-    """Open an FMU, for Model Exchange where its description asks for that."""
+def _opened(path: Path, *, exchanges: bool, held: bool = True) -> Iterator[FmuSlave]:
+    """Open an FMU; one that may be for Model Exchange is, where Co-Simulation will not do."""
     with extracted(path) as (description, folder):
-        slave = (ExchangeRotor if exchanges(description) else FmuSlave)(description, folder)
+        enough = held or any(local_name(v.name) == BASE_TIME for v in description.modelVariables)
+        enough = enough and description.coSimulation is not None
+        exchange = exchanges and description.modelExchange is not None and not enough
+        slave = (ExchangeRotor if exchange else FmuSlave)(description, folder)
         try:
             yield slave
         finally:
@@ -267,13 +254,11 @@ def choose_scheme(attempt: Attempt, auto: Auto, *, macro_step: float, duration: 
 
 def _reference(attempt: Attempt, macro_step: float, length: float) -> Trajectory:
     """Return a run with shorter macro steps."""
-    for scheme, times in REFERENCES[:-1]:
-        try:
-            return attempt(scheme, macro_step / times, length).trajectory
-        except (ContactError, InputError, ConvergenceError, CouplingError):
-            continue
-    scheme, times = REFERENCES[-1]
-    return attempt(scheme, macro_step / times, length).trajectory
+
+    def run(scheme: Scheme, times: int) -> Trajectory:
+        return attempt(scheme, macro_step / times, length).trajectory
+
+    return first_possible(run, REFERENCES, ContactError, InputError, ConvergenceError, CouplingError)
 
 
 def _tried(
@@ -285,28 +270,26 @@ def _tried(
     length: float,
 ) -> tuple[Trial, bool]:
     """Return what a trial says, and whether the scheme will do."""
-
-    def trial(reason: str, error: float | None = None, run: CoSimulation | None = None) -> Trial:
-        radius = None if run is None else run.watch.spectral_radius
-        calls = None if run is None else _calls(run)
-        return Trial(
-            scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason
-        )
-
+    run, radius, error, taken = None, None, None, False
     try:
         run = attempt(scheme, macro_step, length)
     except InputError as failure:
-        return trial(str(failure)), False
+        reason = str(failure)
     except PartialResultError as failure:
-        return trial(_failure(failure)), False
-    error = _distance(run.trajectory, reference)
-    radius = run.watch.spectral_radius
-    if radius is not None and radius > 1.0 and run.watch.warnings:
-        return trial(f"unstable: grows by a factor of {radius:.4g} per macro step", error, run), False
-    if error > tolerance:
-        return trial(f"not accurate enough: off by {error:.2g}", error, run), False
-    reason = f"stable, off by {error:.2g}, {_calls(run):.3g} film calls per step: the cheapest that will do"
-    return trial(reason, error, run), True
+        reason = _failure(failure)
+    else:
+        error, radius = _distance(run.trajectory, reference), run.watch.spectral_radius
+        if radius is not None and radius > 1.0 and run.watch.warnings:
+            reason = f"unstable: grows by a factor of {radius:.4g} per macro step"
+        elif error > tolerance:
+            reason = f"not accurate enough: off by {error:.2g}"
+        else:
+            taken = True
+            spent = f"{_calls(run):.3g} film calls per step"
+            reason = f"stable, off by {error:.2g}, {spent}: the cheapest that will do"
+    calls = None if run is None else _calls(run)
+    said = Trial(scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason)
+    return said, taken
 
 
 def _failure(failure: PartialResultError) -> str:

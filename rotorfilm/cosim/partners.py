@@ -14,18 +14,8 @@ from ..core.model import Array, Linearization
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name
-from .partner_interface import (
-    Bench,
-    JournalPlaces,
-    Needs,
-    Sample,
-    StationMotion,
-    Tangents,
-    no_tangents,
-    sources,
-    wired,
-)
-from .slaves import Slave
+from .schemes import Bench, Needs, Sample, StationMotion, Tangents, no_tangents
+from .slaves import Places, Slave, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
@@ -51,20 +41,19 @@ class Partners(Bench):
         self.rotor, self.films, self._needs = rotor, dict(films), needs
         outlets = {station: (film.inputs, film.outputs) for station, film in self.films.items()}
         self.wiring = wired((rotor.inputs, rotor.outputs), outlets)
+        self.places = self.wiring.places(rotor.inputs, rotor.outputs)
+        """Where the signals of the journals are among those of the rotor."""
         self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
+        self._all = [rotor, *films.values()]
         self._require(needs)
         # Asked once: names and places are slow.
         self.feeds = {station: self._fed(station, film) for station, film in self.films.items()}
         self._told = {
             station: [station_name(station, n) for n in film.outputs] for station, film in self.films.items()
         }
-        self._at = self.places
-        self._motion_at = [*self._at.position, *self._at.velocity]
-        self._known = {
-            name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs]
-            for name, film in films.items()
-        }
-        self._all = [rotor, *films.values()]
+        self._known = [
+            [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs] for film in films.values()
+        ]
         self.laws: list[ForceLaw] | None = None
         """The force laws of all steps of the rotor, if a list is put here."""
         self._probed: tuple[float, Array] | None = None
@@ -124,13 +113,7 @@ class Partners(Bench):
     @property
     def signals(self) -> tuple[list[str], list[str]]:
         """Names of all outputs: those of the rotor, and those of the films with their stations."""
-        films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
-        return list(self.rotor.outputs), films
-
-    @property
-    def places(self) -> JournalPlaces:
-        """Where the signals of the journals are among those of the rotor."""
-        return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
+        return list(self.rotor.outputs), [name for told in self._told.values() for name in told]
 
     @property
     def units(self) -> dict[str, str]:
@@ -154,7 +137,7 @@ class Partners(Bench):
             If a film has none there.
         """
         found = no_tangents(self.size)
-        for number, (known, film) in enumerate(zip(self._known.values(), self.films.values(), strict=True)):
+        for number, (known, film) in enumerate(zip(self._known, self.films.values(), strict=True)):
             own = slice(2 * number, 2 * number + 2)
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
             whole[:, known] = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
@@ -168,7 +151,8 @@ class Partners(Bench):
         found = self.rotor.linear(t)
         if found is None:
             return None
-        forces, motion = self._at.force, self._motion_at
+        forces, *places = self.places
+        motion = [k for each in places for k in each]
         return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[motion][:, forces])
 
     def _sample(self, t: float, motion: StationMotion, derive: bool) -> Sample:
@@ -230,7 +214,7 @@ class Partners(Bench):
                 "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one "
                 f"with inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
             )
-        if needs.rollback and not all(p.restores for p in (self.rotor, *self.films.values())):
+        if needs.rollback and not all(partner.restores for partner in self._all):
             raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 
@@ -258,15 +242,16 @@ class Record:
     ----------
     rotor, films : sequence of str
         Names of the outputs of the rotor and, with those of their stations, of all films.
-    at : JournalPlaces
+    at : (list of int, list of int, list of int)
         The forces, positions and velocities among the inputs and outputs of the rotor.
     derived : bool
         Whether films tell their derivatives at each point.
     """
 
-    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: JournalPlaces, derived: bool) -> None:
-        self.rotor, self.films, self.at = list(rotor), list(films), at
-        self.size, self.count = len(at.force), 0
+    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: Places, derived: bool) -> None:
+        self.rotor, self.films = list(rotor), list(films)
+        force, self.position_at, self.velocity_at = at
+        self.size, self.count = len(force), 0
         self.speed_at = self.rotor.index("speed") if "speed" in self.rotor else None
         columns = 2 * self.size**2 + self.size if derived else 0
         self.time, self.outputs = np.empty(FIRST_ROOM), np.empty((FIRST_ROOM, len(rotor) + len(films)))
@@ -304,7 +289,7 @@ class Record:
         """Return position, velocity, shape (n, m), and speed, shape (n,), of some points."""
         outputs = self.outputs[rows]
         speed = np.zeros(len(outputs)) if self.speed_at is None else outputs[:, self.speed_at]
-        return outputs[:, self.at.position], outputs[:, self.at.velocity], speed
+        return outputs[:, self.position_at], outputs[:, self.velocity_at], speed
 
     def derivatives(self, rows: slice) -> tuple[Array, Array, Array]:
         """Return stiffness, damping, shape (n, m, m), and by_speed, shape (n, m), of some points."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import byref
+from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,13 +17,99 @@ from scipy.linalg import expm
 from ..bearings.reaction import SteppedReaction
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints, in_time
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, names, units
+from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MASS_OUTPUTS, MOTION_NAMES, indices, names, units
 from ..fmu.reference import advance
 from ..native.library import master
 from ..native.spec import HasKernel
 from ..native.structs import constant, structure
 from ..rotors.force_law import ForceLaw
-from .partner_interface import Wiring
+from ..rotors.structure import station_name, station_names
+
+# How rotor and films are connected: by the names of their signals.
+
+
+Names = tuple[Sequence[str], Sequence[str]]
+"""Of the inputs and of the outputs of a partner."""
+
+
+Places = tuple[list[int], list[int], list[int]]
+"""Where forces, positions and velocities of journals are among a rotor's inputs and outputs."""
+
+
+class Wiring(NamedTuple):
+    """Which signals of a rotor belong to its journals, by name; x and y of each station in turn.
+
+    Attributes
+    ----------
+    stations : tuple of str
+        The empty name is that of a rotor with one journal.
+    force, position, velocity : tuple of str, length 2 n_stations
+    """
+
+    stations: tuple[str, ...]
+    force: tuple[str, ...]
+    position: tuple[str, ...]
+    velocity: tuple[str, ...]
+
+    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> Places:
+        """Return where the signals of the journals are among those of the rotor."""
+        return (
+            [inputs.index(name) for name in self.force],
+            [outputs.index(name) for name in self.position],
+            [outputs.index(name) for name in self.velocity],
+        )
+
+
+def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
+    """Return the signals of the journals, having checked that rotor and films have all that connects them.
+
+    Parameters
+    ----------
+    rotor : (sequence of str, sequence of str)
+        Names of its inputs and outputs.
+    films : mapping of str to the same
+        By station.
+
+    Raises
+    ------
+    InputError
+        If there is no film, or a signal is missing.
+    """
+    if not films:
+        raise InputError("films must be one at least, got none")
+    motions, forces = zip(*(station_names(station) for station in films), strict=True)
+    taken, told = rotor
+    for (station, (inputs, outputs)), motion, force in zip(films.items(), motions, forces, strict=True):
+        indices("rotor must have the inputs", taken, force)
+        indices("film must have the outputs", outputs, FORCE_OUTPUTS)
+        require_no_mass(outputs, taken)
+        indices("rotor must have the outputs", told, list(sources(told, station, inputs).values()))
+        indices("rotor must have the outputs", told, motion)
+    return Wiring(
+        tuple(films),
+        tuple(name for own in forces for name in own),
+        tuple(name for own in motions for name in own[:2]),
+        tuple(name for own in motions for name in own[2:]),
+    )
+
+
+def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
+    """Raise InputError where a film adds mass that the rotor does not take; names of outputs and inputs."""
+    if MASS_OUTPUTS[0] in film and MASS_OUTPUTS[0] not in rotor:
+        raise InputError(
+            f"film must not add mass to a rotor without inputs for it, got the outputs {list(MASS_OUTPUTS)}: "
+            "an exchange of accelerations multiplies its error by -mass/rotor mass, and diverges where the "
+            "oil is heavier than the rotor; mount(rotor, ...) has both in one FMU"
+        )
+
+
+def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict[str, str]:
+    """Return, for each input of a film, the output of the rotor that feeds it."""
+    own = {name: station_name(station, name) for name in inputs}
+    return {name: at if name in MOTION_NAMES or at in outputs else name for name, at in own.items()}
+
+
+# What a master asks of its partners, and models in this process as such partners.
 
 
 class Call(IntEnum):
@@ -61,15 +148,12 @@ class Slave:
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs; inputs not named keep their start values."""
-        raise NotImplementedError
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs."""
-        raise NotImplementedError
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] under the inputs set."""
-        raise NotImplementedError
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
@@ -85,7 +169,6 @@ class Slave:
 
     def restore(self, state: Any) -> None:
         """Return to a state."""
-        raise NotImplementedError
 
     def release(self, state: Any) -> None:
         """Forget a state."""
@@ -122,26 +205,24 @@ class Integrated(Slave):
         The state at present.
     nominals : ndarray, shape (n_states,)
         Typical magnitudes of the states.
+    base : ndarray, shape (n_inputs,)
+        The inputs beside the forces of films.
     rates, outcome, matrices : callable
         (t, x, u) -> dx/dt, the outputs, and the exact derivatives.
     """
 
     state: Array
     nominals: Array
+    base: Array
     rates: Callable[[float, Array, Array], Array]
     outcome: Callable[[float, Array, Array], Array]
     matrices: Callable[[float, Array, Array], Linearization]
     _t = 0.0
     _integrator: LawIntegrator | None = None
 
-    @property
-    def base(self) -> Array:
-        """The inputs beside the forces of films, shape (n_inputs,)."""
-        raise NotImplementedError
-
     def next_kink(self, t: float) -> float:
         """Return the first time after t [s] at which the rates have a kink; infinite without one."""
-        raise NotImplementedError
+        return np.inf
 
     def pass_kink(self, t: float, x: Array) -> None:
         """Go beyond a kink at the time t [s]."""
@@ -190,7 +271,7 @@ class InProcessSlave(_Held, Integrated):
         self.differentiates = hasattr(model, "linearization")
         # Asked once: checks against protocols are slow.
         self._moving = model if isinstance(model, Dynamic) else None
-        self.state = np.zeros(0)
+        self.state, self.base = np.zeros(0), self._u
         self._kinks: tuple[float, ...] = ()
         self.nominals = np.array([signal.nominal for signal in model.states])
         self.outcome = model.output
@@ -227,7 +308,7 @@ class InProcessSlave(_Held, Integrated):
 
     def restore(self, state: tuple[float, Array, Array]) -> None:
         """Return to time, states and inputs."""
-        self._t, self.state, self._u = state[0], state[1].copy(), state[2].copy()
+        self._t, self.state, self._u[:] = state[0], state[1].copy(), state[2]
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Whether it is a rotor, that is, has states."""
@@ -253,11 +334,6 @@ class InProcessSlave(_Held, Integrated):
         """Raise what the model raises where its kernel failed."""
         self.get()
         self.jacobian(self.outputs, self.inputs)
-
-    @property
-    def base(self) -> Array:
-        """The inputs beside the forces of films."""
-        return self._u
 
     def next_kink(self, t: float) -> float:
         """Return the next kink after t [s]."""
@@ -309,6 +385,7 @@ class SteppedPartner(_Held):
 # Partners as the compiled loop calls them: the functions of an FMU's library, or a kernel of ours.
 
 
+@dataclass(eq=False)
 class CompiledPartner:
     """A partner with its references by the names of its signals.
 
@@ -327,19 +404,14 @@ class CompiledPartner:
         What the kernel reads.
     """
 
-    def __init__(
-        self,
-        struct: Any,
-        inputs: dict[str, int],
-        outputs: dict[str, int],
-        knowns: dict[str, int],
-        rates: list[int],
-        states: list[int],
-        own: Any = None,
-        tables: Any = None,
-    ) -> None:
-        self.struct, self.inputs, self.outputs, self.knowns = struct, inputs, outputs, knowns
-        self.rates, self.states, self.own, self._tables = rates, states, own, tables
+    struct: Any
+    inputs: dict[str, int]
+    outputs: dict[str, int]
+    knowns: dict[str, int]
+    rates: list[int]
+    states: list[int]
+    own: Any = None
+    tables: Any = None
 
     def __del__(self) -> None:
         if self.own is not None:
@@ -450,7 +522,7 @@ class LawIntegrator:
 
     def __init__(self, system: Integrated, wiring: Wiring) -> None:
         self._system, self._inputs = system, system.base.copy()
-        self._at = wiring.places(system.inputs, system.outputs)
+        self._force, self._position, self._velocity = wiring.places(system.inputs, system.outputs)
         self._matrices: Linearization | None = None
 
     def advance(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
@@ -517,12 +589,12 @@ class LawIntegrator:
     def _rates(self, t: float, x: Array, law: ForceLaw) -> Array:
         motion = self._system.outcome(t, x, self._inputs)
         u = self._inputs.copy()
-        u[self._at.force] = law.at(t, motion[self._at.position], motion[self._at.velocity])
+        u[self._force] = law.at(t, motion[self._position], motion[self._velocity])
         return self._system.rates(t, x, u)
 
     def _loop(self, matrices: Linearization, law: ForceLaw) -> Array:
-        feedback = law.stiffness @ matrices.C[self._at.position] + law.damping @ matrices.C[self._at.velocity]
-        closed: Array = matrices.A - matrices.B[:, self._at.force] @ feedback
+        feedback = law.stiffness @ matrices.C[self._position] + law.damping @ matrices.C[self._velocity]
+        closed: Array = matrices.A - matrices.B[:, self._force] @ feedback
         return closed
 
 

@@ -22,9 +22,8 @@ from ..core.errors import (
 from ..core.model import Array
 from ..core.readable import Readable
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
-from .partner_interface import Tangents
 from .partners import Partners, Record
-from .schemes import Adaptive, Scheme, extrapolation
+from .schemes import Adaptive, Scheme, Tangents, extrapolation
 
 # Finds, from the exchanged forces alone, whether a co-simulation chatters past its stability limit.
 #
@@ -351,7 +350,7 @@ class Watch:
 
     def _judge(self, loop: Loop, ratio: float, t: float) -> None:
         try:
-            limit = squeeze_limit(self._scheme) if _has_fixed_steps(self._scheme) else np.inf
+            limit = np.inf if isinstance(self._scheme, Adaptive) else squeeze_limit(self._scheme)
         except ConvergenceError:  # the run itself will say so
             return
         if not np.isfinite(limit):
@@ -392,7 +391,3 @@ def _ahead(time: Array, force: Array, first: int, end: int, order: int) -> Array
     value, slope, curvature = extrapolation(moments, values)
     elapsed = time[first:end, None] - moments[-1]
     return np.asarray(value + elapsed * slope + elapsed**2 * curvature)
-
-
-def _has_fixed_steps(scheme: Scheme) -> bool:
-    return not isinstance(scheme, Adaptive)

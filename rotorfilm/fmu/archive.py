@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
+import uuid
 from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution, version
 from importlib.resources import files
@@ -15,9 +17,13 @@ import fmpy
 from fmpy.model_description import ValidationError
 
 from ..core.errors import FmuError, FmuFileError
+from ..core.sources import PACKAGE
 
 EPOCH = (1980, 1, 1, 0, 0, 0)
 """The earliest time that a zip entry can have; the build time would make each build different."""
+
+NAMESPACE = uuid.UUID("6f0f6a52-9c0e-5d6b-8a53-3f5f1d7b2c11")
+"""Namespace of the guids, which are uuid5 of an FMU's content."""
 
 BINARIES = ("linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll")
 """PythonFMU's libraries for the FMI 2.0 platforms that it supports."""
@@ -26,11 +32,11 @@ COMPILED = {".so", ".dll", ".dylib"}
 """Files that run on one platform."""
 
 VERIFIED = "0.7.0"
-"""The version of pythonfmu for which `pythonfmu_api` counts references."""
+"""The version of pythonfmu for which `python/slave.py` counts references."""
 
 
 def require_verified_version() -> None:
-    """Raise FmuError unless the installed pythonfmu is the one that `pythonfmu_api` was verified for.
+    """Raise FmuError unless the installed pythonfmu is the one that `python/slave.py` was verified for.
 
     With libraries that count differently, the references it takes would leak instances, or crash the host.
     """
@@ -94,6 +100,26 @@ def licenses(packages: tuple[str, ...]) -> dict[str, bytes]:
 def _license(package: str) -> str:
     text = distribution(package).read_text("licenses/LICENSE")
     return text if text is not None else f"{package} is distributed under the MIT license.\n"
+
+
+def copyright_line() -> str:
+    """Return the line of the license that names the holder."""
+    text = _license(PACKAGE)
+    return next((line.strip() for line in text.splitlines() if line.startswith("Copyright")), "")
+
+
+def content_hash(contents: Mapping[str, bytes]) -> str:
+    """Return 16 hexadecimal digits that change with any name or content."""
+    digest = hashlib.sha256()
+    for name, content in sorted(contents.items()):
+        for part in (name.encode(), content):
+            digest.update(len(part).to_bytes(8, "big") + part)
+    return digest.hexdigest()[:16]
+
+
+def guid_of(contents: Mapping[str, bytes], xml: bytes) -> str:
+    """Return the guid that follows from all files of an FMU, and from its description without one."""
+    return str(uuid.uuid5(NAMESPACE, content_hash({**contents, "xml": xml})))
 
 
 # Reading the modelDescription.xml of an FMU; what is none is refused by the rule that it breaks.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,14 +18,12 @@ from scipy.integrate import DOP853
 from ..core.errors import FmuError, brief
 from ..core.files import read_text
 from ..core.model import Array
-from .binaries import libraries, require_whole
 from .instance import (
     ADJOINT_DERIVATIVES,
     DERIVATIVES,
     SERIAL_STATES,
     STATES,
     Instance,
-    Instance3,
     extracted,
     instantiated,
     known_nominals,
@@ -37,6 +36,7 @@ from .instance import (
     unknowns_of,
     variables_of,
 )
+from .native.platforms import libraries, require_whole
 
 REFERENCE_TOLERANCE = 1e-8
 """Largest accepted deviation from the reference, relative to the largest value of each output."""
@@ -66,13 +66,8 @@ class CheckItem(NamedTuple):
     remark: str
 
 
-class _Subject(NamedTuple):
-    """An FMU on its way through the checks: fmpy's description, its files, its reference trajectory."""
-
-    path: str
-    description: Any
-    folder: str
-    reference: Array | None
+Outcome = tuple[bool | None, float | None, str]
+"""Whether a check passed, what was measured, and a remark; see `CheckItem`."""
 
 
 def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
@@ -96,107 +91,94 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
     FmuError
         If the file cannot be read.
     """
-    checks: dict[str, Callable[[_Subject], CheckItem]] = {
-        "description": _check_description,
-        "libraries": _check_libraries,
-        "directional derivatives": _check_derivatives,
-        "adjoint derivatives": _check_adjoint,
-        "FMU state": _check_state,
-        "reference, Co-Simulation": _check_steps,
-        "reference, Model Exchange": _check_exchange,
-    }
     with extracted(path) as (description, folder):
-        subject = _Subject(str(path), description, folder, _reference(description, folder))
-        return [_guarded(name, check, subject) for name, check in checks.items()]
+        of = description, folder, _reference(description, folder)
+        checks: dict[str, Callable[[], Outcome]] = {
+            "description": lambda: _check_description(str(path)),
+            "libraries": lambda: _check_libraries(folder),
+            "directional derivatives": lambda: _check_derivatives(*of),
+            "adjoint derivatives": lambda: _check_adjoint(*of),
+            "FMU state": lambda: _check_state(description, folder),
+            "reference, Co-Simulation": lambda: _replayed(*of, replay_steps, description.coSimulation),
+            "reference, Model Exchange": lambda: _replayed(*of, replay_exchange, description.modelExchange),
+        }
+        return [CheckItem(name, *_guarded(check)) for name, check in checks.items()]
 
 
-def _guarded(name: str, check: Callable[[_Subject], CheckItem], subject: _Subject) -> CheckItem:
+def _guarded(check: Callable[[], Outcome]) -> Outcome:
     try:
-        return check(subject)._replace(check=name)
+        return check()
     except Exception as error:
         # An FMU may fail in any way; that is the outcome.
-        return CheckItem(name, False, None, " ".join(f"{type(error).__name__}: {error}".split()))
+        return False, None, " ".join(f"{type(error).__name__}: {error}".split())
 
 
-def _check_description(subject: _Subject) -> CheckItem:
-    problems = validate_fmu(subject.path)
+def _check_description(path: str) -> Outcome:
+    problems = validate_fmu(path)
     remark = "; ".join(problems) if problems else "problems found by fmpy"
-    return CheckItem("", not problems, float(len(problems)), remark)
+    return not problems, float(len(problems)), remark
 
 
-def _check_libraries(subject: _Subject) -> CheckItem:
-    found = libraries(subject.folder)
+def _check_libraries(folder: str) -> Outcome:
+    found = libraries(folder)
     for path in found:
         require_whole(path)
     if not found:
-        return _absent("no compiled library")
-    return CheckItem("", True, float(len(found)), "as long as their headers say")
+        return None, None, "no compiled library"
+    return True, float(len(found)), "as long as their headers say"
 
 
-def _check_derivatives(subject: _Subject) -> CheckItem:
-    if not provides(subject.folder, DERIVATIVES):
-        return _absent("no directional derivatives")
-    worst = _visit(subject, derivative_error)
-    return CheckItem("", worst <= DERIVATIVE_TOLERANCE, worst, "largest deviation from central differences")
+def _check_derivatives(description: Any, folder: str, reference: Array | None) -> Outcome:
+    if not provides(folder, DERIVATIVES):
+        return None, None, "no directional derivatives"
+    worst = _visit(description, folder, reference, derivative_error)
+    return worst <= DERIVATIVE_TOLERANCE, worst, "largest deviation from central differences"
 
 
-def _check_adjoint(subject: _Subject) -> CheckItem:
-    if not provides(subject.folder, ADJOINT_DERIVATIVES):
-        return _absent("no adjoint derivatives")
-    worst = _visit(subject, adjoint_error)
-    return CheckItem("", worst <= 1e-12, worst, "largest deviation from the directional derivatives")
+def _check_adjoint(description: Any, folder: str, reference: Array | None) -> Outcome:
+    if not provides(folder, ADJOINT_DERIVATIVES):
+        return None, None, "no adjoint derivatives"
+    worst = _visit(description, folder, reference, adjoint_error)
+    return worst <= 1e-12, worst, "largest deviation from the directional derivatives"
 
 
-def _check_state(subject: _Subject) -> CheckItem:
-    if subject.description.coSimulation is None or not provides(subject.folder, STATES, SERIAL_STATES):
-        return _absent("no FMU states in Co-Simulation")
-    first = instantiated(subject.description, subject.folder, False)
-    second = instantiated(subject.description, subject.folder, False)
-    try:
-        count = state_differences(subject.description, first, second)
-    finally:
-        first.close()
-        second.close()
-    return CheckItem("", count == 0, float(count), "values that differ after restoring and after serializing")
+def _check_state(description: Any, folder: str) -> Outcome:
+    if description.coSimulation is None or not provides(folder, STATES, SERIAL_STATES):
+        return None, None, "no FMU states in Co-Simulation"
+    with (
+        closing(instantiated(description, folder, False)) as first,
+        closing(instantiated(description, folder, False)) as second,
+    ):
+        count = state_differences(description, first, second)
+    return count == 0, float(count), "values that differ after restoring and after serializing"
 
 
-def _check_steps(subject: _Subject) -> CheckItem:
-    return _replayed(subject, replay_steps, subject.description.coSimulation)
-
-
-def _check_exchange(subject: _Subject) -> CheckItem:
-    return _replayed(subject, replay_exchange, subject.description.modelExchange)
-
-
-def _replayed(subject: _Subject, replay: Callable[..., Array], interface: Any) -> CheckItem:
-    if interface is None or subject.reference is None:
-        return _absent("no such interface" if interface is None else "no reference trajectory in the FMU")
-    outputs = len(references_of(subject.description, "output"))
-    expected = subject.reference[:, -outputs:]
-    found = replay(subject.description, subject.folder, subject.reference)
-    nominal = [nominal_of(v) for v in variables_of(subject.description, "output")]
-    largest = np.abs(expected).max(axis=0)
+def _replayed(
+    description: Any, folder: str, reference: Array | None, replay: Callable[..., Array], interface: Any
+) -> Outcome:
+    if interface is None or reference is None:
+        return None, None, "no such interface" if interface is None else "no reference trajectory in the FMU"
+    signals = variables_of(description, "output")
+    expected, nominal = reference[:, -len(signals) :], [nominal_of(signal) for signal in signals]
+    found, largest = replay(description, folder, reference), np.abs(expected).max(axis=0)
     worst = float(np.max(np.abs(found - expected) / np.where(largest > 0.0, largest, nominal), initial=0.0))
-    return CheckItem("", worst <= REFERENCE_TOLERANCE, worst, "largest deviation from the trajectory inside")
+    return worst <= REFERENCE_TOLERANCE, worst, "largest deviation from the trajectory inside"
 
 
-def _visit(subject: _Subject, measure: Callable[[Any, Instance, Array], float]) -> float:
+def _visit(
+    description: Any,
+    folder: str,
+    reference: Array | None,
+    measure: Callable[[Any, Instance, Array], float],
+) -> float:
     """Return the largest of a measure over some states of the FMU, in Model Exchange if it has it."""
-    exchange = subject.description.modelExchange is not None
-    inputs = len(references_of(subject.description, "input"))
-    rows = np.array([starts_of(subject.description, "input")])
-    if subject.reference is not None:
-        rows = subject.reference[:: max(1, len(subject.reference) // 8), 1 : 1 + inputs]
-    instance = instantiated(subject.description, subject.folder, exchange)
-    try:
-        instance.initialize(references_of(subject.description, "input"), rows[0].tolist())
-        return max(measure(subject.description, instance, row) for row in rows)
-    finally:
-        instance.close()
-
-
-def _absent(remark: str) -> CheckItem:
-    return CheckItem("", None, None, remark)
+    inputs = references_of(description, "input")
+    rows = np.array([starts_of(description, "input")])
+    if reference is not None:
+        rows = reference[:: max(1, len(reference) // 8), 1 : 1 + len(inputs)]
+    with closing(instantiated(description, folder, description.modelExchange is not None)) as instance:
+        instance.initialize(inputs, rows[0].tolist())
+        return max(measure(description, instance, row) for row in rows)
 
 
 def _reference(description: Any, folder: str) -> Array | None:
@@ -247,7 +229,6 @@ def derivative_error(description: Any, instance: Instance, inputs: Array) -> flo
 
 def adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
     """Return the largest deviation of adjoint from directional derivatives, relative to its row."""
-    assert isinstance(instance, Instance3)
     unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
     instance.set(references_of(description, "input"), inputs.tolist())
     exact = _columns(instance, unknowns, knowns)
@@ -343,16 +324,13 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     """
     inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    instance = instantiated(description, folder, False)
-    try:
+    with closing(instantiated(description, folder, False)) as instance:
         instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
             instance.step(float(time[k - 1]), float(time[k] - time[k - 1]))
             instance.set(inputs, values[k].tolist())
             rows.append(instance.get(outputs))
-    finally:
-        instance.close()
     return np.array(rows)
 
 
@@ -361,17 +339,14 @@ def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
     nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
-    instance = instantiated(description, folder, True)
-    try:
-        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0])).next_time
+    with closing(instantiated(description, folder, True)) as instance:
+        next_event = instance.initialize(inputs, values[0].tolist(), float(time[0]))
         x = instance.states(len(nominal))
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
             x, next_event = _between(instance, time[k - 1], x, time[k], nominal, next_event)
             instance.set(inputs, values[k].tolist())
             rows.append(instance.get(outputs))
-    finally:
-        instance.close()
     return np.array(rows)
 
 
@@ -382,7 +357,7 @@ def _between(
     while next_event is not None and next_event <= end:
         x = _integrated(instance, t, x, next_event, nominal)
         t = next_event
-        next_event = instance.event().next_time
+        next_event = instance.event()
         if next_event is not None and next_event <= t:
             raise FmuError(f"the next event must be after t = {t!r} s, got {next_event!r}")
     return _integrated(instance, t, x, end, nominal), next_event

@@ -7,7 +7,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
@@ -48,40 +48,30 @@ class Dependencies(NamedTuple):
     delayed: bool = False
 
 
-class Unknown(NamedTuple):
-    """One entry of a ModelStructure.
-
-    Attributes
-    ----------
-    reference : int
-        Value reference of the unknown.
-    knowns : tuple of int
-        Value references of what it depends on.
-    kinds : tuple of str
-        How, as FMI spells it.
-    """
-
-    reference: int
-    knowns: tuple[int, ...]
-    kinds: tuple[str, ...]
+Unknown = tuple[int, list[tuple[int, str]]]
+"""One entry of a ModelStructure: its value reference, and what it depends on, and how, as FMI spells it."""
 
 
-def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
+def dependencies(model: Model | Stepped, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
     """Return the dependencies of `model` from its exact derivatives.
 
     An unknown counts as independent of an input or state only if that derivative is exactly zero at the
     start values and at `SAMPLES` generic points about them, as linear only if it is the same at all of them;
     wherever derivatives are undefined, as where a film at rest has none, the other points decide, and if no
-    point has derivatives, all may depend.
+    point has derivatives, all may depend. Of a model with its own integrator all outputs follow from all
+    inputs.
 
     Parameters
     ----------
-    model : Model
+    model : Model or Stepped
     start : ndarray, shape (n_inputs,)
         Start values of the inputs.
     times : sequence of float [s]
         An unknown with the same value at all of them counts as independent of time.
     """
+    if isinstance(model, Stepped):
+        every = np.ones((len(model.outputs), len(model.inputs)), dtype=bool)
+        return Dependencies(every, every[:, :0], np.zeros(len(every), dtype=bool), every, delayed=True)
     points = _points(model, start)
     found = [matrix for x, u in points if (matrix := _matrix(model, x, u)) is not None]
     shape = (len(model.outputs) + len(model.states), len(model.inputs) + len(model.states))
@@ -93,15 +83,6 @@ def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) ->
         bent = nonzero & (np.any(stack != stack[0], axis=0) | (len(found) < SAMPLES))
     count = len(model.inputs)
     return Dependencies(nonzero[:, :count], nonzero[:, count:], _on_time(model, points[-1], times), bent)
-
-
-def delayed_dependencies(model: Stepped) -> Dependencies:
-    """Return the dependencies of a model with its own integrator: all outputs follow from all inputs."""
-    shape = len(model.outputs), len(model.inputs)
-    every = np.ones(shape, dtype=bool)
-    return Dependencies(
-        every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True
-    )
 
 
 def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable: bool) -> list[Unknown]:
@@ -124,7 +105,7 @@ def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable
         (reference, _time(variables, timed) + _marked(variables, row, bent, linear))
         for reference, row, timed, bent in _rows(variables, found)
     ]
-    return [Unknown(k, *_split([p for p in pairs if p[0] not in hidden])) for k, pairs in unknowns]
+    return [(k, [pair for pair in pairs if pair[0] not in hidden]) for k, pairs in unknowns]
 
 
 def initial_unknowns(variables: Sequence[Variable], found: Dependencies) -> list[Unknown]:
@@ -132,10 +113,7 @@ def initial_unknowns(variables: Sequence[Variable], found: Dependencies) -> list
     parameters = [(k, "dependent") for k in references(variables, "parameter")]
     linear = "dependent" if parameters else "constant"
     return [
-        Unknown(
-            reference,
-            *_split(_time(variables, timed) + parameters + _marked(variables, row, bent, linear)),
-        )
+        (reference, _time(variables, timed) + parameters + _marked(variables, row, bent, linear))
         for reference, row, timed, bent in _rows(variables, found)
     ]
 
@@ -158,10 +136,6 @@ def _marked(variables: Sequence[Variable], row: Flags, bent: Flags, linear: str)
 
 def _time(variables: Sequence[Variable], timed: bool) -> list[tuple[int, str]]:
     return [(known, "dependent") for known in references(variables, "independent") if timed]
-
-
-def _split(pairs: list[tuple[int, str]]) -> tuple[tuple[int, ...], tuple[str, ...]]:
-    return tuple(known for known, _ in pairs), tuple(kind for _, kind in pairs)
 
 
 def _points(model: Model, start: Array) -> list[tuple[Array, Array]]:
@@ -278,41 +252,24 @@ class Description(NamedTuple):
         return any(variable.variability == "tunable" for variable in self.variables)
 
 
-class Dialect(Protocol):
-    """How one FMI version writes what both say."""
-
-    version: str
-    token: str
-
-    def add_interface(self, root: Element, name: str, description: Description) -> None:
-        """Add ModelExchange or CoSimulation."""
-
-    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
-        """Add the type of a quantity."""
-
-    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
-        """Add a variable."""
-
-    def add_structure(self, structure: Element, description: Description) -> None:
-        """Add what the unknowns depend on."""
-
-
-def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
+def to_xml(description: Description, version: str, token: str) -> bytes:
     """Return modelDescription.xml; equal arguments give equal bytes.
 
     Parameters
     ----------
     description : Description
-    dialect : Dialect
+    version : str
+        Of FMI, "2.0" or "3.0".
     token : str
         What FMI 2.0 calls guid, FMI 3.0 instantiationToken.
     """
+    second = version == "2.0"
     root = Element(
         "fmiModelDescription",
         {
-            "fmiVersion": dialect.version,
+            "fmiVersion": version,
             "modelName": description.identifier,
-            dialect.token: token,
+            "guid" if second else "instantiationToken": token,
             "description": description.title,
             **({"author": description.author} if description.author else {}),
             "copyright": description.copyright,
@@ -323,11 +280,11 @@ def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
         },
     )
     for name in description.interfaces:
-        dialect.add_interface(root, name, description)
+        _add_interface(root, name, description, second)
     _add_units(root, description.variables)
     types = SubElement(root, "TypeDefinitions")
     for attributes in _type_attributes(description.variables):
-        dialect.add_type(types, attributes)
+        _add_type(types, attributes, second)
     categories = SubElement(root, "LogCategories")
     for name, text in description.categories.items():
         SubElement(categories, "Category", name=name, description=text)
@@ -335,8 +292,8 @@ def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
     SubElement(root, "DefaultExperiment", {"startTime": "0.0", **experiment})
     variables = SubElement(root, "ModelVariables")
     for reference, variable in enumerate(description.variables):
-        dialect.add_variable(variables, reference, variable)
-    dialect.add_structure(SubElement(root, "ModelStructure"), description)
+        _add_variable(variables, reference, variable, second)
+    (_add_structure2 if second else _add_structure3)(SubElement(root, "ModelStructure"), description)
     return to_bytes(root)
 
 
@@ -373,6 +330,75 @@ def _type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
     return sorted(types, key=lambda attributes: attributes["quantity"])
 
 
+def _add_interface(root: Element, name: str, description: Description, second: bool) -> None:
+    """Add an interface; in FMI 2.0 with its sources, and the number of event indicators at the root."""
+    attributes = {"modelIdentifier": description.identifier, **description.interfaces[name]}
+    interface = SubElement(root, name, attributes)
+    if second and (switches := switch_references(description.variables)):
+        root.set("numberOfEventIndicators", str(len(switches)))
+    if second and description.sources:
+        files = SubElement(interface, "SourceFiles")
+        for source in description.sources:
+            SubElement(files, "File", name=source)
+
+
+def _add_type(parent: Element, attributes: Mapping[str, str], second: bool) -> None:
+    name = attributes["quantity"]
+    if second:
+        SubElement(SubElement(parent, "SimpleType", name=name), "Real", dict(attributes))
+    else:
+        SubElement(parent, "Float64Type", {"name": name, **attributes})
+
+
+def _add_variable(parent: Element, reference: int, variable: Variable, second: bool) -> None:
+    said, values = variable_attributes(variable, reference), value_attributes(variable)
+    if variable.state is not None:
+        values["derivative"] = str(variable.state + second)
+    if second:
+        SubElement(SubElement(parent, "ScalarVariable", said), "Real", values)
+    else:
+        SubElement(parent, "Float64", said | values)
+
+
+def _add_structure2(structure: Element, description: Description) -> None:
+    """Add outputs, derivatives and initial unknowns, by places that count from 1."""
+    variables, slopes = description.variables, set(derivative_references(description.variables))
+    running = running_unknowns(variables, description.dependencies, description.tunable)
+    _add_unknowns(structure, "Outputs", [u for u in running if u[0] not in slopes])
+    if slopes:
+        _add_unknowns(structure, "Derivatives", [u for u in running if u[0] in slopes])
+    _add_unknowns(structure, "InitialUnknowns", initial_unknowns(variables, description.dependencies))
+
+
+def _add_unknowns(structure: Element, name: str, unknowns: Sequence[Unknown]) -> None:
+    parent = SubElement(structure, name)
+    for unknown in unknowns:
+        SubElement(parent, "Unknown", {"index": str(unknown[0] + 1), **unknown_attributes(unknown, 1)})
+
+
+def _add_structure3(structure: Element, description: Description) -> None:
+    """Add outputs, derivatives, initial unknowns and event indicators."""
+    variables, slopes = description.variables, set(derivative_references(description.variables))
+    running = running_unknowns(variables, description.dependencies, description.tunable)
+    unknowns = [("ContinuousStateDerivative" if u[0] in slopes else "Output", u) for u in running]
+    initial = initial_unknowns(variables, description.dependencies)
+    for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
+        attributes = {"valueReference": str(unknown[0]), **unknown_attributes(unknown, 0)}
+        SubElement(structure, name, attributes)
+    for reference in switch_references(variables):
+        SubElement(structure, "EventIndicator", valueReference=str(reference))
+
+
+def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
+    """Return buildDescription.xml of FMI 3.0: which files below `sources/` make the binary."""
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
+    files = SubElement(configuration, "SourceFileSet", language="C99")
+    for name in sources:
+        SubElement(files, "SourceFile", name=name)
+    return to_bytes(root)
+
+
 def value_attributes(variable: Variable) -> dict[str, str]:
     """Return type, unit, bounds, nominal and start value of a variable."""
     attributes = {} if variable.unit not in QUANTITIES else {"declaredType": QUANTITIES[variable.unit]}
@@ -402,8 +428,8 @@ def variable_attributes(variable: Variable, reference: int) -> dict[str, str]:
 def unknown_attributes(unknown: Unknown, first: int) -> dict[str, str]:
     """Return what an unknown depends on, by places among the variables that count from `first`."""
     return {
-        "dependencies": " ".join(str(known + first) for known in unknown.knowns),
-        "dependenciesKind": " ".join(unknown.kinds),
+        "dependencies": " ".join(str(known + first) for known, _ in unknown[1]),
+        "dependenciesKind": " ".join(kind for _, kind in unknown[1]),
     }
 
 
@@ -539,24 +565,14 @@ FMI = "3.0"
 """The version whose schema the file follows. FMI 2.0.4 and later take it too."""
 
 
-class Terminal(NamedTuple):
-    """The signals of one journal.
+Terminals = dict[str, dict[str, str]]
+"""By their names, the variables by the names that they have in every terminal, as `force_x`.
 
-    Attributes
-    ----------
-    name : str
-        That of the station; of an FMU with one journal that of the component.
-    members : dict of str to str
-        Variables by the names that they have in every terminal, as `force_x`.
-    """
-
-    name: str
-    members: dict[str, str]
+A terminal has the name of its station; that of an FMU with one journal is that of the component.
+"""
 
 
-def terminals(
-    component: str, prefix: str, inputs: Sequence[str], outputs: Sequence[str]
-) -> tuple[Terminal, ...]:
+def terminals(component: str, prefix: str, inputs: Sequence[str], outputs: Sequence[str]) -> Terminals:
     """Return the terminals of a model: a station has force and motion, the one as input, the other as output.
 
     Parameters
@@ -568,7 +584,8 @@ def terminals(
     inputs, outputs : sequence of str
         Names of the signals.
     """
-    found, known = [], {*inputs, *outputs}
+    found: Terminals = {}
+    known = {*inputs, *outputs}
     for station in _stations((*inputs, *outputs)):
         own = {member: f"{station}_{member}" if station else member for member in MEMBERS}
         if own["speed"] not in known:
@@ -580,8 +597,8 @@ def terminals(
         }
         if len(sides) == 1 and not set(MOTION).isdisjoint(given):
             named = {member: structured_name(prefix, name) for member, name in given.items()}
-            found.append(Terminal(station or component, named))
-    return tuple(found)
+            found[station or component] = named
+    return found
 
 
 def terminal_files(model: Model | Stepped, component: str, prefix: str, icon: bool) -> dict[str, bytes]:
@@ -597,7 +614,7 @@ def _stations(labels: Sequence[str]) -> list[str]:
     return list(dict.fromkeys(match[1] or "" for match in matches if match))
 
 
-def terminals_and_icons(found: Sequence[Terminal], icon: bool) -> bytes:
+def terminals_and_icons(found: Terminals, icon: bool) -> bytes:
     """Return terminalsAndIcons.xml: the size of icon.png on a diagram, if there is one, and the terminals."""
     root = Element("fmiTerminalsAndIcons", fmiVersion=FMI)
     if icon:
@@ -607,110 +624,10 @@ def terminals_and_icons(found: Sequence[Terminal], icon: bool) -> bytes:
         SubElement(graphics, "Icon", corners)
     if found:
         parent = SubElement(root, "Terminals")
-        for terminal in found:
-            _add(parent, terminal)
-    return to_bytes(root)
-
-
-def _add(parent: Element, terminal: Terminal) -> None:
-    said = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
-    element = SubElement(parent, "Terminal", {"name": terminal.name, "matchingRule": RULE, **said})
-    for member, variable in terminal.members.items():
-        own = {"variableName": variable, "memberName": member}
-        SubElement(element, "TerminalMemberVariable", {**own, "variableKind": "signal"})
-
-
-# modelDescription.xml of FMI 2.0.
-
-
-class Dialect2:
-    """How FMI 2.0 writes it; see `Dialect`."""
-
-    version, token = "2.0", "guid"
-
-    def add_interface(self, root: Element, name: str, description: Description) -> None:
-        """Add an interface with its sources; the number of event indicators is said at the root."""
-        if switches := switch_references(description.variables):
-            root.set("numberOfEventIndicators", str(len(switches)))
-        attributes = {"modelIdentifier": description.identifier, **description.interfaces[name]}
-        interface = SubElement(root, name, attributes)
-        if description.sources:
-            files = SubElement(interface, "SourceFiles")
-            for source in description.sources:
-                SubElement(files, "File", name=source)
-
-    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
-        """Add a type."""
-        SubElement(SubElement(parent, "SimpleType", name=attributes["quantity"]), "Real", dict(attributes))
-
-    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
-        """Add a variable."""
-        scalar = SubElement(parent, "ScalarVariable", variable_attributes(variable, reference))
-        slope = {} if variable.state is None else {"derivative": str(variable.state + 1)}
-        SubElement(scalar, "Real", value_attributes(variable) | slope)
-
-    def add_structure(self, structure: Element, description: Description) -> None:
-        """Add outputs, derivatives and initial unknowns, by places that count from 1."""
-        variables = description.variables
-        slopes = set(derivative_references(variables))
-        running = running_unknowns(variables, description.dependencies, description.tunable)
-        _add_unknowns(structure, "Outputs", [u for u in running if u.reference not in slopes])
-        if slopes:
-            _add_unknowns(structure, "Derivatives", [u for u in running if u.reference in slopes])
-        _add_unknowns(structure, "InitialUnknowns", initial_unknowns(variables, description.dependencies))
-
-
-def _add_unknowns(structure: Element, name: str, unknowns: Sequence[Unknown]) -> None:
-    parent = SubElement(structure, name)
-    for unknown in unknowns:
-        index = {"index": str(unknown.reference + 1)}
-        SubElement(parent, "Unknown", {**index, **unknown_attributes(unknown, 1)})
-
-
-# modelDescription.xml and buildDescription.xml of FMI 3.0.
-
-
-VERSION = "3.0"
-
-
-class Dialect3:
-    """How FMI 3.0 writes it; see `Dialect`."""
-
-    version, token = VERSION, "instantiationToken"
-
-    def add_interface(self, root: Element, name: str, description: Description) -> None:
-        """Add an interface."""
-        SubElement(root, name, {"modelIdentifier": description.identifier, **description.interfaces[name]})
-
-    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
-        """Add a type."""
-        SubElement(parent, "Float64Type", {"name": attributes["quantity"], **attributes})
-
-    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
-        """Add a variable."""
-        slope = {} if variable.state is None else {"derivative": str(variable.state)}
-        attributes = variable_attributes(variable, reference) | value_attributes(variable) | slope
-        SubElement(parent, "Float64", attributes)
-
-    def add_structure(self, structure: Element, description: Description) -> None:
-        """Add outputs, derivatives, initial unknowns and event indicators."""
-        variables = description.variables
-        slopes = set(derivative_references(variables))
-        running = running_unknowns(variables, description.dependencies, description.tunable)
-        unknowns = [("ContinuousStateDerivative" if u.reference in slopes else "Output", u) for u in running]
-        initial = initial_unknowns(variables, description.dependencies)
-        for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
-            attributes = {"valueReference": str(unknown.reference), **unknown_attributes(unknown, 0)}
-            SubElement(structure, name, attributes)
-        for reference in switch_references(variables):
-            SubElement(structure, "EventIndicator", valueReference=str(reference))
-
-
-def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
-    """Return buildDescription.xml: which files below `sources/` make the binary."""
-    root = Element("fmiBuildDescription", fmiVersion=VERSION)
-    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
-    files = SubElement(configuration, "SourceFileSet", language="C99")
-    for name in sources:
-        SubElement(files, "SourceFile", name=name)
+        said = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
+        for name, members in found.items():
+            element = SubElement(parent, "Terminal", {"name": name, "matchingRule": RULE, **said})
+            for member, variable in members.items():
+                own = {"variableName": variable, "memberName": member}
+                SubElement(element, "TerminalMemberVariable", {**own, "variableKind": "signal"})
     return to_bytes(root)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,43 +17,13 @@ from ..core.inputs import arguments, quantity
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, in_time
 from ..core.signals import Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec, sized_spec
-from .archive import to_zip
-from .description import (
-    Dependencies,
-    Description,
-    Dialect2,
-    Dialect3,
-    delayed_dependencies,
-    dependencies,
-    fmi_variables,
-    terminal_files,
-    to_xml,
-)
-from .native.native_backend import (
-    CATEGORIES,
-    Export,
-    copyright_line,
-    interfaces_of,
-    native_files,
-    native_model_variables,
-    native_tool,
-    resource,
-    source_names,
-)
-from .python.python_backend import (
-    CATEGORIES as PYTHON_CATEGORIES,
-    INTERFACES as PYTHON_INTERFACES,
-    content_hash,
-    python_files,
-    python_tool,
-)
-from .reference import from_state_space
+from .archive import copyright_line, to_zip
+from .native.native_backend import Export, native_contents
+from .python.python_backend import python_contents
+from .reference import answered, begun, from_state_space
 
 if TYPE_CHECKING:
     import control
-
-NAMESPACE = uuid.UUID("6f0f6a52-9c0e-5d6b-8a53-3f5f1d7b2c11")
-"""Namespace of the guids, which are uuid5 of an FMU's content."""
 
 
 @arguments
@@ -145,81 +114,22 @@ def export_fmu(
     subject = as_exported(subject) if native and isinstance(subject, Model) else subject
     inputs = np.array(list(start_values(subject, start or {}).values()))
     require_output(subject, inputs)
+    described = {
+        "identifier": name,
+        "title": title,
+        "copyright": copyright_line(),
+        "stop_time": float(stop_time),
+        "step_size": float(step_size),
+        "author": author,
+        "structured": bool(prefix),
+    }
     if native and spec is not None:
         export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix)
-        contents = _native_contents(export, step_size, author)
+        contents = native_contents(export, described)
     else:
-        contents = _python_contents(subject, name, prefix, inputs, stop_time, step_size, author)
+        contents = python_contents(subject, prefix, inputs, described)
     target.parent.mkdir(parents=True, exist_ok=True)
     return write_whole(target, to_zip(contents))
-
-
-def _native_contents(export: Export, step_size: float, author: str) -> dict[str, bytes]:
-    """Return all files of a native FMU by path."""
-    variables, model = native_model_variables(export), export.model
-    times = np.linspace(0.0, export.stop_time, 7).tolist()
-    description = Description(
-        identifier=export.component,
-        title=export.title,
-        tool=native_tool(),
-        copyright=copyright_line(),
-        interfaces=interfaces_of(model, export.version),
-        categories=CATEGORIES,
-        variables=variables,
-        dependencies=_dependencies(model, export.inputs, times),
-        stop_time=float(export.stop_time),
-        step_size=float(step_size),
-        sources=source_names(),
-        author=author,
-        structured=bool(export.prefix),
-    )
-    dialect = Dialect2() if export.version == "2.0" else Dialect3()
-    contents = native_files(export, variables)
-    token = _guid({**contents, **resource(export, variables, ""), "xml": to_xml(description, dialect, "")})
-    contents |= resource(export, variables, token)
-    return {**contents, "modelDescription.xml": to_xml(description, dialect, token)}
-
-
-def _python_contents(
-    model: Model | Stepped,
-    component: str,
-    prefix: str,
-    inputs: Array,
-    stop_time: float,
-    step_size: float,
-    author: str,
-) -> dict[str, bytes]:
-    """Return all files of an FMU of the python backend by path."""
-    start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
-    variables = fmi_variables(model, prefix, start)
-    contents = python_files(model, component, title_of(model), start, variables, prefix)
-    contents |= terminal_files(model, component, prefix, icon=False)
-    description = Description(
-        identifier=component,
-        title=title_of(model),
-        tool=python_tool(),
-        copyright=copyright_line(),
-        interfaces=PYTHON_INTERFACES,
-        categories=PYTHON_CATEGORIES,
-        variables=variables,
-        dependencies=_dependencies(model, inputs, (0.0,)),
-        stop_time=float(stop_time),
-        step_size=float(step_size),
-        author=author,
-        structured=bool(prefix),
-    )
-    guid = _guid({**contents, "xml": to_xml(description, Dialect2(), "")})
-    return {**contents, "modelDescription.xml": to_xml(description, Dialect2(), guid)}
-
-
-def _dependencies(model: Model | Stepped, inputs: Array, times: Sequence[float]) -> Dependencies:
-    if isinstance(model, Stepped):
-        return delayed_dependencies(model)
-    return dependencies(model, inputs, times)
-
-
-def _guid(contents: Mapping[str, bytes]) -> str:
-    return str(uuid.uuid5(NAMESPACE, content_hash(contents)))
 
 
 # What an export asks for: rules of its arguments, and the model that goes into the FMU.
@@ -292,19 +202,10 @@ def title_of(model: Model | Stepped) -> str:
     return (type(model).__doc__ or type(model).__name__).strip().splitlines()[0]
 
 
-@runtime_checkable
-class NamedModel(Protocol):
-    """What a model may add: the name of its FMU, where the caller gives none."""
-
-    @property
-    def component(self) -> str:
-        """An ASCII identifier."""
-
-
 def component_of(model: Any) -> str:
-    """Return the name of the FMU of a model."""
-    if isinstance(model, NamedModel):
-        return model.component
+    """Return the name of the FMU of a model: what it calls its `component`, or its class in snake case."""
+    if hasattr(model, "component"):
+        return str(model.component)
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(model).__name__).lower()
 
 
@@ -317,20 +218,13 @@ def require_component(component: str) -> None:
 def require_output(model: Model | Stepped, inputs: Array) -> None:
     """Raise unless the model has an output at its start values."""
     try:
-        output = require_finite("output", _first_output(model, inputs))
+        output = require_finite("output", answered(model, 0.0, begun(model, inputs), inputs))
     except Exception as error:
         raise InputError(
             f"start must be values at which the model has an output, got {inputs.tolist()}: {error}"
         ) from error
     if output.shape != (len(model.outputs),):
         raise FmuError(f"output must have shape ({len(model.outputs)},), got {output.shape}")
-
-
-def _first_output(model: Model | Stepped, inputs: Array) -> Array:
-    if isinstance(model, Stepped):
-        return model.answer(model.start(inputs))
-    state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
-    return model.output(0.0, state, inputs)
 
 
 def start_values(model: Model | Stepped, start: Mapping[str, float | str]) -> dict[str, float]:

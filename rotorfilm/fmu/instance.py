@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import chdir, contextmanager
 from ctypes import c_double, c_uint, c_void_p, cast
 from os import PathLike
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NoReturn
 from xml.etree.ElementTree import parse
 
 import fmpy
@@ -30,7 +30,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from ..core.errors import FmuError, FmuFileError
 from ..core.model import Array
 from .archive import read_description
-from .binaries import host_libraries, require_whole
+from .native.platforms import host_libraries, require_whole
 
 
 @contextmanager
@@ -66,12 +66,8 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
     wanted = "Model Exchange" if exchange else "Co-Simulation"
     if interface is None:
         raise FmuError(f"fmu must have the interface {wanted}, got {description.modelName!r} without")
-    kind, wrap = {
-        (True, True): (FMU2Model, Instance2),
-        (True, False): (FMU2Slave, Instance2),
-        (False, True): (FMU3Model, Instance3),
-        (False, False): (FMU3Slave, Instance3),
-    }[description.fmiVersion == "2.0", exchange]
+    version = "2.0" if description.fmiVersion == "2.0" else "3.0"
+    kind = {"2.0": (FMU2Slave, FMU2Model), "3.0": (FMU3Slave, FMU3Model)}[version][exchange]
     for library in host_libraries(folder, interface.modelIdentifier):
         require_whole(library)
     try:
@@ -85,7 +81,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
             )
     except Exception as error:
         raise FmuError(f"FMU {description.modelName!r} cannot be instantiated: {error}") from error
-    instance = wrap(fmu, exchange)
+    instance = Instance(fmu, version, exchange)
     try:
         instance.instantiate()
     except Exception as error:
@@ -103,91 +99,56 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
 FMI_WARNING = 1
 """The worst status of a call that did what it was asked for."""
 
-SLOPE = "getDirectionalDerivative"
+SPELLED = {
+    "2.0": {
+        "put": "setReal",
+        "take": "getReal",
+        "rate": "getDerivatives",
+        "update": "newDiscreteStates",
+        "deserialize": "deSerializeFMUstate",
+    },
+    "3.0": {
+        "put": "setFloat64",
+        "take": "getFloat64",
+        "rate": "getContinuousStateDerivatives",
+        "update": "updateDiscreteStates",
+        "deserialize": "deserializeFMUState",
+    },
+}
+"""How each FMI version spells what both have."""
 
-
-class Calls(NamedTuple):
-    """How an FMI version spells what both have."""
-
-    set: str
-    get: str
-    derivatives: str
-    update: str
-    deserialize: str
-    counts_values: bool
-
-    def function(self, fmu: Any, name: str) -> Any:
-        """Return a function of the FMU's library, which answers a status."""
-        return getattr(fmu.dll, self.spelled(name))
-
-    @property
-    def called(self) -> dict[str, str]:
-        """What a loop in C calls."""
-        return {
-            "put": self.set,
-            "take": self.get,
-            "stride": "doStep",
-            "slope": SLOPE,
-            "set_time": "setTime",
-            "set_states": "setContinuousStates",
-            "rate": self.derivatives,
-        }
-
-    def address(self, fmu: Any, name: str) -> int | None:
-        """Return where a function of the FMU's library is; None if it has none."""
-        found = getattr(fmu.dll, self.spelled(name), None)
-        return None if found is None else cast(found, c_void_p).value
-
-    def spelled(self, name: str) -> str:
-        """Return the name of a function in the library of an FMU."""
-        return f"{'fmi3' if self.counts_values else 'fmi2'}{name[0].upper()}{name[1:]}"
+CALLED = {
+    "stride": "doStep",
+    "slope": "getDirectionalDerivative",
+    "set_time": "setTime",
+    "set_states": "setContinuousStates",
+}
+"""What both spell alike, of that what a loop in C calls."""
 
 
 class Port:
     """Some variables of an instance, whose references are told once; `Instance.port` makes one."""
 
-    def __init__(self, fmu: Any, calls: Calls, references: Sequence[int]) -> None:
+    def __init__(self, instance: Instance, references: Sequence[int]) -> None:
         count = len(references)
         self._values = (c_double * count)()
-        tail = (count,) if calls.counts_values else ()
-        self._arguments = (fmu.component, (c_uint * count)(*references), count, self._values, *tail)
-        self._set, self._get = calls.function(fmu, calls.set), calls.function(fmu, calls.get)
-        self._calls = calls
+        tail = (count,) if instance.counts_values else ()
+        component = instance.fmu.component
+        self._arguments = (component, (c_uint * count)(*references), count, self._values, *tail)
+        self._set, self._get = instance.function("put"), instance.function("take")
+        self._fail = instance.fail
 
     def set(self, values: list[float]) -> None:
         """Set the variables."""
         self._values[:] = [*values]
         if values and (status := self._set(*self._arguments)) > FMI_WARNING:
-            raise FMICallException(function=self._calls.spelled(self._calls.set), status=status)
+            self._fail("put", status)
 
     def get(self) -> list[float]:
         """Return the variables."""
         if self._values and (status := self._get(*self._arguments)) > FMI_WARNING:
-            raise FMICallException(function=self._calls.spelled(self._calls.get), status=status)
+            self._fail("take", status)
         return self._values[:]
-
-
-class Slopes:
-    """Derivatives of variables by others, whose references are told once; `Instance.slopes` makes one."""
-
-    def __init__(self, fmu: Any, calls: Calls, unknowns: Sequence[int], knowns: Sequence[int]) -> None:
-        count, seed = len(unknowns), (c_double * 1)(1.0)
-        self._columns = np.zeros((len(knowns), count))
-        self._calls, self._get = calls, calls.function(fmu, SLOPE)
-        rows, many = (c_uint * count)(*unknowns), calls.counts_values
-        self._arguments = [
-            (fmu.component, rows, count, (c_uint * 1)(known), 1, seed)
-            + ((1,) if many else ())
-            + ((c_double * count).from_address(column.ctypes.data), *((count,) if many else ()))
-            for known, column in zip(knowns, self._columns, strict=True)
-        ]
-
-    def get(self) -> Array:
-        """Return d(unknowns)/d(knowns) at present, shape (n_unknowns, n_knowns)."""
-        for arguments in self._arguments:
-            if (status := self._get(*arguments)) > FMI_WARNING:
-                raise FMICallException(function=self._calls.spelled(SLOPE), status=status)
-        return self._columns.T.copy()
 
 
 # The calls of an FMU instance through fmpy, by value references: FMI 2.0 and 3.0 behind the same methods.
@@ -196,41 +157,37 @@ class Slopes:
 FMI_OK = 0
 
 
-class EventInfo(NamedTuple):
-    """What an FMU answers after an event.
-
-    Attributes
-    ----------
-    terminate : bool
-        Whether it wants the simulation to end.
-    next_time : float or None [s]
-        Time of the next event, if it has one.
-    """
-
-    terminate: bool
-    next_time: float | None
-
-
 class Instance:
     """An instantiated FMU, for Co-Simulation or for Model Exchange; `instantiated` makes one.
 
     Parameters
     ----------
     fmu : fmpy.fmi2._FMU2 or fmpy.fmi3._FMU3
+    version : str
+        Of FMI, "2.0" or "3.0".
     exchange : bool
         Whether it is for Model Exchange.
     """
 
-    calls: ClassVar[Calls]
-
-    def __init__(self, fmu: Any, exchange: bool) -> None:
-        self._fmu, self._exchange = fmu, exchange
+    def __init__(self, fmu: Any, version: str, exchange: bool) -> None:
+        self.fmu, self._version, self._exchange = fmu, version, exchange
+        self._names = SPELLED[version] | CALLED
+        self.counts_values = version == "3.0"
+        """Whether functions take the number of values beside that of variables."""
         self.log: list[str] = []
         """Messages so far, but those of success."""
 
     def instantiate(self) -> None:
         """Make the instance."""
-        raise NotImplementedError
+        # With logging on, or PythonFMU would keep the reason of a failure to itself.
+        if self.counts_values:
+            self.fmu.instantiate(loggingOn=True, logMessage=self._keep)
+            return
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(lambda host, *message: self._keep(*message))
+        self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        self.fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
 
     def initialize(
         self,
@@ -238,186 +195,171 @@ class Instance:
         values: Sequence[float],
         time: float = 0.0,
         tolerance: float | None = None,
-    ) -> EventInfo:
+    ) -> float | None:
         """Initialize at the time [s] with these start values; afterwards it is ready to step or integrate.
 
         The tolerance is that of its time integration, its own default unless given.
+
+        Returns
+        -------
+        float or None [s]
+            Time of the next event, if it has one.
         """
-        self._enter(time, tolerance)
+        experiment = {"tolerance": tolerance, "startTime": time}
+        if self.counts_values:
+            self.fmu.enterInitializationMode(**experiment)
+        else:
+            self.fmu.setupExperiment(**experiment)
+            self.fmu.enterInitializationMode()
         self.set(references, values)
-        self._fmu.exitInitializationMode()
+        self.fmu.exitInitializationMode()
         return self._settle()
 
     def set(self, references: Sequence[int], values: Sequence[float]) -> None:
         """Set variables."""
         if len(references):
-            self._call(self.calls.set, list(references), list(values))
+            self._call("put", list(references), list(values))
 
     def get(self, references: Sequence[int]) -> list[float]:
         """Return variables."""
-        return list(self._call(self.calls.get, list(references))) if len(references) else []
+        return list(self._call("take", list(references))) if len(references) else []
 
     def port(self, references: Sequence[int]) -> Port:
         """Return these variables to be set or got again and again; the instance must exist."""
-        return Port(self._fmu, self.calls, references)
+        return Port(self, references)
 
-    def slopes(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Slopes:
-        """Return the derivatives of the unknowns by each known, to be asked for again and again."""
-        return Slopes(self._fmu, self.calls, unknowns, knowns)
+    def slopes(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Callable[[], Array]:
+        """Return a function that returns d(unknowns)/d(knowns) at present, shape (n_unknowns, n_knowns)."""
+        count, seed, many = len(unknowns), (c_double * 1)(1.0), self.counts_values
+        columns, rows = np.zeros((len(knowns), count)), (c_uint * count)(*unknowns)
+        function = self.function("slope")
+        told = [
+            (self.fmu.component, rows, count, (c_uint * 1)(known), 1, seed)
+            + ((1,) if many else ())
+            + ((c_double * count).from_address(column.ctypes.data), *((count,) if many else ()))
+            for known, column in zip(knowns, columns, strict=True)
+        ]
+
+        def get() -> Array:
+            for arguments in told:
+                if (status := function(*arguments)) > FMI_WARNING:
+                    self.fail("slope", status)
+            return columns.T.copy()
+
+        return get
+
+    def function(self, name: str) -> Any:
+        """Return a function of the FMU's library, which answers a status, by its name here."""
+        return getattr(self.fmu.dll, self._spelled(name))
 
     def entry(self) -> tuple[int, int, dict[str, int | None]]:
-        """Return the version, the component and the addresses of what a loop in C calls."""
-        found = {name: self.calls.address(self._fmu, spelled) for name, spelled in self.calls.called.items()}
-        return 3 if self.calls.counts_values else 2, self._fmu.component, found
+        """Return the version, the component and the addresses of what a loop in C calls, if it is there."""
+        library, names = self.fmu.dll, ("put", "take", "rate", *CALLED)
+        there = [name for name in names if hasattr(library, self._spelled(name))]
+        found = {name: cast(self.function(name), c_void_p).value for name in there}
+        return int(self._version[0]), self.fmu.component, found
 
-    def fail(self, call: str, status: int) -> None:
-        """Raise what fmpy raises where a function of `entry` answers this status."""
-        raise FMICallException(function=self.calls.spelled(self.calls.called[call]), status=status)
+    def fail(self, call: str, status: int) -> NoReturn:
+        """Raise what fmpy raises where a function, by its name here, answers this status."""
+        raise FMICallException(function=self._spelled(call), status=status)
 
     def deserialize(self, content: bytes) -> Any:
         """Return the FMU state that `serialize` turned into bytes."""
-        return self._call(self.calls.deserialize, content)
+        return self._call("deserialize", content)
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] (Co-Simulation)."""
-        self._fmu.doStep(t, dt)
+        self.fmu.doStep(t, dt)
 
     def move(self, t: float, states: Array) -> None:
         """Go to a time [s] and a state (Model Exchange)."""
-        self._fmu.setTime(t)
+        self.fmu.setTime(t)
         if len(states):
-            self._fmu.setContinuousStates((c_double * len(states))(*states), len(states))
+            self.fmu.setContinuousStates((c_double * len(states))(*states), len(states))
 
     def states(self, count: int) -> Array:
         """Return the state (Model Exchange)."""
         values = (c_double * count)()
         if count:
-            self._fmu.getContinuousStates(values, count)
+            self.fmu.getContinuousStates(values, count)
         return np.array(values)
 
     def derivatives(self, count: int) -> Array:
         """Return the derivatives of the state (Model Exchange)."""
         values = (c_double * count)()
         if count:
-            self._call(self.calls.derivatives, values, count)
+            self._call("rate", values, count)
         return np.array(values)
 
-    def event(self) -> EventInfo:
-        """Pass through event mode (Model Exchange)."""
-        self._fmu.enterEventMode()
+    def event(self) -> float | None:
+        """Pass through event mode (Model Exchange); return the time of the next event [s], if it has one."""
+        self.fmu.enterEventMode()
         return self._settle()
 
     def directional(
         self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]
     ) -> list[float]:
         """Return the derivative of the unknowns along `seed`, in the space of the knowns."""
-        found: list[float] = self._fmu.getDirectionalDerivative(unknowns, knowns, seed)
+        found: list[float] = self.fmu.getDirectionalDerivative(unknowns, knowns, seed)
+        return found
+
+    def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
+        """Return the derivative of the sum of the unknowns, weighted by `seed`, by each known (FMI 3.0)."""
+        found: list[float] = self.fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=len(knowns))
         return found
 
     def reset(self) -> None:
         """Return to what it was before the initialization."""
-        self._fmu.reset()
+        self.fmu.reset()
 
     def save(self) -> Any:
         """Return the FMU state."""
-        return self._fmu.getFMUState()
+        return self.fmu.getFMUState()
 
     def restore(self, state: Any) -> None:
         """Return to an FMU state."""
-        self._fmu.setFMUState(state)
+        self.fmu.setFMUState(state)
 
     def release(self, state: Any) -> None:
         """Free an FMU state."""
-        self._fmu.freeFMUState(state)
+        self.fmu.freeFMUState(state)
 
     def serialize(self, state: Any) -> bytes:
         """Return an FMU state as bytes."""
-        content: bytes = self._fmu.serializeFMUState(state)
+        content: bytes = self.fmu.serializeFMUState(state)
         return content
 
     def close(self, terminate: bool = True) -> None:
         """Terminate if asked, free the instance and unload its library."""
         try:
             if terminate:
-                self._fmu.terminate()
+                self.fmu.terminate()
         finally:
-            let_go(self._fmu)
-            self._fmu.freeInstance()
+            let_go(self.fmu)
+            self.fmu.freeInstance()
 
-    def _settle(self) -> EventInfo:
+    def _settle(self) -> float | None:
         """Leave event mode; in Co-Simulation there is none."""
         terminate, time = False, None
         again = self._exchange
         while again and not terminate:
-            again, terminate, _, _, defined, next_time = self._call(self.calls.update)
+            again, terminate, _, _, defined, next_time = self._call("update")
             time = next_time if defined else None
         if self._exchange:
-            self._fmu.enterContinuousTimeMode()
-        return EventInfo(terminate, time)
-
-    def _enter(self, time: float, tolerance: float | None) -> None:
-        """Enter initialization mode."""
-        raise NotImplementedError
+            self.fmu.enterContinuousTimeMode()
+        return time
 
     def _call(self, name: str, *arguments: Any) -> Any:
-        return getattr(self._fmu, name)(*arguments)
+        return getattr(self.fmu, self._names[name])(*arguments)
 
-    def _keep(self, status: int, message: bytes) -> None:
+    def _spelled(self, name: str) -> str:
+        """Return the name of a function in the library of an FMU."""
+        name = self._names[name]
+        return f"fmi{self._version[0]}{name[0].upper()}{name[1:]}"
+
+    def _keep(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
         if status != FMI_OK:
             self.log.append(" ".join(message.decode("utf-8", errors="replace").split()))
-
-
-class Instance2(Instance):
-    """An instance of an FMI 2.0 FMU; see `Instance`."""
-
-    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate", False)
-
-    def __init__(self, fmu: Any, exchange: bool) -> None:
-        super().__init__(fmu, exchange)
-        self._callbacks = fmi2CallbackFunctions()
-        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._logger)
-        self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-
-    def instantiate(self) -> None:
-        """Make the instance; see `Instance`."""
-        # With logging on, or PythonFMU would keep the reason of a failure to itself.
-        self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
-
-    def _enter(self, time: float, tolerance: float | None) -> None:
-        self._fmu.setupExperiment(tolerance=tolerance, startTime=time)
-        self._fmu.enterInitializationMode()
-
-    def _logger(self, environment: Any, name: bytes, status: int, category: bytes, message: bytes) -> None:
-        self._keep(status, message)
-
-
-class Instance3(Instance):
-    """An instance of an FMI 3.0 FMU; see `Instance`."""
-
-    calls = Calls(
-        "setFloat64",
-        "getFloat64",
-        "getContinuousStateDerivatives",
-        "updateDiscreteStates",
-        "deserializeFMUState",
-        True,
-    )
-
-    def instantiate(self) -> None:
-        """Make the instance; see `Instance`."""
-        self._fmu.instantiate(loggingOn=True, logMessage=self._logger)
-
-    def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
-        """Return the derivative of the sum of the unknowns, weighted by `seed`, by each known."""
-        found: list[float] = self._fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=len(knowns))
-        return found
-
-    def _enter(self, time: float, tolerance: float | None) -> None:
-        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time)
-
-    def _logger(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
-        self._keep(status, message)
 
 
 def let_go(fmu: Any) -> None:

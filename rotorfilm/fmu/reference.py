@@ -83,9 +83,9 @@ def _rows(model: Model | Stepped, time: Array, inputs: Array) -> tuple[list[Arra
             try:
                 last = k - 1
                 state = (
-                    _moved(model, time[last], state, inputs[last], t - time[last]) if k else _begun(model, u)
+                    _moved(model, time[last], state, inputs[last], t - time[last]) if k else begun(model, u)
                 )
-                row = np.concatenate([[t], u, _answered(model, t, state, u)])
+                row = np.concatenate([[t], u, answered(model, t, state, u)])
             except Exception as failure:
                 # Whatever ends a model ends its table.
                 why = str(failure)
@@ -97,13 +97,15 @@ def _rows(model: Model | Stepped, time: Array, inputs: Array) -> tuple[list[Arra
     return rows, why
 
 
-def _begun(model: Model | Stepped, u: Array) -> Any:
+def begun(model: Model | Stepped, u: Array) -> Any:
+    """Return the state of a model at t = 0."""
     if isinstance(model, Stepped):
         return model.start(u)
     return np.asarray(model.initial_state, dtype=float) if isinstance(model, Dynamic) else np.zeros(0)
 
 
-def _answered(model: Model | Stepped, t: float, state: Any, u: Array) -> Array:
+def answered(model: Model | Stepped, t: float, state: Any, u: Array) -> Array:
+    """Return the outputs of a model."""
     return model.answer(state) if isinstance(model, Stepped) else model.output(t, state, u)
 
 
@@ -249,7 +251,7 @@ def advance(
     """Return the state at t + step under the constant input u.
 
     Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
-    with the whole step and stopped at the kinks of a `Kinked` model; Radau's implicit method of order 5
+    with the whole step and stopped at the `breakpoints` of the model; Radau's implicit method of order 5
     where that one fails, as on a rotor in a stiff film.
 
     Parameters

@@ -14,7 +14,7 @@ from ..core.inputs import arguments
 from ..core.model import Dynamic, Model, Stepped, require_massless
 from ..core.units import UNITS
 from .archive import read_description, to_zip
-from .description import Terminal, terminals, to_bytes
+from .description import Terminals, terminals, to_bytes
 from .export import export_fmu
 
 if TYPE_CHECKING:
@@ -25,12 +25,22 @@ FILM = "film"
 """Name of the only film; of several each has the name of its station."""
 
 
-class Part(NamedTuple):
-    """An FMU of the system: its file, its variables by name, its terminals by name."""
+Connection = tuple[str, str, str, str]
+"""An output that goes into an input: component and variable of the one, then those of the other."""
 
+
+class Part(NamedTuple):
+    """An FMU of the system: its name, its file, its variables by name, its terminals by name."""
+
+    name: str
     content: bytes
     variables: dict[str, Any]
-    terminals: dict[str, Terminal]
+    terminals: Terminals
+
+    @property
+    def source(self) -> str:
+        """Path of the FMU in the archive."""
+        return f"resources/{self.name}.fmu"
 
 
 @arguments
@@ -127,11 +137,7 @@ def _part(name: str, file: Path) -> Part:
         for side in ("input", "output")
     }
     found = terminals(name, "", labels["input"], labels["output"])
-    return Part(
-        file.read_bytes(),
-        {variable.name: variable for variable in described},
-        {terminal.name: terminal for terminal in found},
-    )
+    return Part(name, file.read_bytes(), {variable.name: variable for variable in described}, found)
 
 
 def _connected(parts: Mapping[str, Part], station: str) -> list[Connection]:
@@ -139,26 +145,21 @@ def _connected(parts: Mapping[str, Part], station: str) -> list[Connection]:
     name = station or FILM
     rotor, film = parts[ROTOR].terminals.get(station or ROTOR), parts[name].terminals.get(name)
     given = {} if film is None else parts[name].variables
-    if film is None or any(given[label].causality == "input" for label in _forces(film)):
+    forces = [label for member, label in (film or {}).items() if member.startswith("force")]
+    if film is None or any(given[label].causality == "input" for label in forces):
         raise InputError(f"films must take the motion of a journal and give its force, got none in {name!r}")
     if rotor is None:
         stations = list(parts[ROTOR].terminals)
         raise InputError(f"rotor must have the station of each film, got {stations} without {name!r}")
-    missing = [member for member in film.members if member not in rotor.members]
+    missing = [member for member in film if member not in rotor]
     if missing:
-        raise InputError(
-            f"rotor must have the signals of {name!r}, got {list(rotor.members)} without {missing}"
-        )
+        raise InputError(f"rotor must have the signals of {name!r}, got {list(rotor)} without {missing}")
     return [
-        Connection(ROTOR, rotor.members[member], name, label)
-        if parts[name].variables[label].causality == "input"
-        else Connection(name, label, ROTOR, rotor.members[member])
-        for member, label in film.members.items()
+        (ROTOR, rotor[member], name, label)
+        if given[label].causality == "input"
+        else (name, label, ROTOR, rotor[member])
+        for member, label in film.items()
     ]
-
-
-def _forces(terminal: Terminal) -> list[str]:
-    return [label for member, label in terminal.members.items() if member.startswith("force")]
 
 
 def _contents(
@@ -167,21 +168,19 @@ def _contents(
     """Return the files of the archive by path."""
     joined = {(end, label) for link in connections for end, label in (link[:2], link[2:])}
     components = [
-        Component(
-            part,
-            f"resources/{part}.fmu",
-            tuple(
-                variable
-                for label, variable in parts[part].variables.items()
-                if (part, label) in joined or variable.causality == "parameter"
-            ),
+        part._replace(
+            variables={
+                label: variable
+                for label, variable in part.variables.items()
+                if (part.name, label) in joined or variable.causality == "parameter"
+            }
         )
-        for part in parts
+        for part in parts.values()
     ]
     return {
         "SystemStructure.ssd": system_structure(name, components, connections, stop_time),
         PARAMETERS: parameter_set(name, components),
-        **{component.source: parts[component.name].content for component in components},
+        **{part.source: part.content for part in components},
     }
 
 
@@ -196,34 +195,8 @@ NAMESPACES = {
 PARAMETERS = "resources/parameters.ssv"
 
 
-class Component(NamedTuple):
-    """An FMU of the system.
-
-    Attributes
-    ----------
-    name : str
-    source : str
-        Path of the FMU in the archive.
-    variables : tuple of fmpy variables
-        Inputs and outputs that are connected, and all parameters.
-    """
-
-    name: str
-    source: str
-    variables: tuple[Any, ...]
-
-
-class Connection(NamedTuple):
-    """An output of a component that goes into an input of another one: names of components and variables."""
-
-    start: str
-    output: str
-    end: str
-    input: str
-
-
 def system_structure(
-    name: str, components: Sequence[Component], connections: Sequence[Connection], stop_time: float
+    name: str, components: Sequence[Part], connections: Sequence[Connection], stop_time: float
 ) -> bytes:
     """Return SystemStructure.ssd.
 
@@ -231,7 +204,8 @@ def system_structure(
     ----------
     name : str
         Of the system.
-    components : sequence of Component
+    components : sequence of Part
+        With the variables that are connected, and all parameters.
     connections : sequence of Connection
     stop_time : float [s]
         Of the default experiment.
@@ -244,20 +218,20 @@ def system_structure(
     for component in components:
         _add_component(elements, component)
     parent = SubElement(system, "ssd:Connections")
+    ends = ("startElement", "startConnector", "endElement", "endConnector")
     for link in connections:
-        ends = {"startElement": link.start, "startConnector": link.output}
-        SubElement(parent, "ssd:Connection", {**ends, "endElement": link.end, "endConnector": link.input})
+        SubElement(parent, "ssd:Connection", dict(zip(ends, link, strict=True)))
     _add_units(SubElement(root, "ssd:Units"), components)
     SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=repr(stop_time))
     return to_bytes(root)
 
 
-def parameter_set(name: str, components: Sequence[Component]) -> bytes:
+def parameter_set(name: str, components: Sequence[Part]) -> bytes:
     """Return the values of all parameters, by `component.parameter`."""
     root = Element("ssv:ParameterSet", {**NAMESPACES, "version": VERSION, "name": name})
     parent = SubElement(root, "ssv:Parameters")
     for component in components:
-        for variable in component.variables:
+        for variable in component.variables.values():
             if variable.causality == "parameter":
                 parameter = SubElement(parent, "ssv:Parameter", name=f"{component.name}.{variable.name}")
                 SubElement(parameter, "ssv:Real", {"value": variable.start, **_unit(variable)})
@@ -265,17 +239,17 @@ def parameter_set(name: str, components: Sequence[Component]) -> bytes:
     return to_bytes(root)
 
 
-def _add_component(elements: Element, component: Component) -> None:
+def _add_component(elements: Element, component: Part) -> None:
     kind = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
     said = {"name": component.name, "source": component.source, **kind}
     connectors = SubElement(SubElement(elements, "ssd:Component", said), "ssd:Connectors")
-    for variable in component.variables:
+    for variable in component.variables.values():
         connector = SubElement(connectors, "ssd:Connector", name=variable.name, kind=variable.causality)
         SubElement(connector, "ssc:Real", _unit(variable))
 
 
-def _add_units(parent: Element, components: Sequence[Component]) -> None:
-    for name in sorted({v.unit for component in components for v in component.variables if v.unit}):
+def _add_units(parent: Element, components: Sequence[Part]) -> None:
+    for name in sorted({v.unit for component in components for v in component.variables.values() if v.unit}):
         unit = SubElement(parent, "ssc:Unit", name=name)
         powers = {base: str(power) for base, power in UNITS[name].exponents.items()}
         SubElement(unit, "ssc:BaseUnit", powers)

@@ -113,7 +113,7 @@ class BallKernel:
         self._waves = np.ascontiguousarray(waves, dtype=float)
         self._fixed = self.rows.ctypes.data, len(self.rows), growth, structure("rf_ball_law")(*law)
         self._balls = self._turned(0.0, 0.0)
-        self._held = _three(place), thrust or 0.0, damping, thrust is not None
+        self._held = (c_double * 3)(*place), thrust or 0.0, damping, thrust is not None
         self._journal = structure("rf_ball_journal")(self._balls, *self._held)
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
@@ -177,7 +177,3 @@ class BallKernel:
         arguments = byref(self._balls), load.ctypes.data, speed, held, *places, byref(steps)
         status = loops()["rf_balls_rest"](*arguments)
         return BallsRest(motion, steps.value, status)
-
-
-def _three(numbers: tuple[float, float, float]) -> Any:
-    return (c_double * 3)(*numbers)

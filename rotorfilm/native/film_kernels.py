@@ -332,21 +332,6 @@ class JournalKernel(ResponseKernel):
         super().__init__()
 
 
-class LobePlace(NamedTuple):
-    """Where a pad is.
-
-    Attributes
-    ----------
-    middle : float [rad]
-        Angle of the middle of its arc.
-    center : (float, float) [m]
-        Of its curvature.
-    """
-
-    middle: float
-    center: tuple[float, float]
-
-
 class LobesKernel(ResponseKernel):
     """The film force of fixed pads in SI units.
 
@@ -354,13 +339,15 @@ class LobesKernel(ResponseKernel):
     ----------
     films : sequence of JournalKernel
         Of each pad, in its own frame.
-    places : sequence of LobePlace
-        As many.
+    places : sequence of (float, (float, float))
+        As many: angle of the middle of its arc [rad], and center of its curvature [m].
     """
 
     function: ClassVar[str] = "rf_lobes_at"
 
-    def __init__(self, films: Sequence[JournalKernel], places: Sequence[LobePlace]) -> None:
+    def __init__(
+        self, films: Sequence[JournalKernel], places: Sequence[tuple[float, tuple[float, float]]]
+    ) -> None:
         self._arguments = (films, places)
         self._kept: list[Any] = [films]
         self.film = films[0].film

@@ -47,6 +47,8 @@ class LossKernel:
     """
 
     _function: ClassVar[str]
+    # No FMU at one viscosity needs those of openings: they are in the library of loops.
+    _library: ClassVar[staticmethod[[], dict[str, Any]]] = staticmethod(functions)
     _arguments: tuple[Any, ...] = ()
     struct: Any = None
     openings: ClassVar[bool] = False
@@ -62,11 +64,7 @@ class LossKernel:
     @property
     def address(self) -> int | None:
         """The address of its rf_loss."""
-        return cast(self._compiled(self._function), c_void_p).value
-
-    def _compiled(self, name: str) -> Any:
-        """Return a function; no FMU at one viscosity needs those of openings."""
-        return (loops() if self.openings else functions())[name]
+        return cast(self._library()[self._function], c_void_p).value
 
     def losses(self, eccentricity: Array, source: Array) -> LossBatch:
         """Return losses and slopes at the eccentricities and sources (2, n)."""
@@ -141,6 +139,7 @@ class GrooveLossKernel(LossKernel):
     """
 
     _function: ClassVar[str] = "rf_groove_losses"
+    _library = staticmethod(loops)
     openings: ClassVar[bool] = True
 
     def __init__(self, shear: Array, flows: Array, edges: Array, numbers: tuple[float, float, float]) -> None:
@@ -159,7 +158,7 @@ class GrooveLossKernel(LossKernel):
         e, along = (np.ascontiguousarray(rows, dtype=float) for rows in (eccentricity, rate))
         found = np.empty((2, self.struct.openings, e.shape[1]))
         places = [rows.ctypes.data for rows in (e, along, found)]
-        self._compiled("rf_groove_flows")(byref(self.struct), e.shape[1], *places)
+        loops()["rf_groove_flows"](byref(self.struct), e.shape[1], *places)
         return found
 
     @property

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from enum import IntEnum
 from functools import cache
 from textwrap import dedent
-from typing import NamedTuple
 
 import numpy as np
 
@@ -158,19 +157,8 @@ _PAGE = re.compile(r"/\* Documentation of the FMU\n(.*?)\*/", re.DOTALL)
 _HEADINGS = ["Model", "Equations", "Validity"]
 
 
-class KernelRow(NamedTuple):
-    """What the list says of a kernel.
-
-    Attributes
-    ----------
-    libraries : tuple of str
-        Of `libraries()`, those that have it, the smallest first.
-    picture : str
-        Name of the picture of its FMUs.
-    """
-
-    libraries: tuple[str, ...]
-    picture: str
+KernelRow = tuple[tuple[str, ...], str]
+"""What the list says of a kernel: those of `libraries()` with it, the smallest first, and its picture."""
 
 
 @cache
@@ -184,15 +172,15 @@ def kernel_table() -> dict[str, KernelRow]:
     """Return the rows by the name of the kernel."""
     rows = _ROW.findall(_source("kernel_list.h"))
     return {
-        name: KernelRow(tuple(bit.strip()[3:].lower() for bit in bits.split("|")), picture)
+        name: (tuple(bit.strip()[3:].lower() for bit in bits.split("|")), picture)
         for name, bits, picture in rows
     }
 
 
 def carried_library(spec: NativeSpec) -> str:
     """Return the library that an FMU of this kernel carries: the first that has those of its parts too."""
-    parts = [set(kernel_row(part).libraries) for part in spec.parts]
-    return next(name for name in kernel_row(spec.kernel).libraries if all(name in part for part in parts))
+    own, *parts = (kernel_row(kernel)[0] for kernel in (spec.kernel, *spec.parts))
+    return next(name for name in own if all(name in part for part in parts))
 
 
 def kernel_row(kernel: str) -> KernelRow:

@@ -6,7 +6,7 @@ import ctypes
 import re
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 FOLDER = Path(__file__).parent
 
@@ -22,40 +22,17 @@ _CONSTANT = re.compile(r"#define (RF_\w+) (\d+)\b")
 _ENUM = re.compile(r"enum \w*\s*\{([^}=]*)\}")
 
 
-class Declarations(NamedTuple):
-    """What all headers declare, as text, by name.
-
-    Attributes
-    ----------
-    structs : dict of str to str
-        Members of each structure.
-    functions : dict of str to (str, str, str)
-        Mark of the library that shows it, type of the answer and arguments.
-    addresses : frozenset of str
-        Types of functions.
-    constants : dict of str to int
-        Whole numbers that are defined, and members of enumerations that count from 0.
-    """
-
-    structs: dict[str, str]
-    functions: dict[str, tuple[str, str, str]]
-    addresses: frozenset[str]
-    constants: dict[str, int]
+@cache
+def headers() -> str:
+    """Return the headers beside this module without comments; all are read at once, on the first call."""
+    paths = [path for names in ("*.h", "*/*.h") for path in FOLDER.glob(names) if path.parent.name != "fmi"]
+    return _COMMENT.sub("", "\n".join(path.read_text(encoding="utf-8") for path in paths))
 
 
 @cache
-def declarations() -> Declarations:
-    """Return what the headers beside this module declare; all are read at once, on the first call."""
-    paths = [path for names in ("*.h", "*/*.h") for path in FOLDER.glob(names) if path.parent.name != "fmi"]
-    text = _COMMENT.sub("", "\n".join(path.read_text(encoding="utf-8") for path in paths))
-    members = [[name.strip() for name in found.split(",")] for found in _ENUM.findall(text)]
-    return Declarations(
-        dict(_STRUCT.findall(text)),
-        {name: (mark, answer, arguments) for mark, answer, name, arguments in _FUNCTION.findall(text)},
-        frozenset(_FUNCTION_TYPE.findall(text)),
-        {name: int(value) for name, value in _CONSTANT.findall(text)}
-        | {name: k for names in members for k, name in enumerate(names)},
-    )
+def declared() -> dict[str, str]:
+    """Return the members of all structures, as text."""
+    return dict(_STRUCT.findall(headers()))
 
 
 @cache
@@ -64,23 +41,32 @@ def structure(name: str) -> Any:
 
     Pointers, to functions too, are addresses, that is, whole numbers or None.
     """
-    members = [member.strip() for member in declarations().structs[name].split(";")]
+    members = [member.strip() for member in declared()[name].split(";")]
     fields = [field for member in members if member for field in _fields(member)]
     return type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
+@cache
 def constant(name: str) -> int:
     """Return a whole number that a header defines, or the place of a member in its enumeration."""
-    return declarations().constants[name]
+    members = [[member.strip() for member in found.split(",")] for found in _ENUM.findall(headers())]
+    places = {member: k for names in members for k, member in enumerate(names)}
+    return {**places, **{told: int(value) for told, value in _CONSTANT.findall(headers())}}[name]
 
 
 def prototypes(mark: str) -> dict[str, tuple[Any, list[Any]]]:
     """Return the types of the answer and of the arguments of all functions with a mark of `export.h`."""
     return {
         name: (_kind(answer), [_kind(argument) for argument in arguments.split(",")])
-        for name, (own, answer, arguments) in declarations().functions.items()
+        for own, answer, name, arguments in _FUNCTION.findall(headers())
         if own == mark
     }
+
+
+@cache
+def _functions() -> frozenset[str]:
+    """Return the names of the types of functions."""
+    return frozenset(_FUNCTION_TYPE.findall(headers()))
 
 
 def _fields(member: str) -> list[tuple[str, Any]]:
@@ -105,6 +91,6 @@ def _kind(declared: str) -> Any:
     kind = words[words[0] == "const"]
     if "*" in words:
         return ctypes.c_char_p if kind == "char" else ctypes.c_void_p
-    if kind in declarations().addresses:
+    if kind in _functions():
         return ctypes.c_void_p
     return None if kind == "void" else _NUMBERS.get(kind) or structure(kind)

@@ -30,7 +30,7 @@ from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, said
 from .lubricant_table import Lubricant, LubricantTable
-from .reading import Count, Keyed, Named, Quantity, Table, flag, made_from, one_of, takes
+from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
 
 MOST_BALLS = 200
 """Balls of a row: thin slewing rings have about so many."""
@@ -58,11 +58,11 @@ BALL_LAWS = {
 """Which law a number of the table belongs to."""
 
 
-@takes(Named(MATERIALS), Table(OWN_MATERIAL))
+@takes(MATERIALS, Table(OWN_MATERIAL))
 def read_material(where: str, value: Any) -> RollingMaterial:
     """Read the name of a material, or its properties."""
     if isinstance(value, str):
-        return Named(MATERIALS)(where, value)
+        return named(MATERIALS)(where, value)
     return Table(OWN_MATERIAL)(where, value)
 
 
@@ -143,7 +143,7 @@ class BallTable:
     arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
     distance: Annotated[float | None, Quantity("m")] = None
     preload: Annotated[float | None, Quantity("N")] = None
-    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, Named(INERTIAS)] = None
+    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, named(INERTIAS)] = None
     traction_coefficient: Annotated[float | None, Quantity("1")] = None
     slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
     outer_control: Annotated[bool | None, flag] = None

@@ -26,8 +26,7 @@ from ..cosim import (
     critical_macro_step,
 )
 from ..cosim.watch import quietly
-from ..rotors.jeffcott import JeffcottRotor
-from ..rotors.rigid import RigidRotor
+from ..rotors.rigid import JeffcottRotor, RigidRotor
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 
 # What couplings are compared on: the schemes by kind, and a rigid rotor at rest in its bearing.

@@ -126,7 +126,7 @@ def test_a_reset_begins_anew(film):
         for _ in range(2):
             fmu.start(motion(0))
             runs.append([values(fmu.get()), *(stepped(fmu, k) for k in range(1, 4))])
-            fmu._instance._fmu.reset()
+            fmu._instance.reset()
     np.testing.assert_array_equal(*runs)
 
 

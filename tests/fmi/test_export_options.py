@@ -54,9 +54,9 @@ def test_what_a_bearing_takes_its_rotor_gives(version, tmp_path):
 def test_each_station_of_a_rotor_has_a_terminal():
     motion = [f"{station}_{name}" for station in ("left", "right") for name in ("x", "y")]
     forces = [f"{station}_force_{axis}" for station in ("left", "right") for axis in "xy"]
-    left, right = terminals("rotor", "rotor", forces, [*motion, "speed"])
-    assert (left.name, right.name) == ("left", "right")
-    assert right.members == {
+    found = terminals("rotor", "rotor", forces, [*motion, "speed"])
+    assert list(found) == ["left", "right"]
+    assert found["right"] == {
         "x": "rotor.right_x",
         "y": "rotor.right_y",
         "speed": "rotor.speed",
@@ -64,15 +64,15 @@ def test_each_station_of_a_rotor_has_a_terminal():
         "force_y": "rotor.right_force_y",
     }
     # Neither a rotor with its bearings inside nor a force alone is a side of a journal.
-    assert terminals("system", "system", [], [*motion, *forces]) == ()
-    assert terminals("load", "load", ["force_x", "force_y"], ["power"]) == ()
+    assert terminals("system", "system", [], [*motion, *forces]) == {}
+    assert terminals("load", "load", ["force_x", "force_y"], ["power"]) == {}
 
 
 def test_a_damper_has_no_speed_a_contact_one_axis_and_a_control_system_no_terminal(tmp_path):
-    [damper] = terminals("damper", "damper", ["x", "y", "vx", "vy"], ["force_x", "force_y"])
-    assert list(damper.members) == [name for name in JOURNAL if name != "speed"]
-    [contact] = terminals("ball", "", ["z"], ["force_z"])
-    assert contact == ("ball", {"z": "z", "force_z": "force_z"})
+    damper = terminals("damper", "damper", ["x", "y", "vx", "vy"], ["force_x", "force_y"])["damper"]
+    assert list(damper) == [name for name in JOURNAL if name != "speed"]
+    contact = terminals("ball", "", ["z"], ["force_z"])
+    assert contact == {"ball": {"z": "z", "force_z": "force_z"}}
     path = export_fmu(control.ss(-1.0, 1.0, 1.0, 0.0), tmp_path / "lag.fmu")
     with zipfile.ZipFile(path) as archive:
         assert FILE not in archive.namelist()

@@ -7,8 +7,7 @@ from importlib.resources import files
 import pytest
 
 from rotorfilm.core.errors import FmuError
-from rotorfilm.fmu.binaries import require_whole
-from rotorfilm.fmu.native.platforms import universal
+from rotorfilm.fmu.native.platforms import require_whole, universal
 
 SHIPPED = files("pythonfmu").joinpath("resources", "binaries")
 

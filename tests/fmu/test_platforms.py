@@ -56,7 +56,7 @@ def test_a_library_is_compiled_once_for_each_source(monkeypatch, tmp_path):
 
     monkeypatch.setattr(platforms, "find_spec", lambda name: True)
     monkeypatch.setattr(platforms, "version", lambda name: "1")
-    monkeypatch.setattr(platforms, "_cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(platforms, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", run)
     target, sources = platforms.TARGETS[0], {"a.c": b"int a;", "sub/b.h": b""}
     assert [platforms.compiled(target, sources, "rotorfilm") for _ in range(2)] == [b"library"] * 2
@@ -74,7 +74,7 @@ def test_what_the_compiler_says_is_told(monkeypatch, tmp_path):
     failed = subprocess.CompletedProcess([], 1, "", "a.c:1: error: no")
     monkeypatch.setattr(platforms, "find_spec", lambda name: True)
     monkeypatch.setattr(platforms, "version", lambda name: "1")
-    monkeypatch.setattr(platforms, "_cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(platforms, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", lambda *arguments, **options: failed)
     with pytest.raises(FmuError, match=r"zig must compile the library for x86_64-linux, got: a\.c:1: error"):
         platforms.compiled(platforms.TARGETS[0], {"a.c": b""}, "rotorfilm")

@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
 from rotorfilm.bearings.bush.bearing import Friction
+from rotorfilm.bearings.bush.bush_reaction import LocalMelting, SharedMelting
 from rotorfilm.bearings.bush.melting import ContactBalance, GlobalBalance
-from rotorfilm.bearings.bush.worn_profile import LocalMelting, SharedMelting
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"

@@ -24,7 +24,7 @@ from rotorfilm import (
     f4k20_bush,
     pressure_dam_pads,
 )
-from rotorfilm.bearings.bush.worn_profile import LocalMelting
+from rotorfilm.bearings.bush.bush_reaction import LocalMelting
 from rotorfilm.fmu.reference import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME

@@ -13,7 +13,7 @@ from rotorfilm.cosim.slaves import Call
 from rotorfilm.native.ball_kernel import ROW, WAVE
 from rotorfilm.native.library import FOLDER
 from rotorfilm.native.pad_kernels import REST
-from rotorfilm.native.structs import constant, declarations, structure
+from rotorfilm.native.structs import constant, declared, structure
 
 SOURCES = [path.read_text(encoding="utf-8") for path in Path(rotorfilm.__file__).parent.rglob("*.py")]
 NAMES = sorted({name for text in SOURCES for name in re.findall(r'structure\("(\w+)"\)', text)})
@@ -81,4 +81,4 @@ def test_names_of_structures_are_told_once():
     texts = [path.read_text(encoding="utf-8") for path in FOLDER.rglob("*.h")]
     told = [name for text in texts for name in re.findall(r"typedef struct (\w+) \{", text)]
     assert len(told) == len(set(told))
-    assert set(declarations().structs) <= set(told)
+    assert set(declared()) <= set(told)

@@ -18,8 +18,7 @@ from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.main import main
 from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import demo as demo_module
-from rotorfilm.scenes.demo import plain_results, run_demo
-from rotorfilm.scenes.solve_journal import running_bearing
+from rotorfilm.scenes.demo import plain_results, run_demo, running_bearing
 
 FILES = {
     "film.fmu",

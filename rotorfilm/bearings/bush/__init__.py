@@ -13,7 +13,12 @@ if TYPE_CHECKING:
         MeltingBush as MeltingBush,
         ShaftMaterial as ShaftMaterial,
     )
-    from .bush_reaction import BushReaction as BushReaction
+    from .bush_reaction import (
+        BushReaction as BushReaction,
+        LocalMelting as LocalMelting,
+        MeltingRule,
+        SharedMelting as SharedMelting,
+    )
     from .bush_wear import BushWear as BushWear
     from .contact_arc import arc_angle, mean_weight, peak_weight
     from .melting import (
@@ -40,6 +45,5 @@ if TYPE_CHECKING:
         wear_by_one_moment,
         wear_by_two_moments,
     )
-    from .worn_profile import LocalMelting as LocalMelting, MeltingRule, SharedMelting as SharedMelting
 else:
     show(__name__)

@@ -25,8 +25,9 @@ from ...core.errors import (
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.readable import Readable
+from ...native.spec import NativeParameter
 from . import contact_arc as contact
-from .melting import ContactBalance, ExactShaft, HeatBalance, MeltingLaw, ShaftHeat
+from .melting import ContactBalance, ExactShaft, GlobalBalance, HeatBalance, MeltingLaw, ShaftHeat
 
 # What a polymer bush is made of: geometry, liner, shaft, and friction that depends on temperature.
 
@@ -451,3 +452,91 @@ class MeltingBush:
 
     def _temperature(self, temperature: ArrayLike | None) -> Array:
         return require_finite("temperature", self.liner.melting_point if temperature is None else temperature)
+
+
+# The numbers of a bush that kernels of the C library read (`native/bushes/bush.h`), and its typical signals.
+
+
+NOT_NEGATIVE = {"outer_swing", "melting_heat", "retardation"}
+"""Parameters that have a lower bound."""
+
+
+def has_kernel(bush: MeltingBush) -> bool:
+    """Return whether the C library knows the heat balance of a bush."""
+    return type(bush.balance) in (ContactBalance, GlobalBalance)
+
+
+def bush_table(bush: MeltingBush) -> Array:
+    """Return the numbers that are fixed, in the order of `rf_bush_numbers`."""
+    law, geometry = bush.law, bush.geometry
+    return np.array(
+        [
+            law.clearance,
+            law.closing,
+            law.compliance,
+            law.pressure_work,
+            law.shaft,
+            law.liner,
+            law.melting,
+            float(isinstance(bush.balance, GlobalBalance)),
+            geometry.radius,
+            geometry.shaft_radius,
+            geometry.outer_radius - geometry.radius,
+            bush.force_unit,
+            bush.liner.shear_modulus,
+        ]
+    )
+
+
+def bush_parameters(bush: MeltingBush, melting_heat: float) -> tuple[NativeParameter, ...]:
+    """Return friction, outer temperature and melting heat [J/m3], all tunable, in the order of bush.h."""
+    friction = bush.friction
+    rows = (
+        ("f0", "1", friction.f0, 0.1, "coefficient of friction f0 + f1 T + f2 T^2, at ambient temperature"),
+        ("f1", "1/K", friction.f1, 1e-4, "its part linear in the temperature above ambient"),
+        ("f2", "1/K2", friction.f2, 1e-7, "its part quadratic in the temperature"),
+        ("outer_mean", "K", bush.outer_mean, 100.0, "mean temperature of the outer surface above ambient"),
+        ("outer_swing", "K", bush.outer_swing, 1.0, "by how much it is warmer on the load line"),
+        ("melting_heat", "J/m3", melting_heat, melting_heat, "heat that melts a unit of volume"),
+    )
+    return tunable(rows)
+
+
+def tunable(rows: tuple[tuple[str, str, float, float, str], ...]) -> tuple[NativeParameter, ...]:
+    """Return parameters of rows (name, unit, value, nominal value, description)."""
+    return tuple(
+        NativeParameter(
+            name=name,
+            unit=unit,
+            value=float(value),
+            tunable=True,
+            minimum=0.0 if name in NOT_NEGATIVE else -np.inf,
+            nominal=float(nominal),
+            description=description,
+        )
+        for name, unit, value, nominal, description in rows
+    )
+
+
+# The signals of bushes that wear, and their typical magnitudes.
+
+
+NOMINAL_LOAD = 1e-2
+"""Typical load in units of `MeltingBush.force_unit`."""
+
+NOMINAL_PRESSURE = 4e-2
+"""Typical largest contact pressure in shear moduli."""
+
+NOMINAL_SPEED = 10.0
+"""Typical angular speed [rad/s]."""
+
+
+def nominal_depth(bush: MeltingBush) -> float:
+    """Return a typical depth of the shaft in the liner [m]."""
+    return bush.geometry.radius * bush.compliance * NOMINAL_PRESSURE
+
+
+def torque_row(bush: MeltingBush, friction: float) -> tuple[str, str, float, str]:
+    """Return the row of the signal of the friction torque."""
+    unit = NOMINAL_LOAD * bush.force_unit * bush.geometry.shaft_radius
+    return "friction_torque", "N.m", friction * unit, "torque about +z that keeps the shaft turning"

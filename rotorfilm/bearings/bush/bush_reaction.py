@@ -1,11 +1,19 @@
-"""A bush with a worn profile: displacement of the shaft in, force and friction torque out."""
+"""A bush with a worn profile: displacement of the shaft in, force and friction torque out.
+
+The contact of a shaft with a liner whose worn profile is given at nodes, and how melting wears it. The liner
+yields a_1 q = d at the depth d of the shaft in it, where d > 0, and carries nothing elsewhere (Evtushenko &
+Kovalenko 1993, (1.4), (1.13)). Between neighboring nodes d is linear; its positive part is integrated exactly
+against the nodes' hat functions, so that loads and stiffness are continuous while the ends of the contact
+pass from node to node. Second order in the distance of the nodes. Lengths are in units of the liner radius,
+pressures in the shear modulus; nodes come first, batch axes trail.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,24 +34,241 @@ from ...core.errors import (
 )
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
-from ...core.signals import Signal
+from ...core.signals import Signal, force_outputs, journal_inputs, signals_of
 from ...native.spec import NativeSpec
 from ..reaction import Called, broadcast_state
-from . import worn_profile as profile
-from .bearing import MeltingBush
-from .bush_kernel import has_kernel, moved_inputs, profile_outputs, profile_states, reaction_spec
-from .worn_profile import (
-    HeatState,
-    LocalMelting,
-    Melting,
-    MeltingRule,
-    Nodes,
-    Pressed,
-    SharedMelting,
-    arc_nodes,
-    press,
-    times_stiffness,
+from .bearing import (
+    NOMINAL_LOAD,
+    NOMINAL_PRESSURE,
+    NOMINAL_SPEED,
+    MeltingBush,
+    bush_parameters,
+    bush_table,
+    has_kernel,
+    nominal_depth,
+    torque_row,
+    tunable,
 )
+
+FULL_TURN = 2.0 * math.pi
+
+
+class Nodes(NamedTuple):
+    """Nodes at equal distances along an arc of the liner.
+
+    Attributes
+    ----------
+    normal, tangent : ndarray, shape (2, n)
+        Unit vectors from the bearing center to the nodes, and a quarter turn ahead in the sense of +z.
+    weight : ndarray, shape (n,) [rad]
+        Angle that belongs to each node.
+    step : float [rad]
+        Distance of neighboring nodes.
+    closed : bool
+        Whether the arc is the full circle, so that the last node is next to the first.
+    """
+
+    normal: Array
+    tangent: Array
+    weight: Array
+    step: float
+    closed: bool
+
+
+class Pressed(NamedTuple):
+    """The contact at given depths.
+
+    Attributes
+    ----------
+    load : ndarray, shape (n, ...) [rad]
+        Integral of d against the hat function of each node; load / (a_1 weight) is the nodal pressure.
+    diagonal, beside : ndarray, shapes (n, ...) and (elements, ...) [rad]
+        d(load)/d(depth): its diagonal, and its entries for the two nodes of each element.
+    angle : ndarray, shape (...) [rad]
+        Half the angle in contact.
+    """
+
+    load: Array
+    diagonal: Array
+    beside: Array
+    angle: Array
+
+
+def arc_nodes(count: int, center: float, extent: float) -> Nodes:
+    """Return `count` nodes on the arc of width `extent` <= 2 pi about `center` [rad]."""
+    closed = extent >= FULL_TURN
+    step = extent / (count if closed else count - 1)
+    theta = center - 0.5 * extent + step * np.arange(count)
+    weight = np.full(count, step)
+    if not closed:
+        weight[[0, -1]] *= 0.5
+    cos, sin = np.cos(theta), np.sin(theta)
+    return Nodes(np.stack([cos, sin]), np.stack([-sin, cos]), weight, step, closed)
+
+
+def press(nodes: Nodes, depth: Array) -> Pressed:
+    """Return the contact at the depths (n, ...) of the shaft in the unstressed liner."""
+    left, right = _ends(nodes, depth)
+    high, low = np.maximum(left, right), np.minimum(left, right)
+    part = _part(high, low)
+    # Integrals over the part s = 0 ... part in contact of (1 - s)^2, s (1 - s) and s^2.
+    near, cross, far = part - part**2 + part**3 / 3.0, part**2 / 2.0 - part**3 / 3.0, part**3 / 3.0
+    swap = right > left
+    first, second = np.where(swap, far, near), np.where(swap, near, far)
+    diagonal = nodes.step * _gather(nodes, first, second)
+    beside = nodes.step * cross
+    load = diagonal * depth + _gather(nodes, beside * right, beside * left)
+    return Pressed(load, diagonal, beside, 0.5 * nodes.step * part.sum(axis=0))
+
+
+def angle_slope(nodes: Nodes, depth: Array) -> Array:
+    """Return d(half the angle in contact)/d(depth), shape (n, ...) [rad]."""
+    left, right = _ends(nodes, depth)
+    high, low = np.maximum(left, right), np.minimum(left, right)
+    part = _part(high, low)
+    partial = (high > 0.0) & (low < 0.0)
+    scale = 0.5 * nodes.step * partial / np.where(partial, high, 1.0)
+    near, far = scale * part * (1.0 - part), scale * part**2
+    swap = right > left
+    return _gather(nodes, np.where(swap, far, near), np.where(swap, near, far))
+
+
+def times_stiffness(nodes: Nodes, pressed: Pressed, change: Array) -> Array:
+    """Return d(load)/d(depth) applied to changes of depth, shape (n, ...)."""
+    left, right = _ends(nodes, change)
+    beside = pressed.beside.reshape(pressed.beside.shape + (1,) * (change.ndim - pressed.beside.ndim))
+    diagonal = pressed.diagonal.reshape(pressed.diagonal.shape + (1,) * (change.ndim - pressed.diagonal.ndim))
+    return diagonal * change + _gather(nodes, beside * right, beside * left)
+
+
+def _part(high: Array, low: Array) -> Array:
+    """Return the part of each element that is in contact."""
+    crossing = (high > 0.0) & (low < 0.0)
+    return np.where(crossing, high / np.where(crossing, high - low, 1.0), high > 0.0)
+
+
+def _ends(nodes: Nodes, values: Array) -> tuple[Array, Array]:
+    """Return the values at both ends of each element."""
+    return (values, np.roll(values, -1, axis=0)) if nodes.closed else (values[:-1], values[1:])
+
+
+def _gather(nodes: Nodes, left: Array, right: Array) -> Array:
+    """Return the sums at the nodes of what the elements give to their left and right ends."""
+    if nodes.closed:
+        return left + np.roll(right, 1, axis=0)
+    total = np.zeros((len(left) + 1, *left.shape[1:]))
+    total[:-1] += left
+    total[1:] += right
+    return total
+
+
+class Melting(NamedTuple):
+    """Heat that melts the liner at each node, per contact area, and its derivatives.
+
+    Attributes
+    ----------
+    heat : ndarray, shape (n,) [W/m2]
+    by_pressure : ndarray, shape (n,)
+        By the pressure of the node itself.
+    by_total, by_angle, by_work : ndarray, shape (n,)
+        By the integral of the pressure, half the contact angle, and the friction work per pressure.
+    """
+
+    heat: Array
+    by_pressure: Array
+    by_total: Array
+    by_angle: Array
+    by_work: Array
+
+
+class HeatState(NamedTuple):
+    """What the melting of a profile depends on.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (n,)
+        In shear moduli.
+    total, angle : float [rad]
+        Integral of the pressure over the angle; half the angle in contact.
+    work : float [W/m2]
+        Friction heat per contact area at unit pressure.
+    losses, losses_slope : float [W/m2], [W/(m2 rad)]
+        Heat that shaft and liner take per contact area, and its derivative by `angle`.
+    """
+
+    pressure: Array
+    total: float
+    angle: float
+    work: float
+    losses: float
+    losses_slope: float
+
+
+@runtime_checkable
+class MeltingRule(Protocol):
+    """How the heat that is left for melting is spread over the contact."""
+
+    def melting(self, at: HeatState) -> Melting:
+        """Return the melting heat at the nodes and its derivatives."""
+
+    def margins(self, at: HeatState) -> Array:
+        """Return the switching functions of the rule: melting where they are positive."""
+
+
+@dataclass(frozen=True)
+class SharedMelting:
+    """The contact melts when its whole friction heat exceeds its whole losses, in proportion to pressure.
+
+    The balance of (2.16), hence the same critical speed; heat is conserved in total, and no point melts
+    before it is in contact. Under a load that grows this is `BushWear` with the true pressure.
+    """
+
+    def melting(self, at: HeatState) -> Melting:
+        """Return the melting heat at the nodes and its derivatives."""
+        if self.margins(at)[0] <= 0.0:
+            return Melting(*np.zeros((5, *at.pressure.shape)))
+        lost = 2.0 * at.angle * at.losses / at.total
+        lost_slope = 2.0 * (at.losses + at.angle * at.losses_slope) / at.total
+        kept = np.full(at.pressure.shape, at.work - lost)
+        return Melting(
+            heat=at.pressure * kept,
+            by_pressure=kept,
+            by_total=at.pressure * lost / at.total,
+            by_angle=-at.pressure * lost_slope,
+            by_work=at.pressure,
+        )
+
+    def margins(self, at: HeatState) -> Array:
+        """Return total friction heat less total losses [W rad/m2], shape (1,)."""
+        return np.array([at.work * at.total - 2.0 * at.angle * at.losses])
+
+
+@dataclass(frozen=True)
+class LocalMelting:
+    """Each point melts when its own friction heat exceeds the mean losses (3.1), clamped at zero.
+
+    Points that do not melt are held at the melting point for nothing, so heat is not conserved there; melting
+    begins below the critical speed (2.16), at two thirds of it for a small contact.
+    """
+
+    def melting(self, at: HeatState) -> Melting:
+        """Return the melting heat at the nodes and its derivatives."""
+        margin = self.margins(at)
+        active = (margin > 0.0).astype(float)
+        return Melting(
+            heat=np.maximum(margin, 0.0),
+            by_pressure=active * at.work,
+            by_total=np.zeros_like(margin),
+            by_angle=-active * at.losses_slope,
+            by_work=active * at.pressure,
+        )
+
+    def margins(self, at: HeatState) -> Array:
+        """Return friction heat less losses at each node [W/m2], shape (n,)."""
+        return at.work * at.pressure - at.losses
+
+
+# A bush with a worn profile: displacement of the shaft in, force and friction torque out.
 
 
 @quantities
@@ -106,7 +331,7 @@ class BushReaction(Called):
             raise InputError(f"nodes must be an integer of at least 8, got {self.nodes!r}")
         require_number("center", self.center)
         require_positive("extent", self.extent)
-        if self.extent > profile.FULL_TURN:
+        if self.extent > FULL_TURN:
             raise InputError(f"extent must not exceed 2 pi, got {self.extent!r}")
         require_kind("melting", self.melting, MeltingRule, "SharedMelting() or LocalMelting()")
         require_non_negative("retardation", self.retardation)
@@ -128,17 +353,25 @@ class BushReaction(Called):
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
-        return moved_inputs(self.bush)
+        return journal_inputs(nominal_depth(self.bush), NOMINAL_SPEED)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y, friction_torque, contact_angle, maximum_pressure."""
-        return profile_outputs(self.bush, self._liner.friction)
+        bush = self.bush
+        pressure = NOMINAL_PRESSURE * bush.liner.shear_modulus
+        rows = signals_of(
+            torque_row(bush, self._liner.friction),
+            ("contact_angle", "rad", 0.1, "half the angle in contact"),
+            ("maximum_pressure", "Pa", pressure, "largest contact pressure at a node"),
+        )
+        return (*force_outputs(NOMINAL_LOAD * bush.force_unit), *rows)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signals wear_0, wear_1, ...: wear depths at the nodes [m]."""
-        return profile_states(self.bush, self.nodes)
+        depth = nominal_depth(self.bush)
+        return signals_of(*((f"wear_{i}", "m", depth, f"wear depth at node {i}") for i in range(self.nodes)))
 
     @property
     def initial_state(self) -> Array:
@@ -157,8 +390,17 @@ class BushReaction(Called):
             return None
         flags = isinstance(self.melting, LocalMelting), self.temperature is not None
         numbers = [self.nodes, self.center, self.extent, *map(float, flags)]
-        held = self._liner.temperature
-        return reaction_spec(self.bush, self.melting_heat, self.retardation, held, numbers)
+        held, most = self._liner.temperature, self.bush.liner.melting_point
+        late = "retardation time of the liner as a Kelvin-Voigt solid"
+        rows = (
+            ("retardation", "s", self.retardation, 1e-3, late),
+            ("temperature", "K", held, most, "temperature at which the contact is held, above ambient"),
+        )
+        return NativeSpec(
+            kernel="bush_reaction",
+            parameters=(*bush_parameters(self.bush, self.melting_heat), *tunable(rows)),
+            tables={"bush": bush_table(self.bush), "profile": np.array(numbers, dtype=float)},
+        )
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal, shape (2, ...) [N], with the wear at t = 0.
@@ -212,7 +454,7 @@ class BushReaction(Called):
         """
         wear, values = self._point(x, u)
         depth = self._liner.depth(values[:2], values[2:4], wear)
-        margins = self._liner.margins(profile.press(self._liner.nodes, depth), values[4])
+        margins = self._liner.margins(press(self._liner.nodes, depth), values[4])
         return np.concatenate([depth, margins, values[4:]])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
@@ -221,8 +463,8 @@ class BushReaction(Called):
         depth = self._liner.depth(values[:2], values[2:4], wear)
         # d(depth)/d(wear, x, y): the rest of the model follows from the depth.
         by_depth = np.hstack([-np.eye(self.nodes), self._liner.nodes.normal.T]) / self.bush.geometry.radius
-        loads = profile.times_stiffness(self._liner.nodes, pressed, by_depth) / self.bush.compliance
-        angle = profile.angle_slope(self._liner.nodes, depth) @ by_depth
+        loads = times_stiffness(self._liner.nodes, pressed, by_depth) / self.bush.compliance
+        angle = angle_slope(self._liner.nodes, depth) @ by_depth
         rates, by_speed = self._liner.rate_slopes(pressed, loads, angle, values[4])
         top = int(np.argmax(depth))
         peak = by_depth[top] * (self.bush.liner.shear_modulus / self.bush.compliance * (depth[top] > 0.0))
@@ -296,10 +538,7 @@ class BushReaction(Called):
 
     @cached_property
     def _liner(self) -> HeldLiner:
-        arc = NodeArc(self.nodes, self.center, self.extent)
-        melting = Melt(self.melting, self.melting_heat, warns=self.temperature is None)
-        held = self.bush.liner.melting_point if self.temperature is None else float(self.temperature)
-        return HeldLiner(self.bush, arc, held, float(self.retardation), melting)
+        return HeldLiner(self)
 
     def _pressed(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array, Pressed]:
         wear, values = self._point(x, u)
@@ -325,69 +564,30 @@ COVERED_TO = 0.05
 """Share of the losses by which friction heat may fall short without a word."""
 
 
-class NodeArc(NamedTuple):
-    """Where the nodes are.
-
-    Attributes
-    ----------
-    number : int
-    center, extent : float [rad]
-        Middle and width of their arc, from +x towards +y.
-    """
-
-    number: int
-    center: float
-    extent: float
-
-
-class Melt(NamedTuple):
-    """How the liner melts.
-
-    Attributes
-    ----------
-    rule : MeltingRule
-    heat : float [J/m3]
-        That melts a unit of volume.
-    warns : bool
-        Whether a worn contact that is held at the melting point for nothing warns.
-    """
-
-    rule: MeltingRule
-    heat: float
-    warns: bool
-
-
 class HeldLiner:
-    """What `BushReaction` computes with: the numbers of a bush at one contact temperature.
+    """What a `BushReaction` computes with: the numbers of its bush at one contact temperature.
 
     Parameters
     ----------
-    bush : MeltingBush
-    arc : NodeArc
-        Of the nodes.
-    temperature : float [K]
-        Of the contact, above ambient.
-    retardation : float [s]
-        Of the liner as a Kelvin-Voigt solid.
-    melting : Melt
+    reaction : BushReaction
     """
 
-    def __init__(
-        self, bush: MeltingBush, arc: NodeArc, temperature: float, retardation: float, melting: Melt
-    ) -> None:
-        self.bush, self.arc, self.temperature, self.retardation = bush, arc, temperature, retardation
-        self.melting = melting
+    def __init__(self, reaction: BushReaction) -> None:
+        bush, held = reaction.bush, reaction.temperature
+        self.reaction, self.bush, self.rule = reaction, bush, reaction.melting
+        self.temperature = bush.liner.melting_point if held is None else float(held)
+        self.retardation = float(reaction.retardation)
         self.radius = bush.geometry.radius
         self.clearance = bush.geometry.outer_radius - bush.geometry.shaft_radius
-        self.friction = float(bush.friction.at(temperature))
-        self.gap = float(bush.gap(temperature))
+        self.friction = float(bush.friction.at(self.temperature))
+        self.gap = float(bush.gap(self.temperature))
         self.unit = bush.force_unit / bush.compliance
         """Force [N] of a unit of the integral of d over the angle."""
 
     @cached_property
     def nodes(self) -> Nodes:
         """The nodes of the profile."""
-        return arc_nodes(*self.arc)
+        return arc_nodes(self.reaction.nodes, self.reaction.center, self.reaction.extent)
 
     def depth(self, position: Array, velocity: Array, wear: Array) -> Array:
         """Return the depth of the shaft in the liner at the nodes, shape (n, ...), per radius."""
@@ -404,7 +604,7 @@ class HeldLiner:
 
     def _require_on_arc(self, moved: Array, depth: Array) -> None:
         """Raise unless the contact of a shaft at `moved` ends within the arc of nodes."""
-        _, center, extent = self.arc
+        center, extent = self.reaction.center, self.reaction.extent
         reach = np.hypot(*moved)
         along = math.cos(center) * moved[0] + math.sin(center) * moved[1]
         beside = along < reach * math.cos(0.5 * extent)
@@ -479,13 +679,13 @@ class HeldLiner:
 
     def margins(self, pressed: Pressed, speed: float) -> Array:
         """Return the switching functions of melting."""
-        return self.melting.rule.margins(self.heat_state(pressed, speed))
+        return self.rule.margins(self.heat_state(pressed, speed))
 
     def melted(self, pressed: Pressed, speed: float) -> Melting:
         """Return the heat that melts the liner: none below the melting point."""
         if self.temperature < self.bush.liner.melting_point:
-            return Melting(*np.zeros((5, self.arc.number)))
-        return self.melting.rule.melting(self.heat_state(pressed, speed))
+            return Melting(*np.zeros((5, self.reaction.nodes)))
+        return self.rule.melting(self.heat_state(pressed, speed))
 
     def rate_slopes(self, pressed: Pressed, loads: Array, angle: Array, speed: float) -> tuple[Array, Array]:
         """Return d(rate of wear) for changes of loads (n, m) and angle (m,), and by the speed (n,)."""
@@ -493,13 +693,14 @@ class HeldLiner:
         rates = (by.by_pressure / self.nodes.weight)[:, None] * loads
         rates += np.outer(by.by_total, loads.sum(axis=0)) + np.outer(by.by_angle, angle)
         work = self.bush.law.pressure_work * self.friction * math.copysign(1.0, speed)
-        return rates / self.melting.heat, by.by_work * work / self.melting.heat
+        heat = self.reaction.melting_heat
+        return rates / heat, by.by_work * work / heat
 
     def require_heat(self, wear: Array, pressed: Pressed, speed: float) -> None:
         """Warn of a worn contact that is held at the melting point for nothing."""
-        if not self.melting.warns or not wear.max() > 0.0 or not pressed.angle > 0.0:
+        if self.reaction.temperature is not None or not wear.max() > 0.0 or not pressed.angle > 0.0:
             return
-        at, rule = self.heat_state(pressed, speed), self.melting.rule
+        at, rule = self.heat_state(pressed, speed), self.rule
         lost = -rule.margins(at._replace(work=0.0)).max()
         if rule.margins(at).max() < -COVERED_TO * lost:
             # Without the number: Python tells a text once for each line of the user.

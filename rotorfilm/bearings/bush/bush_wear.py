@@ -20,11 +20,18 @@ from ...core.errors import (
 )
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
-from ...core.signals import Signal
+from ...core.signals import Signal, signals_of
 from ...native.spec import NativeSpec
 from . import contact_arc as arc
-from .bearing import MeltingBush
-from .bush_kernel import bush_parameters, bush_table, has_kernel, load_inputs, moment_outputs
+from .bearing import (
+    NOMINAL_LOAD,
+    NOMINAL_SPEED,
+    MeltingBush,
+    bush_parameters,
+    bush_table,
+    has_kernel,
+    torque_row,
+)
 from .melting import MeltingContact, MeltingLaw
 
 COOLED = 0.02
@@ -76,17 +83,31 @@ class BushWear:
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals load, speed."""
-        return load_inputs(self.bush)
+        return signals_of(
+            ("load", "N", NOMINAL_LOAD * self.bush.force_unit, "radial load, not negative"),
+            ("speed", "rad/s", NOMINAL_SPEED, "angular speed about +z"),
+        )
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Contact angle, settlement, temperature, pressure, friction torque, melt rate and speed ratio."""
-        return moment_outputs(self.bush, self.melting_heat)
+        bush = self.bush
+        depth, pressure = bush.geometry.radius * bush.clearance_ratio, NOMINAL_LOAD * bush.liner.shear_modulus
+        rate = bush.law.losses(0.1) / self.melting_heat
+        return signals_of(
+            ("contact_angle", "rad", 0.1, "half the contact angle"),
+            ("settlement", "m", depth, "displacement of the shaft beyond the clearance"),
+            ("temperature", "K", bush.liner.melting_point, "contact temperature above ambient"),
+            ("maximum_pressure", "Pa", pressure, "pressure on the load line"),
+            torque_row(bush, float(bush.friction.at(bush.liner.melting_point))),
+            ("melt_rate", "m/s", rate, "mean rate of wear over the contact"),
+            ("speed_ratio", "1", 1.0, "speed / critical speed at the present contact angle"),
+        )
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signal wear: the wear moment W."""
-        return (Signal(name="wear", unit="1", nominal=1e-3, description="wear moment of the contact"),)
+        return signals_of(("wear", "1", 1e-3, "wear moment of the contact"))
 
     @property
     def initial_state(self) -> Array:

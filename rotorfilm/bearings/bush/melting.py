@@ -29,20 +29,12 @@ COOLING_LIMIT = 0.3
 """Largest kappa_1 R_1/lambda_1 that the source has its closed form in mind for."""
 
 
-@runtime_checkable
-class ShaftHeat(Protocol):
-    """How the mean flux Q_1 into the shaft is computed."""
-
-    def flux(self, cooling: float, stubbiness: float) -> float:
-        """Return Q_1 in units of lambda_1 T_*/R_1; cooling = kappa_1 R_1/lambda_1, stubbiness = R_1/l."""
-
-
 @dataclass(frozen=True)
 class ExactShaft:
     """Q_1 from the mixed problem (2.7)-(2.8) itself, to 1e-7."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
-        """Return Q_1 in units of lambda_1 T_*/R_1."""
+        """Return Q_1 in units of lambda_1 T_*/R_1; cooling = kappa_1 R_1/lambda_1, stubbiness = R_1/l."""
         return exact_flux(cooling, stubbiness)
 
 
@@ -58,6 +50,10 @@ class ApproximateShaft:
                 f"ApproximateShaft, got {cooling:.6g}: the heat into the shaft is too high",
             )
         return approximate_flux(cooling, stubbiness)
+
+
+ShaftHeat = ExactShaft | ApproximateShaft
+"""How the mean flux Q_1 into the shaft is computed."""
 
 
 @runtime_checkable
@@ -351,11 +347,11 @@ def exact_flux(cooling: float, stubbiness: float) -> float:
     stubbiness : float
         mu = R_1/l, positive.
     """
-    nodes = _nodes()
-    u = stubbiness * nodes.v
+    v, weights, bessel = _nodes()
+    u = stubbiness * v
     kernel = stubbiness * i0e(u) / (u * i1e(u) + cooling * i0e(u))
-    rest = (nodes.bessel * (nodes.weights * (kernel - 1.0 / nodes.v))) @ nodes.bessel.T
-    rest[0, 0] += nodes.weights @ (np.exp(-nodes.v) / nodes.v) + math.log(2.0)
+    rest = (bessel * (weights * (kernel - 1.0 / v))) @ bessel.T
+    rest[0, 0] += weights @ (np.exp(-v) / v) + math.log(2.0)
     rest += (0.5 - cooling) / (2.0 * math.pi * stubbiness * CUTOFF**2)
     index = np.arange(1, FUNCTIONS)
     rest[index, index] += 0.25 / index
@@ -388,16 +384,9 @@ def approximate_flux(cooling: float, stubbiness: float) -> float:
     return stubbiness * (a_2 * sinh / s + a_3)
 
 
-class _Nodes(NamedTuple):
-    """Gauss nodes v and weights on [0, CUTOFF], and (-1)^n J_2n(v), shape (FUNCTIONS, nodes)."""
-
-    v: np.ndarray
-    weights: np.ndarray
-    bessel: np.ndarray
-
-
 @cache
-def _nodes() -> _Nodes:
+def _nodes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return Gauss nodes v and weights on [0, CUTOFF], and (-1)^n J_2n(v), shape (FUNCTIONS, nodes)."""
     points, weights = np.polynomial.legendre.leggauss(PANEL_POINTS)
     # Halved towards zero: the kernel has poles at u = +-i sqrt(2 lambda), close to zero for little cooling.
     halves = math.pi * 0.5 ** np.arange(HALVINGS, 0, -1)
@@ -406,4 +395,4 @@ def _nodes() -> _Nodes:
     v = (edges[:-1, None] + 0.5 * width * (1.0 + points)).ravel()
     orders = np.arange(FUNCTIONS)[:, None]
     bessel = (-1.0) ** orders * jv(2 * orders, v)
-    return _Nodes(v, (0.5 * width * weights).ravel(), bessel)
+    return v, (0.5 * width * weights).ravel(), bessel

@@ -18,9 +18,8 @@ from scipy.optimize import brentq
 from ...core.errors import ConvergenceError
 from ...core.model import Array
 from . import contact_arc as arc
-from .bush_reaction import ACCEPTED
-from .melting import MeltingLaw
-from .worn_profile import (
+from .bush_reaction import (
+    ACCEPTED,
     HeatState,
     LocalMelting,
     MeltingRule,
@@ -30,6 +29,7 @@ from .worn_profile import (
     press,
     times_stiffness,
 )
+from .melting import MeltingLaw
 
 WIDEST_ARC = 1.5
 """Half the widest arc of nodes [rad]."""
@@ -91,7 +91,8 @@ def wear_at_nodes(
     depth, at, widest, calls = np.zeros(2 * count + 1), 0.0, 0.0, 0
     rtol = STEP_ERROR / count**2
     for stage in stages:
-        at = _unworn(bush, stage.load_ratio) + depth.max()
+        unworn = bush.gap / np.cos(bush.angle(np.array(0.0), np.array(stage.load_ratio)))
+        at = float(unworn) + depth.max()
 
         def rate(t: float, depth: Array, load: float = stage.load_ratio) -> Array:
             nonlocal at, calls
@@ -115,8 +116,8 @@ def wear_at_nodes(
         at, pressed = settle_along(nodes, bush.gap + depth, bush.law.compliance * stage.load_ratio, at)
         widest = max(widest, float(pressed.angle))
     fresh = np.full(nodes.weight.size, bush.gap)
-    unworn, _ = settle_along(nodes, fresh, bush.law.compliance * stages[-1].load_ratio, at - depth.max())
-    return Worn(at - unworn if depth.any() else 0.0, widest, depth, calls)
+    bare, _ = settle_along(nodes, fresh, bush.law.compliance * stages[-1].load_ratio, at - depth.max())
+    return Worn(at - bare if depth.any() else 0.0, widest, depth, calls)
 
 
 class LocalEnd(NamedTuple):
@@ -207,10 +208,6 @@ def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tupl
             "it is not"
         )
     return at, pressed
-
-
-def _unworn(bush: Wearing, load_ratio: float) -> float:
-    return float(bush.gap / np.cos(bush.angle(np.array(0.0), np.array(load_ratio))))
 
 
 def _melted(
@@ -346,15 +343,6 @@ class Path(NamedTuple):
     time: Array
     load_ratio: Array
     moment: Array
-    first: Array
-    calls: int
-
-
-class _Steps(NamedTuple):
-    """Samples of one stage: times, changes of alpha and V itself at them, and the rates evaluated."""
-
-    time: Array
-    change: Array
     first: Array
     calls: int
 
@@ -533,11 +521,12 @@ def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) ->
         load = stage.load_ratio
         # The angle grows by very little near the critical speed: its change is the state, not itself.
         alpha = bush.angle(moment, load)
-        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, WIDEST - float(alpha), rtol)
-        grown = moment + bush.gap * _rise(alpha, run.change)
-        parts.append(np.stack([time + run.time, np.full(run.time.size, load), grown, run.first]))
-        moment, first = float(grown[-1]), float(run.first[-1])
-        time, calls = time + stage.duration, calls + run.calls
+        own = partial(_shifted, rate, alpha, load)
+        steps, (change, rise), count = _stage(own, stage.duration, first, WIDEST - float(alpha), rtol)
+        grown = moment + bush.gap * _rise(alpha, change)
+        parts.append(np.stack([time + steps, np.full(steps.size, load), grown, rise]))
+        moment, first = float(grown[-1]), float(rise[-1])
+        time, calls = time + stage.duration, calls + count
     times, loads, moments, firsts = np.concatenate(parts, axis=1)
     return Path(times, loads, moments, firsts, calls)
 
@@ -548,12 +537,15 @@ def _stage(
     first: float,
     room: float,
     rtol: float,
-) -> _Steps:
-    """Return the steps of one stage; two where nothing melts at its begin and so ever."""
+) -> tuple[Array, Array, int]:
+    """Return times, changes of alpha and V itself at them (2, n), and the rates evaluated, of one stage.
+
+    Two times where nothing melts at its begin and so ever.
+    """
     state = np.array([0.0, first])
     scale = rate(0.0, state)
     if scale[0] <= 0.0:
-        return _Steps(np.array([0.0, duration]), np.zeros(2), np.array([first, first]), 1)
+        return np.array([0.0, duration]), np.array([[0.0, 0.0], [first, first]]), 1
     atol = [ATOL * rtol * min(scale[0] * duration, 1.0), ATOL * rtol * scale[1] * duration or 1.0]
 
     def widest(t: float, state: Array) -> float:
@@ -564,7 +556,7 @@ def _stage(
     if run.status != 0:
         why = f"half the contact must stay below {WIDEST} rad, got a wider one after {run.t[-1]:.3g} s"
         raise ConvergenceError(why if run.status == 1 else f"steps of the wear of a bush end: {run.message}")
-    return _Steps(run.t, run.y[0], run.y[1], run.nfev)
+    return run.t, run.y, run.nfev
 
 
 def _rise(alpha: Array, change: Array) -> Array:

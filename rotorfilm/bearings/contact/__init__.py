@@ -14,12 +14,13 @@ if TYPE_CHECKING:
         checkerboard,
     )
     from .contact_law import ContactLaw as ContactLaw, require_state_space
-    from .contact_run import SineLoad as SineLoad, StepLoad as StepLoad
     from .contact_steps import (
         AdaptiveSteps as AdaptiveSteps,
         ContactRun as ContactRun,
         ContactState as ContactState,
         FixedSteps as FixedSteps,
+        SineLoad as SineLoad,
+        StepLoad as StepLoad,
     )
     from .film_equations import (
         HIGGINSON_PRESSURE,

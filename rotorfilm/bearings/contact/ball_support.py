@@ -26,7 +26,7 @@ from ...core.errors import (
 from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization, breakpoints
 from ...core.results import Trajectory
-from ...core.signals import Signal, force_outputs, journal_inputs
+from ...core.signals import Signal, force_outputs, journal_inputs, signals_of
 from ...native.library import loops
 from ...native.spec import NativeSpec
 from ...native.structs import structure
@@ -103,15 +103,9 @@ class BallSupport(Called):
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """States of the dynamic stiffness of each ball, without dimension."""
-        return tuple(
-            Signal(
-                name=f"ball_{ball}_{k}",
-                unit="1",
-                nominal=1.0,
-                description=f"dynamic stiffness of ball {ball}",
-            )
-            for ball in range(len(self.angles))
-            for k in range(self.law.order)
+        balls, order = range(len(self.angles)), range(self.law.order)
+        return signals_of(
+            *((f"ball_{j}_{k}", "1", 1.0, f"dynamic stiffness of ball {j}") for j in balls for k in order)
         )
 
     @property
@@ -234,7 +228,7 @@ class BallSupport(Called):
         """Return the kernel `contact`; None for more balls than it takes."""
         if len(self.angles) > MOST_CONTACTS:
             return None
-        return contact_spec(self.law.in_si, self._motion, self._push, self.gap)
+        return contact_spec(self.law, self._motion, self._push, self.gap)
 
     @cached_property
     def _motion(self) -> Array:
@@ -264,55 +258,6 @@ class BallSupport(Called):
         return list(zip(states, approaches.tolist(), strict=True))
 
 
-# Runge-Kutta steps of a ball on its reduced contact law, in compiled code (`native/loops/ride.h`).
-
-
-class RideLaw(NamedTuple):
-    """The law of a contact and the inertia of its ball, dimensionless.
-
-    Attributes
-    ----------
-    A, B, C : ndarray, shapes (n, n), (n,), (n,)
-    D : float
-    offset, span, exponent, operating : float
-        The static force is ((offset - delta)/span)^exponent, the drive of the states delta - operating.
-    W : float
-    """
-
-    A: Array
-    B: Array
-    C: Array
-    D: float
-    offset: float
-    span: float
-    exponent: float
-    operating: float
-    W: float
-
-    def force(self, y: Array) -> Array:
-        """Return the force of the film, which does not pull, for rows of (delta, velocity, states)."""
-        delta = y[:, 0]
-        static = (np.maximum(self.offset - delta, 0.0) / self.span) ** self.exponent
-        drive = np.minimum(delta, self.offset) - self.operating
-        return np.maximum(static + self.D * drive + y[:, 2:] @ self.C, 0.0)
-
-    def steps(self, start: Array, step: float, pushes: Array) -> Array:
-        """Return delta, velocity and states, (n + 1, 2 + order), after each of n equal steps of order four.
-
-        `pushes`, (2 n + 1,), are the loads at the ends and middles of the steps.
-        """
-        matrices = [np.ascontiguousarray(matrix, dtype=float) for matrix in (self.A, self.B, self.C)]
-        places = [matrix.ctypes.data for matrix in matrices]
-        law = structure("rf_ride_law")(len(self.B), *places, *self[3:])
-        begin, loads = np.ascontiguousarray(start, dtype=float), np.ascontiguousarray(pushes, dtype=float)
-        n = len(loads) // 2
-        answer = np.empty((n + 1, len(begin)))
-        arguments = begin.ctypes.data, step, n, loads.ctypes.data, answer.ctypes.data
-        if loops()["rf_ride"](byref(law), *arguments):
-            raise MemoryError("no memory for the steps of a ball")
-        return answer
-
-
 # A ball on its reduced contact law, over time.
 
 
@@ -320,21 +265,25 @@ FINEST = 12
 """Halvings of the steps after which an integration is given up."""
 
 
-class _Part(NamedTuple):
-    """Motion between two jumps of the load, in the units of the contact."""
-
-    time: Array
-    y: Array
+_Part = tuple[Array, Array]
+"""Times and rows of (delta, velocity, states) between two jumps of the load, in the units of the contact."""
 
 
 class _Rider(NamedTuple):
-    """The law and the ball in the units of the contact."""
+    """The law, the inertia of the ball in the units of the contact, its highest frequency and its load."""
 
-    law: RideLaw
+    law: ContactLaw
+    W: float
     fastest: float
     load: Callable[[float], float]
-    time_scale: float
-    force_scale: float
+
+    def force(self, y: Array) -> Array:
+        """Return the force of the film [N], which does not pull, for rows of (delta, velocity, states)."""
+        law, delta = self.law, y[:, 0]
+        static = (np.maximum(law.offset - delta, 0.0) / law.span) ** law.exponent
+        drive = np.minimum(delta, law.offset) - law.operating
+        force = np.maximum(static + float(law.D[0, 0]) * drive + y[:, 2:] @ law.C[0], 0.0)
+        return np.asarray(force * law.force_scale)
 
     def part(self, begin: float, end: float, start: Array, tolerance: float) -> _Part:
         """Return the motion by halving the steps until the answer settles."""
@@ -346,7 +295,7 @@ class _Rider(NamedTuple):
             pushes = np.insert(pushes, np.arange(1, len(pushes)), between)
             fine = self._steps(begin, end, start, pushes)
             # Of order four, so the finer answer is some fifteen times better than this.
-            miss = float(np.max(np.abs(fine.y[::2, 0] - rough.y[:, 0])))
+            miss = float(np.max(np.abs(fine[1][::2, 0] - rough[1][:, 0])))
             if miss <= 15.0 * tolerance:
                 return fine
             rough = fine
@@ -359,14 +308,28 @@ class _Rider(NamedTuple):
         """Return the loads at the ends of equal intervals, or at every second of them."""
         times = np.linspace(begin, end, intervals + 1)
         times[0] = np.nextafter(begin, end)  # the load after a jump
-        scale, load = self.time_scale, self.load
         chosen = times[1::2] if odd else times
-        values = [load(t) for t in (scale * chosen).tolist()]
-        return np.array(values, dtype=float) / self.force_scale
+        values = [self.load(t) for t in (self.law.time_scale * chosen).tolist()]
+        return np.array(values, dtype=float) / self.law.force_scale
 
     def _steps(self, begin: float, end: float, start: Array, pushes: Array) -> _Part:
-        n = len(pushes) // 2
-        return _Part(np.linspace(begin, end, n + 1), self.law.steps(start, (end - begin) / n, pushes))
+        """Return equal steps of order four, compiled (`native/loops/ride.h`).
+
+        `pushes`, (2 n + 1,), are the loads at the ends and middles of the steps.
+        """
+        law, n = self.law, len(pushes) // 2
+        parts = law.A, law.B[:, 0], law.C[0]
+        matrices = [np.ascontiguousarray(matrix, dtype=float) for matrix in parts]
+        static = float(law.D[0, 0]), law.offset, law.span, law.exponent, law.operating
+        numbers = structure("rf_ride_law")(
+            law.order, *(matrix.ctypes.data for matrix in matrices), *static, self.W
+        )
+        first, loads = np.ascontiguousarray(start, dtype=float), np.ascontiguousarray(pushes, dtype=float)
+        y = np.empty((n + 1, len(first)))
+        arguments = first.ctypes.data, (end - begin) / n, n, loads.ctypes.data, y.ctypes.data
+        if loops()["rf_ride"](byref(numbers), *arguments):
+            raise MemoryError("no memory for the steps of a ball")
+        return np.linspace(begin, end, n + 1), y
 
 
 @arguments
@@ -429,10 +392,10 @@ def ride(
         try:
             parts.append(rider.part(begin, end, y, rtol))
         except ConvergenceError as error:
-            raise ConvergenceError(str(error), _motion(law, rider, parts, samples)) from error
-        y = parts[-1].y[-1]
-    _require_range(law, np.concatenate([rider.law.force(part.y) for part in parts]) * law.force_scale)
-    return _motion(law, rider, parts, samples)
+            raise ConvergenceError(str(error), _motion(rider, parts, samples)) from error
+        y = parts[-1][1][-1]
+    _require_range(law, np.concatenate([rider.force(rows) for _, rows in parts]))
+    return _motion(rider, parts, samples)
 
 
 def _require_range(law: ContactLaw, force: Array) -> None:
@@ -447,42 +410,36 @@ def _require_range(law: ContactLaw, force: Array) -> None:
 
 def _rider(law: ContactLaw, mass: float, load: Callable[[float], float]) -> _Rider:
     W = mass * law.film_scale / (law.time_scale**2 * law.force_scale)
-    static = law.offset, law.span, law.exponent, law.operating
     poles = np.abs(np.linalg.eigvals(law.A)) if law.order else np.zeros(1)
     natural = math.sqrt(law.exponent / law.span / W)
-    return _Rider(
-        RideLaw(law.A, law.B[:, 0], law.C[0], float(law.D[0, 0]), *static, W),
-        max(natural, float(poles.max())),
-        load,
-        law.time_scale,
-        law.force_scale,
-    )
+    return _Rider(law, W, max(natural, float(poles.max())), load)
 
 
-def _motion(law: ContactLaw, rider: _Rider, parts: list[_Part], samples: int) -> Trajectory:
+def _motion(rider: _Rider, parts: list[_Part], samples: int) -> Trajectory:
     """Return equally spaced samples of the parts, by interpolation of order four."""
     if not parts:
         return Trajectory(time=np.zeros(0), signals={}, work={"steps": 0})
-    time = np.linspace(0.0, parts[-1].time[-1], samples)
+    law, time = rider.law, np.linspace(0.0, parts[-1][0][-1], samples)
     rows = np.concatenate([_sampled(part, time, k == 0) for k, part in enumerate(parts)])
     signals = {
         "z": rows[:, 0] * law.film_scale,
         "vz": rows[:, 1] * law.film_scale / law.time_scale,
-        "force_z": rider.law.force(rows) * law.force_scale,
+        "force_z": rider.force(rows),
     }
-    steps = sum(len(part.time) - 1 for part in parts)
+    steps = sum(len(times) - 1 for times, _ in parts)
     units = {"z": "m", "vz": "m/s", "force_z": "N"} if law.film_scale != 1.0 else {}
     return Trajectory(time=time * law.time_scale, signals=signals, work={"steps": steps}, units=units)
 
 
 def _sampled(part: _Part, time: Array, first: bool) -> Array:
     """Return y at the times within a part."""
-    begin, end = part.time[0], part.time[-1]
+    times, y = part
+    begin, end = times[0], times[-1]
     inside = time[((time > begin) | (first & (time == begin))) & (time <= end)]
-    k = np.minimum(np.searchsorted(part.time, inside, side="right"), len(part.time) - 1) - 1
-    step = part.time[1] - part.time[0]
-    share = ((inside - part.time[k]) / step)[:, None]
-    before, after = part.y[k], part.y[k + 1]
+    k = np.minimum(np.searchsorted(times, inside, side="right"), len(times) - 1) - 1
+    step = times[1] - times[0]
+    share = ((inside - times[k]) / step)[:, None]
+    before, after = y[k], y[k + 1]
     rows = np.asarray(before + share * (after - before), dtype=float)
     # Hermite, where rates are known: of the approach, the velocity.
     rows[:, 0], _ = cubic(before[:, 0], after[:, 0], step * before[:, 1], step * after[:, 1], share[:, 0])

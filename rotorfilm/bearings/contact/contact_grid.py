@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from scipy import fft, sparse
@@ -322,17 +322,6 @@ class Sampling(NamedTuple):
     spread: Any
 
 
-@runtime_checkable
-class ContactScheme(Protocol):
-    """A finite-volume scheme of a point contact."""
-
-    order: ClassVar[int]
-    """Order of convergence in the size of the cells."""
-
-    def sampling(self, grid: ContactGrid, ellipse: Ellipse = CIRCLE) -> Sampling:
-        """Return sample points and matrices for a grid, both lengths in units of the axis along x."""
-
-
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class StaggeredScheme:
@@ -365,6 +354,8 @@ class StaggeredScheme:
             if grid.focus is None
             else DenseDeflection(grid, kernel=kernel)
         )
+        mirrored = half_y.T.tolil()
+        mirrored[0] = 2.0 * mirrored[0]
         along = product(sparse.identity(nx + 1), half_y)
         stored = product(half_x, half_y)
         return Sampling(
@@ -377,7 +368,7 @@ class StaggeredScheme:
             upstream=None,
             stored=stored,
             # Cells at the symmetry line meet their own mirror image there, which doubles their share.
-            spread=product(half_x.T, _mirrored(half_y.T)),
+            spread=product(half_x.T, mirrored.tocsr()),
         )
 
 
@@ -417,6 +408,10 @@ class UpwindScheme:
             stored=product(column, row),
             spread=product(column.T, row.T),
         )
+
+
+ContactScheme = StaggeredScheme | UpwindScheme
+"""A finite-volume scheme of a point contact."""
 
 
 def _faces(nx: int, weights: list[float]) -> Any:
@@ -469,12 +464,6 @@ def _faces_across(m: int) -> Any:
     faces = sparse.diags([0.5, 0.5], [0, -1], shape=(m + 1, m + 1)).tolil()
     faces[0, 0] = 1.0
     return faces.tocsr()
-
-
-def _mirrored(spread: Any) -> Any:
-    doubled = spread.tolil()
-    doubled[0] = 2.0 * doubled[0]
-    return doubled.tocsr()
 
 
 # How much of a contact's pressure alternates from cell to cell.

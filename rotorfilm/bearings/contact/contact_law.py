@@ -18,7 +18,7 @@ from scipy.optimize import minimize_scalar
 from ...core.errors import FileWarning, InputError, require_each, require_finite, require_positive, warn_user
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
-from ...core.signals import Signal
+from ...core.signals import Signal, signals_of
 from ...core.sources import source_digest
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.map_table import cache_folder, cached, read_kept
@@ -26,6 +26,8 @@ from .contact_grid import checkerboard
 from .film_equations import BarusViscosity, ContactEquations, DowsonHigginsonDensity, RoelandsViscosity
 from .film_newton import Contact
 from .stationary import SmallMotion, follow, stationary
+
+FORCE_TEXT = "force of the film on the ball, away from the plane"
 
 
 @quantities
@@ -90,21 +92,18 @@ class ContactLaw:
     def inputs(self) -> tuple[Signal, ...]:
         """The approach."""
         text = "approach of the ball's center beyond first touch, negative in contact"
-        return (Signal(name="z", unit="m", nominal=2.0 * self.film_scale, description=text),)
+        return signals_of(("z", "m", 2.0 * self.film_scale, text))
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
         """The force."""
-        text = "force of the film on the ball, away from the plane"
-        return (Signal(name="force_z", unit="N", nominal=self.force_scale, description=text),)
+        return signals_of(("force_z", "N", self.force_scale, FORCE_TEXT))
 
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """States of the dynamic part, without dimension."""
-        return tuple(
-            Signal(name=f"contact_{k}", unit="1", nominal=1.0, description="state of the dynamic stiffness")
-            for k in range(self.order)
-        )
+        text = "state of the dynamic stiffness"
+        return signals_of(*((f"contact_{k}", "1", 1.0, text) for k in range(self.order)))
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_z,) [N] for u = (z,) [m]; t is not used."""
@@ -126,7 +125,7 @@ class ContactLaw:
             self.A / self.time_scale,
             near * self.B / (self.time_scale * self.film_scale),
             pressed * self.force_scale * self.C,
-            pressed * per_length * (self._static.slope(delta) + near * self.D),
+            pressed * per_length * (self._static_slope(delta) + near * self.D),
         )
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -147,7 +146,7 @@ class ContactLaw:
     @property
     def stiffness(self) -> float:
         """Static stiffness under the load f = 1, -dF/dz [N/m]."""
-        return -self.force_scale / self.film_scale * self._static.slope(self.operating)
+        return -self.force_scale / self.film_scale * self._static_slope(self.operating)
 
     @property
     def damping(self) -> float:
@@ -177,20 +176,7 @@ class ContactLaw:
 
     def native(self) -> NativeSpec:
         """Return the kernel `contact`."""
-        return contact_spec(self.in_si, np.ones((1, 1)), np.ones((1, 1)), 0.0)
-
-    @property
-    def in_si(self) -> LawNumbers:
-        """The numbers of the law as its kernel takes them."""
-        film, time, force = self.film_scale, self.time_scale, self.force_scale
-        matrices = {
-            "A": self.A / time,
-            "B": self.B / (time * film),
-            "C": self.C * force,
-            "D": self.D * force / film,
-        }
-        static = (self.offset * film, self.span * film, self.exponent, force, self.operating * film)
-        return LawNumbers(matrices, (*static, *self.load_range), film)
+        return contact_spec(self, np.ones((1, 1)), np.ones((1, 1)), 0.0)
 
     def resting(self, delta: float) -> Array:
         """Return the state in which the contact has long rested at an approach delta [1]."""
@@ -203,11 +189,12 @@ class ContactLaw:
         return min(delta, self.offset) - self.operating
 
     def _load(self, delta: float, x: Array) -> Array:
-        return self._static.load(delta) + self.C @ x + self.D[:, 0] * self._drive(delta)
+        static = float(max(self.offset - delta, 0.0) / self.span) ** self.exponent
+        return static + self.C @ x + self.D[:, 0] * self._drive(delta)
 
-    @property
-    def _static(self) -> StaticLaw:
-        return StaticLaw(self.offset, self.span, self.exponent, self.static_error)
+    def _static_slope(self, delta: float) -> float:
+        depth = max(self.offset - delta, 0.0) / self.span
+        return float(-self.exponent / self.span * depth ** (self.exponent - 1.0))
 
 
 def transfer(system: Linearization, s: np.ndarray) -> np.ndarray:
@@ -230,33 +217,12 @@ def require_state_space(A: Array, B: Array, C: Array, D: Array) -> None:
 # The load of a stationary contact over its approach, as a power law.
 
 
-class StaticLaw(NamedTuple):
-    """f = ((offset - delta)/span)^exponent in Hertzian loads; the dry contact has 0, 2 and 3/2.
+def fit_static_law(delta: Array, load: Array) -> tuple[float, float, float, float]:
+    """Return offset, span, exponent and largest relative error of the law through stationary contacts.
 
-    Attributes
-    ----------
-    offset, span, exponent : float [1]
-    error : float [1]
-        Largest relative deviation of the load.
+    f = ((offset - delta)/span)^exponent in Hertzian loads, of approaches (n,) and loads (n,), n >= 4; the dry
+    contact has 0, 2 and 3/2.
     """
-
-    offset: float
-    span: float
-    exponent: float
-    error: float
-
-    def load(self, delta: float) -> float:
-        """Return f, 0 where the ball has left."""
-        return float(max(self.offset - delta, 0.0) / self.span) ** self.exponent
-
-    def slope(self, delta: float) -> float:
-        """Return df/ddelta."""
-        depth = max(self.offset - delta, 0.0) / self.span
-        return float(-self.exponent / self.span * depth ** (self.exponent - 1.0))
-
-
-def fit_static_law(delta: Array, load: Array) -> StaticLaw:
-    """Return the law through stationary contacts: approaches (n,) and loads f (n,), n >= 4."""
     highest = float(np.max(delta))
 
     def fitted(lead: float) -> tuple[Array, Array]:
@@ -266,7 +232,7 @@ def fit_static_law(delta: Array, load: Array) -> StaticLaw:
 
     lead = np.exp(minimize_scalar(lambda x: float(np.sum(fitted(np.exp(x))[1] ** 2)), bounds=(-7.0, 2.0)).x)
     (exponent, shift), missed = fitted(float(lead))
-    return StaticLaw(
+    return (
         highest + float(lead),
         float(np.exp(-shift / exponent)),
         float(exponent),
@@ -281,30 +247,12 @@ MOST_CONTACTS = 64
 """Contacts that the kernel takes (`native/kernels/kernel_contact.c`)."""
 
 
-class LawNumbers(NamedTuple):
-    """A reduced law as the kernel takes it, in SI.
-
-    Attributes
-    ----------
-    matrices : dict of str to ndarray
-        A, B, C and D of the law.
-    static : tuple of float
-        Offset, span, exponent, force, operating approach and the range of loads.
-    film : float [m]
-        Unit of film thickness.
-    """
-
-    matrices: dict[str, Array]
-    static: tuple[float, ...]
-    film: float
-
-
-def contact_spec(law: LawNumbers, motion: Array, push: Array, gap: float) -> NativeSpec:
+def contact_spec(law: ContactLaw, motion: Array, push: Array, gap: float) -> NativeSpec:
     """Return the kernel `contact` for contacts of one law.
 
     Parameters
     ----------
-    law : LawNumbers
+    law : ContactLaw
     motion : ndarray, shape (n_contacts, n_inputs)
         Approach of each contact per input.
     push : ndarray, shape (n_outputs, n_contacts)
@@ -312,20 +260,27 @@ def contact_spec(law: LawNumbers, motion: Array, push: Array, gap: float) -> Nat
     gap : float [m]
         Approach of every contact where all inputs vanish.
     """
-    tables = {name: block_diag(*[matrix] * len(motion)) for name, matrix in law.matrices.items()}
+    film, time, force = law.film_scale, law.time_scale, law.force_scale
+    matrices = {
+        "A": law.A / time,
+        "B": law.B / (time * film),
+        "C": law.C * force,
+        "D": law.D * force / film,
+    }
+    static = (law.offset * film, law.span * film, law.exponent, force, law.operating * film, *law.load_range)
+    tables = {name: block_diag(*[matrix] * len(motion)) for name, matrix in matrices.items()}
+    place = NativeParameter(
+        name="gap",
+        unit="m",
+        value=float(gap),
+        tunable=True,
+        nominal=2.0 * film,
+        description="approach of the contact where the displacement vanishes",
+    )
     return NativeSpec(
         kernel="contact",
-        parameters=(
-            NativeParameter(
-                name="gap",
-                unit="m",
-                value=float(gap),
-                tunable=True,
-                nominal=2.0 * law.film,
-                description="approach of the contact where the displacement vanishes",
-            ),
-        ),
-        tables={**tables, "motion": motion, "push": push, "law": np.array(law.static)},
+        parameters=(place,),
+        tables={**tables, "motion": motion, "push": push, "law": np.array(static)},
     )
 
 

@@ -34,14 +34,6 @@ from .contact_grid import SLACK, SMALLEST, ContactGrid, ContactScheme, Sampling,
 # pattern and the matrix from a to the entries are found once for a grid.
 
 
-class _Triples(NamedTuple):
-    """Entries of L diag(a) R: keys of the place (row, column), index into a, factor."""
-
-    key: np.ndarray
-    source: np.ndarray
-    factor: Array
-
-
 class Assembly:
     """Sums of products L diag(a) R, and of given matrices, as data of one sparse pattern.
 
@@ -65,16 +57,15 @@ class Assembly:
         parts = [_triples(left.tocoo(), right.tocsr()) for left, right in pairs]
         given = [matrix.tocoo() for matrix in fixed]
         keys = [matrix.row.astype(np.int64) * width + matrix.col for matrix in given]
-        pattern = np.unique(np.concatenate([*(part.key for part in parts), *keys]))
+        pattern = np.unique(np.concatenate([*(key for key, _, _ in parts), *keys]))
         self.shape = (rows, width)
         self.columns = (pattern % width).astype(np.int32)
         self._starts = np.searchsorted(pattern, np.arange(rows + 1, dtype=np.int64) * width).astype(np.int32)
         maps = [
             sparse.csr_matrix(
-                (part.factor, (np.searchsorted(pattern, part.key), part.source)),
-                shape=(len(pattern), left.shape[1]),
+                (factor, (np.searchsorted(pattern, key), source)), shape=(len(pattern), left.shape[1])
             )
-            for part, (left, _) in zip(parts, pairs, strict=True)
+            for (key, source, factor), (left, _) in zip(parts, pairs, strict=True)
         ]
         self._map = sparse.hstack(maps).tocsr()
         self.fixed: list[Array] = [
@@ -91,13 +82,13 @@ class Assembly:
         return sparse.csr_matrix((entries, self.columns, self._starts), shape=self.shape, copy=False)
 
 
-def _triples(left: Any, right: Any) -> _Triples:
-    """Return one triple for each pair of entries of L and R that share an index into a."""
+def _triples(left: Any, right: Any) -> tuple[np.ndarray, np.ndarray, Array]:
+    """Return place, index into a and factor of each pair of entries of L and R that share an index."""
     counts = np.diff(right.indptr)[left.col]
     first = np.cumsum(counts) - counts
     at = np.repeat(right.indptr[left.col] - first, counts) + np.arange(counts.sum())
     row = np.repeat(left.row.astype(np.int64), counts)
-    return _Triples(
+    return (
         row * right.shape[1] + right.indices[at],
         np.repeat(left.col, counts),
         np.repeat(left.data, counts) * right.data[at],
@@ -258,11 +249,8 @@ class TimeDerivative(NamedTuple):
     history: Array = ZERO
 
 
-class Derivatives(NamedTuple):
-    """Derivatives of the residual by the pressure at fixed film, (n, n), and by the film, (n, samples)."""
-
-    by_pressure: Any
-    by_film: Any
+Derivatives = tuple[Any, Any]
+"""Derivatives of the residual by the pressure at fixed film, (n, n), and by the film, (n, samples)."""
 
 
 class _Flow(NamedTuple):
@@ -384,7 +372,7 @@ class ContactEquations:
         by_film = bend.matrix(transport * density[bend.columns] + bend.entries(*driven, *still))
         if self.density is not None:
             by_pressure = by_pressure + self._by_density(pressure, film, bend.matrix(transport))
-        return Derivatives(by_pressure, by_film)
+        return by_pressure, by_film
 
     def _transport(self, content: Array, rate: complex) -> Array:
         """Return the entries of the derivative by rho H of what surfaces carry off and cells store."""
@@ -405,7 +393,7 @@ class ContactEquations:
             self._flow.divergence, self._flow.mean, self._faces(film), self._gradients(pressure), strict=True
         )
         for divergence, mean, h, slope in parts:
-            total = total + _scaled(divergence, h**3 * slope) @ mean
+            total = total + divergence @ sparse.diags(h**3 * slope) @ mean
         return total @ sparse.diags(self.density.slope(pressure))
 
     def _carried(self, content: Array) -> Array:
@@ -479,11 +467,6 @@ def _per(sizes: Array, matrix: Any) -> Any:
 def _distances(widths: Array) -> Array:
     """Return the distances of neighboring centers of cells, twice those to the walls at the ends."""
     return np.concatenate([widths[:1], 0.5 * (widths[1:] + widths[:-1]), widths[-1:]])
-
-
-def _scaled(matrix: Any, columns: Array) -> Any:
-    """Return the matrix with its columns scaled."""
-    return matrix @ sparse.diags(columns)
 
 
 def _differences(n: int, *, wall: bool) -> Any:

@@ -72,7 +72,7 @@ class NewtonKrylov:
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
         self._few = FEW * equations.grid.shape[0]
-        self._grids: tuple[HalvedGrid, ...] = ()
+        self._grids: tuple[tuple[ContactEquations, Distribution], ...] = ()
         self._cycle: Cycle | None = None
         if place is not None and not equations.is_dense:
             self._cycle = self._renewed(linearized(equations, place))
@@ -222,7 +222,7 @@ def settled_edge(linear: LinearContact, residual: Array) -> Array:
     residual : ndarray, shape (n,)
         Of the equations there.
     """
-    pressure, matrix = linear.place.pressure, linear.derivatives.by_pressure
+    pressure, matrix = linear.place.pressure, linear.derivatives[0]
     diagonal = matrix.diagonal()
     solved = _around(linear.place.wet.reshape(linear.equations.grid.shape)).ravel()
     solved &= diagonal < -FREE * _bending(linear)
@@ -267,15 +267,10 @@ def _grown(cells: np.ndarray) -> np.ndarray:
 # GMRES without restarts, on few vectors at once: what a call of it costs beside its products is little.
 
 
-class KrylovAnswer(NamedTuple):
-    """An approximate solution, and the products taken."""
-
-    x: Array
-    products: int
-
-
-def gmres(product: Callable[[Array], Array], right: Array, *, tolerance: float, most: int) -> KrylovAnswer:
-    """Return x with |right - A x| <= tolerance |right|, or the best of `most` products.
+def gmres(
+    product: Callable[[Array], Array], right: Array, *, tolerance: float, most: int
+) -> tuple[Array, int]:
+    """Return x with |right - A x| <= tolerance |right|, or the best of `most` products, and how many.
 
     After Saad and Schultz (1986).
 
@@ -290,7 +285,7 @@ def gmres(product: Callable[[Array], Array], right: Array, *, tolerance: float, 
     """
     size = float(np.linalg.norm(right))
     if size == 0.0:
-        return KrylovAnswer(np.zeros_like(right), 0)
+        return np.zeros_like(right), 0
     basis = np.empty((most + 1, len(right)))
     basis[0] = right / size
     upper = np.zeros((most + 1, most))
@@ -320,7 +315,7 @@ def gmres(product: Callable[[Array], Array], right: Array, *, tolerance: float, 
             break
         basis[count] = fresh / length
     weights = solve_triangular(upper[:count, :count], missed[:count])
-    return KrylovAnswer(weights @ basis[:count], count)
+    return weights @ basis[:count], count
 
 
 # The equations of a point contact linearized at a state, and products with them.
@@ -398,7 +393,7 @@ class LinearContact(NamedTuple):
 def linearized(equations: ContactEquations, place: Place) -> LinearContact:
     """Return the equations linearized at a place."""
     derivatives = equations.derivatives(place.pressure, place.film, place.rate)
-    by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
+    by_delta = derivatives[1] @ np.ones(derivatives[1].shape[1])
     return LinearContact(equations, place, derivatives, np.where(place.wet, by_delta, 0.0))
 
 
@@ -424,21 +419,6 @@ STIFF = 0.05
 
 SLOW = 15.0
 """Rate above which storage governs what the film carries."""
-
-
-class Distribution(NamedTuple):
-    """The change of variables p = T w on a grid.
-
-    Attributes
-    ----------
-    laplacian : sparse matrix, shape (n, n)
-        T.
-    deflection : sparse matrix, shape (samples, n)
-        Film thickness per w, truncated.
-    """
-
-    laplacian: Any
-    deflection: Any
 
 
 class Strips:
@@ -522,6 +502,10 @@ class Factors(NamedTuple):
         return answer
 
 
+Distribution = tuple[Any, Any]
+"""The change of variables p = T w on a grid: T, (n, n), and film thickness per w, truncated, (samples, n)."""
+
+
 def distribution(equations: ContactEquations) -> Distribution:
     """Return the change of variables for a grid."""
     bend = equations.sampling.deflection
@@ -538,9 +522,7 @@ def distribution(equations: ContactEquations) -> Distribution:
     wide = np.arange(steps[0] - 1, steps[-1] + 2) + half
     width = bend.grid.spacing
     table = bend.kernel(wide[:, None] * width[0], wide * width[1], width)
-    return Distribution(
-        laplacian, _couplings(_bent(table), steps, steps, bend.samples, bend.grid.shape, shift)
-    )
+    return laplacian, _couplings(_bent(table), steps, steps, bend.samples, bend.grid.shape, shift)
 
 
 def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -> Factors:
@@ -554,12 +536,12 @@ def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -
     in_strips : bool
         Whether to leave out what couples strips of cells along x, for a coarser grid to carry.
     """
-    equations, (by_pressure, by_film) = linear.equations, linear.derivatives
+    equations, (by_pressure, by_film), (laplacian, bend) = linear.equations, linear.derivatives, change
     cells = np.flatnonzero(linear.place.wet)
     stiff = sparse.diags(stiff_cells(linear).astype(float))
     # As large in the loose cells as T is, for single precision's sake.
-    pressures = change.laplacian @ stiff + 4.0 * (sparse.identity(linear.place.wet.size) - stiff)
-    matrix = by_pressure[cells] @ pressures + by_film[cells] @ (change.deflection @ stiff)
+    pressures = laplacian @ stiff + 4.0 * (sparse.identity(linear.place.wet.size) - stiff)
+    matrix = by_pressure[cells] @ pressures + by_film[cells] @ (bend @ stiff)
     solver: Any = None
     if len(cells):
         square = matrix[:, cells].tocsc().astype(np.float32)
@@ -582,7 +564,7 @@ def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -
 def stiff_cells(linear: LinearContact) -> np.ndarray:
     """Return which cells the elastic kernel governs, from the diagonal of the flow by pressure."""
     dx, dy = linear.equations.plane.spacing
-    conductance = -linear.derivatives.by_pressure.diagonal() / (2.0 / dx**2 + 2.0 / dy**2)
+    conductance = -linear.derivatives[0].diagonal() / (2.0 / dx**2 + 2.0 / dy**2)
     return np.asarray(conductance < STIFF * linear.equations.V * (1.0 + linear.place.rate / SLOW))
 
 
@@ -634,13 +616,6 @@ COARSEST = 64
 """Fewest cells along a side down to which grids are halved: less is not worth its calls."""
 
 
-class HalvedGrid(NamedTuple):
-    """One of the grids: its equations and change of variables."""
-
-    equations: ContactEquations
-    change: Distribution
-
-
 class Cycle(NamedTuple):
     """The preconditioner made at one state.
 
@@ -676,7 +651,7 @@ class Cycle(NamedTuple):
         return np.append(np.where(wet, fine, right[:-1]), below[-1])
 
 
-def halved_grids(equations: ContactEquations) -> tuple[HalvedGrid, ...]:
+def halved_grids(equations: ContactEquations) -> tuple[tuple[ContactEquations, Distribution], ...]:
     """Return the grids from fine to coarse, with what of a preconditioner depends on nothing else.
 
     Coarse grids take the upwind scheme: those of a scheme that is blind to the checkerboard answer with one.
@@ -684,17 +659,18 @@ def halved_grids(equations: ContactEquations) -> tuple[HalvedGrid, ...]:
     found = [equations]
     while (half := found[-1].halved) is not None and min(half.grid.cells) >= COARSEST:
         found.append(replace(half, scheme=UpwindScheme()) if half.scheme != UpwindScheme() else half)
-    return tuple(HalvedGrid(each, distribution(each)) for each in found)
+    return tuple((each, distribution(each)) for each in found)
 
 
-def cycle(ladder: Sequence[HalvedGrid], linear: LinearContact) -> Cycle:
+def cycle(ladder: Sequence[tuple[ContactEquations, Distribution]], linear: LinearContact) -> Cycle:
     """Return the preconditioner of linearized equations, for `halved_grids` of the same equations."""
     coarse = None
     if len(ladder) > 1:
-        place = coarser(linear, ladder[1].equations)
+        below = ladder[1][0]
+        place = coarser(linear, below)
         if place.wet.any():
-            coarse = cycle(ladder[1:], linearized(ladder[1].equations, place))
-    factors = factorize(linear, ladder[0].change, in_strips=coarse is not None)
+            coarse = cycle(ladder[1:], linearized(below, place))
+    factors = factorize(linear, ladder[0][1], in_strips=coarse is not None)
     return Cycle(factors, coarse, linear)
 
 

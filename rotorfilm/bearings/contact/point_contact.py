@@ -30,14 +30,14 @@ from ...core.errors import (
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Readable
-from ...core.signals import Signal
+from ...core.signals import Signal, signals_of
 from ..formulas import Ellipse, HamrockDowson, require_ellipticity
 from .contact_grid import ContactGrid, ContactScheme, StaggeredScheme, UpwindScheme
-from .contact_law import SLOW
-from .contact_run import load_run, run_contact, save_run
+from .contact_law import FORCE_TEXT, SLOW
 from .contact_steps import (
     AdaptiveSteps,
     BallMotion,
+    ContactMotion,
     ContactRun,
     ContactState,
     FixedSteps,
@@ -45,6 +45,9 @@ from .contact_steps import (
     Level,
     Stepper,
     level_of,
+    load_run,
+    run_contact,
+    save_run,
     state_of,
 )
 from .film_equations import (
@@ -112,10 +115,9 @@ class PointContact:
         require_ellipticity(self.ellipticity)
         require_positive("V", self.V)
         require_positive("Q0", self.Q0)
-        kinds = {"grid": ContactGrid, "scheme": ContactScheme, "piezoviscosity": Piezoviscosity}
-        for name, kind in kinds.items():
-            if not isinstance(getattr(self, name), kind):
-                raise InputError(f"{name} must be a {kind.__name__}, got {getattr(self, name)!r}")
+        require_kind("grid", self.grid, ContactGrid, "a ContactGrid")
+        require_kind("scheme", self.scheme, ContactScheme, "a ContactScheme")
+        require_kind("piezoviscosity", self.piezoviscosity, Piezoviscosity, "a Piezoviscosity")
         if self.grid.focus is not None and not isinstance(self.scheme, StaggeredScheme):
             raise InputError(f"scheme must be StaggeredScheme() on graded cells, got {self.scheme!r}")
         require_kind(
@@ -259,7 +261,7 @@ class PointContact:
     def _run(
         self,
         start: ContactState | ContactRun,
-        motion: BallMotion | GivenMotion,
+        motion: ContactMotion,
         duration: float,
         control: AdaptiveSteps | FixedSteps | None,
         snapshots: Sequence[float],
@@ -283,19 +285,25 @@ class PointContact:
 
     def _start(self, state: ContactState) -> ContactState:
         if not isinstance(state, ContactState) or state.pressure.shape != self.grid.shape:
-            raise InputError(f"start must be a ContactState on {self.grid!r}, got {_described(state)}")
+            known = isinstance(state, ContactState)
+            got = f"one of shape {state.pressure.shape}" if known else repr(state)
+            raise InputError(f"start must be a ContactState on {self.grid!r}, got {got}")
         return state
 
     def _checked(self, state: ContactState) -> ContactState:
-        if state.checkerboard > ALTERNATING:
-            warnings.warn(
-                f"pressure must not alternate from cell to cell by more than {ALTERNATING:.1%}, got "
-                f"{state.checkerboard:.1%} at V = {self.V:.4g}, Q0 = {self.Q0:.4g}: use UpwindScheme() "
-                "or more cells",
-                ValidityWarning,
-                stacklevel=3,
-            )
+        warn_of_alternating(state.checkerboard, self.V, self.Q0, stacklevel=4)
         return state
+
+
+def warn_of_alternating(share: float, V: float, Q0: float, *, stacklevel: int) -> None:
+    """Warn where the pressure of a contact alternates from cell to cell by more than a share."""
+    if share > ALTERNATING:
+        warnings.warn(
+            f"pressure must not alternate from cell to cell by more than {ALTERNATING:.1%}, got "
+            f"{share:.1%} at V = {V:.4g}, Q0 = {Q0:.4g}: use UpwindScheme() or more cells",
+            ValidityWarning,
+            stacklevel=stacklevel,
+        )
 
 
 @arguments
@@ -311,10 +319,6 @@ class _Constant:
 
     def __call__(self, t: float) -> float:
         return self.value
-
-
-def _described(state: object) -> str:
-    return f"one of shape {state.pressure.shape}" if isinstance(state, ContactState) else repr(state)
 
 
 # A ball rolling on a lubricated plane, in SI.
@@ -672,16 +676,15 @@ class MovingContact:
     def inputs(self) -> tuple[Signal, ...]:
         """The approach."""
         text = "approach of the ball's center beyond first touch at the end of a step, negative in contact"
-        return (Signal(name="z", unit="m", nominal=2.0 * self.film_scale, description=text),)
+        return signals_of(("z", "m", 2.0 * self.film_scale, text))
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
         """The force and the film thickness."""
-        text = "force of the film on the ball, away from the plane"
-        return (
-            Signal(name="force_z", unit="N", nominal=self.force_scale, description=text),
-            Signal(name="central_film", unit="m", nominal=self.film_scale, description="film at the center"),
-            Signal(name="minimum_film", unit="m", nominal=self.film_scale, description="smallest film"),
+        return signals_of(
+            ("force_z", "N", self.force_scale, FORCE_TEXT),
+            ("central_film", "m", self.film_scale, "film at the center"),
+            ("minimum_film", "m", self.film_scale, "smallest film"),
         )
 
     def start(self, u: ArrayLike) -> Levels:

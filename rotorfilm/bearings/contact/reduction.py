@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import RBFInterpolator
@@ -25,7 +25,7 @@ from .contact_law import (
     transfer,
     under_load,
 )
-from .point_contact import ALTERNATING, PointContact
+from .point_contact import PointContact, warn_of_alternating
 
 if TYPE_CHECKING:
     from .point_contact import RollingBall
@@ -75,16 +75,10 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
     """
     require_positive("load", load)
     equations = under_load(contact.equations, load)
-    between = point_between(kept_points(equations), equations.V, equations.Q0)
-    law = _law(between.point, equations.ellipse.load, order)
-    return _scaled(
-        replace(
-            law,
-            static_error=law.static_error + between.load_error,
-            damping_error=law.damping_error + between.damping_error,
-        ),
-        load,
-    )
+    point, load_error, damping_error = point_between(kept_points(equations), equations.V, equations.Q0)
+    law = _law(point, equations.ellipse.load, order)
+    static, damping = law.static_error + load_error, law.damping_error + damping_error
+    return _scaled(replace(law, static_error=static, damping_error=damping), load)
 
 
 @arguments
@@ -132,7 +126,7 @@ def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linear
         per = law.force_scale / law.film_scale
         value -= share**2 * per * transfer(Linearization(law.A, law.B, law.C, law.D), s)
     scale = float(np.max(abs(value)))
-    fit = fit_transfer(FREQUENCIES, value / scale, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST)).system
+    fit = fit_transfer(FREQUENCIES, value / scale, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))[0]
     missed = (transfer(fit, 1j * FREQUENCIES) - value / scale).imag / FREQUENCIES
     error = float(np.max(abs(missed)) / np.max(abs(value.imag / scale / FREQUENCIES)))
     return Linearization(fit.A / unit, fit.B / unit, fit.C * scale, fit.D * scale), error
@@ -140,27 +134,20 @@ def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linear
 
 def _law(point: ContactPoint, unit: float, order: int) -> ContactLaw:
     """Return the law of a point in its own units, `unit` being the integral of the dry pressure."""
-    static = fit_static_law(point.delta, np.array(LOADS))
+    offset, span, exponent, error = fit_static_law(point.delta, np.array(LOADS))
     change = -(point.stiffness[1:] - point.stiffness[0].real) / unit
-    fit = fit_transfer(FREQUENCIES, change, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))
+    system, _ = fit_transfer(FREQUENCIES, change, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))
     law = ContactLaw(
-        offset=static.offset,
-        span=static.span,
-        exponent=static.exponent,
+        offset=offset,
+        span=span,
+        exponent=exponent,
         operating=float(point.delta[LOADS.index(1.0)]),
-        **fit.system._asdict(),
-        static_error=static.error,
-        damping_error=_damping_error(fit.system, change),
+        **system._asdict(),
+        static_error=error,
+        damping_error=_damping_error(system, change),
     )
     _require_damping(law)
-    if point.checkerboard > ALTERNATING:
-        warnings.warn(
-            f"pressure must not alternate from cell to cell by more than {ALTERNATING:.1%}, got "
-            f"{point.checkerboard:.1%} at V = {point.V:.4g}, Q0 = {point.Q0:.4g}: use UpwindScheme() or "
-            "more cells",
-            ValidityWarning,
-            stacklevel=4,
-        )
+    warn_of_alternating(point.checkerboard, point.V, point.Q0, stacklevel=5)
     return law
 
 
@@ -204,25 +191,10 @@ MARGIN = 2.0
 """Stated error / the largest of those measured: the end of the film moves cell by cell, which adds noise."""
 
 
-class Between(NamedTuple):
-    """An interpolated point and its errors.
+def point_between(points: Sequence[ContactPoint], V: float, Q0: float) -> tuple[ContactPoint, float, float]:
+    """Return the point at (V, Q0) from points around it, smooth in ln V and ln Q0, and two errors.
 
-    Attributes
-    ----------
-    point : ContactPoint
-    load_error : float [1]
-        Error of the load at an approach, relative to the load.
-    damping_error : float [1]
-        Error of Im Z/omega relative to the largest.
-    """
-
-    point: ContactPoint
-    load_error: float
-    damping_error: float
-
-
-def point_between(points: Sequence[ContactPoint], V: float, Q0: float) -> Between:
-    """Return the point at (V, Q0) from points around it, smooth in ln V and ln Q0.
+    They are that of the load at an approach, relative to the load, and that of Im Z/omega, to the largest.
 
     Approaches, films and stiffnesses are interpolated by cubic radial functions. The error is twice the
     largest made when one of the nearest points is left out and interpolated from the others.
@@ -241,15 +213,13 @@ def point_between(points: Sequence[ContactPoint], V: float, Q0: float) -> Betwee
         )
     values = np.array([_flat(point) for point in points])
     nearest = np.argsort(np.linalg.norm(places - target, axis=1))[:ASKED]
-    errors = [_error(points[k], _left_out(places, values, k)) for k in nearest]
+    errors = []
+    for k in nearest:
+        others = np.arange(len(places)) != k
+        errors.append(_error(points[k], _smooth(places[others], values[others], places[k])))
     load_error, damping_error = MARGIN * np.max(errors, axis=0)
     found = _unflat(_smooth(places, values, target), V, Q0, max(point.checkerboard for point in points))
-    return Between(found, float(load_error), float(damping_error))
-
-
-def _left_out(places: Array, values: Array, k: int) -> Array:
-    others = np.arange(len(places)) != k
-    return _smooth(places[others], values[others], places[k])
+    return found, float(load_error), float(damping_error)
 
 
 def _smooth(places: Array, values: Array, target: Array) -> Array:
@@ -301,22 +271,10 @@ ROUNDS = 40
 """Relocations of the poles."""
 
 
-class RationalFit(NamedTuple):
-    """A state space dx' = A x + B u, y = C x + D u with D = C A^-1 B, and its error.
-
-    Attributes
-    ----------
-    system : Linearization
-    error : float
-        Largest weighted deviation from the samples.
-    """
-
-    system: Linearization
-    error: float
-
-
-def fit_transfer(frequency: Array, value: np.ndarray, order: int, weight: Array) -> RationalFit:
-    """Return the fit of samples f(i omega).
+def fit_transfer(
+    frequency: Array, value: np.ndarray, order: int, weight: Array
+) -> tuple[Linearization, float]:
+    """Return a fit of samples f(i omega), D = C A^-1 B, and its largest weighted deviation from them.
 
     Parameters
     ----------
@@ -337,13 +295,11 @@ def fit_transfer(frequency: Array, value: np.ndarray, order: int, weight: Array)
         raise InputError(f"order must be from 1 to {len(frequency) - 1}, got {order!r}")
     s = 1j * frequency
     A, B = _start(frequency, order)
-    best: RationalFit | None = None
+    fits = []
     for _ in range(ROUNDS):
         A, B = _canonical(_relocated(A, B, s, value, weight))
-        fit = _fitted(A, B, s, value, weight)
-        best = fit if best is None or fit.error < best.error else best
-    assert best is not None
-    return best
+        fits.append(_fitted(A, B, s, value, weight))
+    return min(fits, key=lambda fit: fit[1])
 
 
 def _start(frequency: Array, order: int) -> tuple[Array, Array]:
@@ -383,13 +339,14 @@ def _relocated(A: Array, B: Array, s: np.ndarray, value: np.ndarray, weight: Arr
     return np.linalg.eigvals(A - np.outer(B, solution[len(A) :]))
 
 
-def _fitted(A: Array, B: Array, s: np.ndarray, value: np.ndarray, weight: Array) -> RationalFit:
+def _fitted(
+    A: Array, B: Array, s: np.ndarray, value: np.ndarray, weight: Array
+) -> tuple[Linearization, float]:
     basis = s[:, None] * _basis(A, B, s)
     residues = _least_squares(basis, value, weight)
     error = float(np.max(weight * abs(basis @ residues - value)))
     # s (s - A)^-1 B = B + A (s - A)^-1 B
-    system = Linearization(A, B[:, None], (residues @ A)[None], np.array([[residues @ B]]))
-    return RationalFit(system, error)
+    return Linearization(A, B[:, None], (residues @ A)[None], np.array([[residues @ B]])), error
 
 
 def _least_squares(rows: np.ndarray, value: np.ndarray, weight: Array) -> Array:

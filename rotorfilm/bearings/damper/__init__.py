@@ -22,11 +22,12 @@ if TYPE_CHECKING:
     )
     from .jfo_damper import (
         DamperSupply as DamperSupply,
+        DamperTurn as DamperTurn,
         ExtrapolatedDamper,
         JFODamper as JFODamper,
         JFOOrbit as JFOOrbit,
+        damper_turn as damper_turn,
     )
-    from .jfo_turn import DamperTurn as DamperTurn, damper_turn as damper_turn
     from .neglected_effects import JudgedDamper
     from .squeeze_films import SqueezeFilm, layer_modes
     from .squeeze_inertia import (

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol, Self
+from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core.errors import (
     InputError,
     require_each,
+    require_inside,
     require_kind,
     require_non_negative,
     require_number,
@@ -25,23 +27,29 @@ from ...core.signals import MOTION_NAMES
 from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
-from ..films.kernel_film import BoundKernel
-from ..films.law import options
-from ..reaction import NOMINAL_SPEED, Size, require_size
+from ..films.law import BoundKernel, options
+from ..reaction import NOMINAL_SPEED, InertialModel, broadcast_state, require_size
 from .squeeze_films import LayerModes, PorousLayer, SqueezeFilm, layer_modes
-from .squeeze_inertia import SqueezeInertia, warn_of_length, warn_of_short_seals
+from .squeeze_inertia import (
+    FilmSegment,
+    SegmentedDamper,
+    SqueezeImpedance,
+    require_inertia_range,
+    warn_of_length,
+    warn_of_short_seals,
+)
 from .squeeze_laws import (
     LARGEST_TABULATED,
     NODES,
     EndSeal,
     FilmInertia,
     FullInertia,
+    RadialTable,
     SealedShortFilm,
     ShortSqueeze,
     SqueezeCase,
     SqueezeLaw,
     SqueezeOptions,
-    TabulatedSqueezeFilm,
     ZoneInertia,
     least_root,
     radial_table,
@@ -162,7 +170,7 @@ LARGEST_RATIO = 0.5
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class SqueezeFilmDamper(SqueezeInertia):
+class SqueezeFilmDamper(InertialModel):
     """A squeeze-film damper: a Reaction whose journal does not spin, so that the speed does not matter.
 
     Parameters
@@ -254,7 +262,7 @@ class SqueezeFilmDamper(SqueezeInertia):
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the film is meant: the last node of a map; 0.95 to 0.99 for others."""
         reach = self._options.largest_eccentricity_ratio
-        if isinstance(self.bound_film, TabulatedSqueezeFilm):
+        if isinstance(self.bound_film, RadialTable):
             reach = LARGEST_TABULATED
         return min(reach, self.film_inertia.reach) if self.has_inertia else reach
 
@@ -283,8 +291,7 @@ class SqueezeFilmDamper(SqueezeInertia):
     def film_in_c(self) -> BoundKernel | None:
         """The film in SI units in C, to be asked at speed 0; None where the law is no map, or table."""
         if self.is_built:
-            case = self.squeeze_case
-            return oil_bound(self, case.end_leak, cavitated=case.cavitated)
+            return oil_bound(self)
         if not isinstance(self.bound_film, MappedSqueezeFilm):
             return None
         return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
@@ -293,15 +300,10 @@ class SqueezeFilmDamper(SqueezeInertia):
         """Return the kernel of this damper in the C library; None if its film has none, or for a subclass."""
         if type(self) not in KERNELS:
             return None
-        if self.is_built:
-            case = self.squeeze_case
-            return oil_spec(self, case.end_leak, cavitated=case.cavitated)
-        dimensions = {name: getattr(self, name) for name, _, _ in DIMENSIONS}
-        caged = self.cage is not None
-        return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
+        return damper_spec(self)
 
     def portable(self) -> Self:
-        """Return this damper with a film that carries the table it needs; see `model.Portable`."""
+        """Return this damper with a film that carries the table it needs; see `model.Reaction`."""
         carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
 
@@ -374,6 +376,116 @@ class SqueezeFilmDamper(SqueezeInertia):
         by_motion = self.force_scale / self.clearance * film + self.convection_slopes(position, velocity)
         return np.concatenate([by_motion, np.zeros_like(by_motion[:, :1])], axis=1)
 
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the inertia of the oil counts."""
+        return self.density > 0.0
+
+    @cached_property
+    def film_inertia(self) -> FilmInertia:
+        """The inertia of the film in this damper's dimensions."""
+        return self._options.inertia(self.squeeze_case)
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike | None = None, speed: ArrayLike = 0.0) -> Array:
+        """Return the mass that the oil adds to the rotor [kg], shape (2, 2, ...); 0 without density.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s], optional
+            Of a ruptured film, whose mass depends on its direction; a full one takes none.
+        speed : array_like, shape (...) [rad/s]
+            Not used.
+
+        Raises
+        ------
+        InputError
+            If an argument is not finite, or a ruptured film is given no velocity.
+        FilmContactError
+            If the journal touches the wall.
+        """
+        if velocity is None and self.has_inertia and self.squeeze_case.cavitated:
+            raise InputError("velocity must be given for the mass of a ruptured film, got None")
+        q, v, _ = broadcast_state(position, np.zeros(2) if velocity is None else velocity, speed)
+        require_inside(q, self.clearance)
+        if not self.has_inertia:
+            return np.zeros((2, *q.shape))
+        return self.inertia_scale / self.clearance * self.film_inertia.mass(*self._scaled(q, v))
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...); see `InertialReaction`."""
+        q, v, _ = broadcast_state(position, velocity, speed)
+        require_inside(q, self.clearance)
+        if not self.has_inertia:
+            return np.zeros((2, 2, 5, *q.shape[1:]))
+        slopes = self.film_inertia.mass_slopes(*self._scaled(q, v))
+        by_motion = self.inertia_scale / self.clearance**2 * slopes
+        return np.concatenate([by_motion, np.zeros_like(by_motion[:, :, :1])], axis=2)
+
+    def reynolds_number(self, frequency: float) -> float:
+        """Return the squeeze Reynolds number |frequency| clearance^2 density/viscosity at [rad/s]."""
+        return abs(frequency) * self.clearance**2 * self.density / self.viscosity
+
+    def require_range(self, frequency: float) -> None:
+        """Warn where the inertia of first order ends, and raise InputError far beyond.
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion.
+        """
+        require_inertia_range(self.reynolds_number(frequency), cavitated=self.squeeze_case.cavitated)
+
+    def small_motion(self, frequency: float) -> SqueezeImpedance:
+        """Return damping and added mass of small motion about the center, exact in the frequency [rad/s].
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion; 0 for slow motion.
+
+        Raises
+        ------
+        InputError
+            For a ruptured film, which has no linear matrices, a porous cage or a feed.
+        """
+        case = self.squeeze_case
+        if case.cavitated or case.layer is not None or np.any(case.feed) or np.any(case.ends):
+            raise InputError(
+                f"small_motion takes a FullFilm() in a solid cage without feed, got {self!r}: for a ruptured "
+                "film, orbit_coefficients"
+            )
+        land = FilmSegment(length=self.length, clearance=self.clearance)
+        return SegmentedDamper(
+            radius=self.radius,
+            segments=(land,),
+            viscosity=self.viscosity,
+            density=self.density,
+            seals=self.seals,
+        ).small_motion(frequency)
+
+    def convection(self, position: Array, velocity: Array) -> Array:
+        """Return the force of convection [N], shape (2, ...), of arrays of equal batch shape; in `force`."""
+        if not self.has_inertia:
+            return np.zeros_like(position)
+        return self.inertia_scale * self.film_inertia.convection(*self._scaled(position, velocity))
+
+    def convection_slopes(self, position: Array, velocity: Array) -> Array:
+        """Return its derivatives by position and velocity, shape (2, 4, ...)."""
+        if not self.has_inertia:
+            return np.zeros((2, 4, *position.shape[1:]))
+        slopes = self.film_inertia.convection_slopes(*self._scaled(position, velocity))
+        return self.inertia_scale / self.clearance * slopes
+
+    @property
+    def inertia_scale(self) -> float:
+        """Density * radius * length^3 [kg m], the film's unit of force per 1/s^2."""
+        return self.density * self.radius * self.length**3
+
+    def _scaled(self, position: Array, velocity: Array) -> tuple[Array, Array]:
+        return position / self.clearance, velocity / self.clearance
+
     def _feed(self, modes: LayerModes) -> Array:
         """Return the feed of each group of modes, shape (N,) [1/s]."""
         if isinstance(self.feed, RadialFeed):
@@ -419,7 +531,7 @@ KERNELS = (SqueezeFilmDamper, PorousDamper)
 # The kernel of the C library that is a squeeze-film damper over a map, with or without retainer springs.
 
 
-KERNEL = "damper"
+KERNEL, SEALED_KERNEL = "damper", "oil_damper"
 
 DIMENSIONS = (
     ("radius", "m", "radius of the film"),
@@ -429,58 +541,58 @@ DIMENSIONS = (
 )
 
 
-def damper_spec(
-    film: SqueezeFilm, dimensions: Mapping[str, float], *, caged: bool, nominal_force: float
-) -> NativeSpec | None:
-    """Return the kernel of a damper; None if its film is no map.
+def damper_spec(damper: SqueezeFilmDamper) -> NativeSpec | None:
+    """Return the kernel of a damper for an FMU, `oil_damper` with seals or inertia; None if it has none.
 
-    What the map holds for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a cage.
-
-    Parameters
-    ----------
-    film : SqueezeFilm
-    dimensions : mapping of str to float
-        Radius, length, clearance [m] and viscosity [Pa s].
-    caged : bool
-        Whether it has a porous cage.
-    nominal_force : float [N]
+    What a map or a table holds for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a
+    cage, and what a table makes of seals.
     """
-    if not isinstance(film, MappedSqueezeFilm):
+    mapped, parts = _mapped(damper.bound_film), _parts(damper) if damper.is_built else None
+    if parts is None and (damper.is_built or mapped is None):
         return None
-    held = {"radius", "length"} if film.one_slenderness else set()
-    if caged:
+    tabled = parts is not None and parts.radial is not None
+    tables = None if mapped is None else mapped.native_tables()
+    held: set[str] = set()
+    if tabled or (mapped is not None and mapped.one_slenderness):
+        held = {"radius", "length"}
+    if damper.cage is not None:
         held |= {"length", "clearance"}
-    parameters = [
-        dimension(name, unit, text, float(dimensions[name]), fixed=name in held)
-        for name, unit, text in DIMENSIONS
-    ]
-    spring = spring_parameter(nominal_force / dimensions["clearance"])
+    if tabled and damper.seals is not None:
+        held |= {"clearance", "viscosity"}
+    parameters = _dimensions(damper, held)
+    if parts is not None:
+        heavy, leakage = damper.has_inertia, 0.0 if damper.seals is None else damper.seals.leakage
+        parameters += (
+            bounded("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
+            bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
+        )
+        tables = parts.tables(tables, heavy=heavy)
     return NativeSpec(
-        kernel=KERNEL,
-        parameters=(*parameters, spring),
-        tables=film.native_tables(),
+        kernel=KERNEL if parts is None else SEALED_KERNEL,
+        parameters=parameters,
+        tables=tables or {},
         inputs=MOTION_NAMES,
         spring="stiffness",
     )
 
 
-def spring_parameter(nominal: float) -> NativeParameter:
-    """Return the stiffness of springs, none yet, of a nominal value [N/m]."""
-    return NativeParameter(
+def _dimensions(damper: SqueezeFilmDamper, held: set[str]) -> tuple[NativeParameter, ...]:
+    """Return the dimensions, fixed where the map of the film holds for them only, and the springs."""
+    reason = ", as the map of the film holds for it"
+    own = (
+        bounded(name, unit, text, float(getattr(damper, name)), fixed=name in held, reason=reason)
+        for name, unit, text in DIMENSIONS
+    )
+    spring = NativeParameter(
         name="stiffness",
         unit="N/m",
         value=0.0,
         tunable=True,
         minimum=0.0,
-        nominal=nominal,
+        nominal=damper.nominal_force / damper.clearance,
         description="of the retainer springs along either axis, whose force is part of the output",
     )
-
-
-def dimension(name: str, unit: str, text: str, value: float, *, fixed: bool) -> NativeParameter:
-    """Return a dimension, which the map of the film may hold for only."""
-    reason = ", as the map of the film holds for it"
-    return bounded(name, unit, text, value, fixed=fixed, reason=reason)
+    return (*own, spring)
 
 
 def bounded(
@@ -499,51 +611,13 @@ def bounded(
     )
 
 
-# Dampers with seals or inertia as kernels of the C library.
-
-
-SEALED_KERNEL = "oil_damper"
-
-
-class _OilDamper(Size, Protocol):
-    """What a damper says of itself."""
-
-    @property
-    def viscosity(self) -> float: ...
-    @property
-    def density(self) -> float: ...
-    @property
-    def seals(self) -> EndSeal | None: ...
-    @property
-    def slenderness(self) -> float: ...
-    @property
-    def force_scale(self) -> float: ...
-    @property
-    def nominal_force(self) -> float: ...
-    @property
-    def bound_film(self) -> SqueezeFilm: ...
-    @property
-    def film_inertia(self) -> FilmInertia: ...
-
-
-def oil_bound(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> BoundKernel | None:
-    """Return the force in C; None where the film has none.
-
-    Parameters
-    ----------
-    damper : SqueezeFilmDamper
-        With seals or inertia.
-    end_leak : float [1]
-        As of a `SqueezeCase`.
-    cavitated : bool
-    """
-    parts, mapped = _parts(damper, end_leak, cavitated=cavitated), _mapped(damper.bound_film)
+def oil_bound(damper: SqueezeFilmDamper) -> BoundKernel | None:
+    """Return the force in C of a damper with seals or inertia; None where the film has none."""
+    film, parts, mapped = damper.bound_film, _parts(damper), _mapped(damper.bound_film)
     if parts is None:
         return None
-    film = damper.bound_film
     seal = film.damping if isinstance(film, SealedShortFilm) else 0.0
-    inertial = damper.density * damper.radius * damper.length**3
-    scales = OilScales(damper.clearance, damper.force_scale, inertial, seal)
+    scales = OilScales(damper.clearance, damper.force_scale, damper.inertia_scale, seal)
     map_kernel = None
     if mapped is not None:
         bound = mapped.bound(clearance=damper.clearance, force_scale=damper.force_scale)
@@ -551,55 +625,27 @@ def oil_bound(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> BoundK
     return BoundKernel(OilDamperKernel(parts, map_kernel, scales), damper.clearance)
 
 
-def oil_spec(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> NativeSpec | None:
-    """Return the kernel of the damper for an FMU; see `oil_bound`."""
-    parts, mapped = _parts(damper, end_leak, cavitated=cavitated), _mapped(damper.bound_film)
-    if parts is None:
-        return None
-    held: set[str] = set()
-    if parts.radial is not None or (mapped is not None and mapped.one_slenderness):
-        held = {"radius", "length"}
-    if parts.radial is not None and damper.seals is not None:
-        held |= {"clearance", "viscosity"}
-    own = [
-        dimension(name, unit, text, float(getattr(damper, name)), fixed=name in held)
-        for name, unit, text in DIMENSIONS
-    ]
-    heavy, leakage = damper.density > 0.0, 0.0 if damper.seals is None else damper.seals.leakage
-    return NativeSpec(
-        kernel=SEALED_KERNEL,
-        parameters=(
-            *own,
-            spring_parameter(damper.nominal_force / damper.clearance),
-            bounded("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
-            bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
-        ),
-        tables=parts.tables(None if mapped is None else mapped.native_tables(), heavy=heavy),
-        inputs=MOTION_NAMES,
-        spring="stiffness",
-    )
-
-
 def _mapped(film: SqueezeFilm) -> MappedSqueezeFilm | None:
     inner = film.film if isinstance(film, SealedShortFilm) else film
     return inner if isinstance(inner, MappedSqueezeFilm) else None
 
 
-def _parts(damper: _OilDamper, end_leak: float, *, cavitated: bool) -> OilParts | None:
-    film, mapped = damper.bound_film, _mapped(damper.bound_film)
-    if mapped is None and not isinstance(film, TabulatedSqueezeFilm):
+def _parts(damper: SqueezeFilmDamper) -> OilParts | None:
+    film, case = damper.bound_film, damper.squeeze_case
+    mapped = _mapped(film)
+    if mapped is None and not isinstance(film, RadialTable):
         return None
-    inertia = damper.film_inertia if damper.density > 0.0 else None
+    inertia = damper.film_inertia if damper.has_inertia else None
     full = isinstance(inertia, FullInertia)
-    closed = full and isinstance(inertia, FullInertia) and inertia.radial is short_inertia
+    closed = isinstance(inertia, FullInertia) and inertia.radial is short_inertia
     tabled = mapped is None or (full and not closed)
-    sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if cavitated else 1.0
+    sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if case.cavitated else 1.0
     return OilParts(
         zone=inertia.share if isinstance(inertia, ZoneInertia) else 0.0,
         closed=float(closed),
         tabled=float(full and not closed),
         sealed=sealed,
-        radial=radial_table(damper.slenderness, end_leak).table if tabled else None,
+        radial=radial_table(case.slenderness, case.end_leak).table if tabled else None,
         least=least_root() if tabled else 1.0,
         nodes=NODES[0],
         weights=NODES[1],

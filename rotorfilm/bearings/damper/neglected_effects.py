@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.model import Array
+from ..assemblies import SharedReaction
 from ..films.geometry import FullFilm
-from ..reaction import InertialModel
 from .bearing import SqueezeFilmDamper
 from .squeeze_laws import CONVECTION, FiniteSqueeze, ShortSqueeze, parabola_mean
 
 
 @dataclass(frozen=True, kw_only=True)
-class JudgedDamper(InertialModel):
+class JudgedDamper(SharedReaction):
     """The forces of a damper on circular orbits, and further ones that its model leaves out.
 
     - full film: damping and mass in small motion, exact in the frequency, in place of the first order; beyond
@@ -38,36 +38,9 @@ class JudgedDamper(InertialModel):
     frequency: float
 
     @property
-    def clearance(self) -> float:
-        """Radial clearance [m]."""
-        return self.damper.clearance
-
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the damper is meant."""
-        return self.damper.largest_eccentricity_ratio
-
-    @property
-    def nominal_force(self) -> float:
-        """Nominal force of the damper [N]."""
-        return self.damper.nominal_force
-
-    @property
-    def has_inertia(self) -> bool:
-        """Whether the inertia of the oil counts."""
-        return self.damper.has_inertia
-
-    def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return the added mass of the damper [kg], shape (2, 2, ...)."""
-        return self.damper.mass(position, velocity, speed)
-
-    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...)."""
-        return self.damper.mass_slopes(position, velocity, speed)
-
-    def require_range(self, frequency: float) -> None:
-        """Warn, or raise InputError, where the inertia of the damper ends; see `SqueezeFilmDamper`."""
-        self.damper.require_range(frequency)
+    def reactions(self) -> tuple[SqueezeFilmDamper]:
+        """The damper."""
+        return (self.damper,)
 
     def left_out(self, position: Array, velocity: Array, acceleration: Array) -> Array:
         """Return the force that the damper leaves out in a motion, shape (2, n) [N].
@@ -78,14 +51,14 @@ class JudgedDamper(InertialModel):
         """
         q, v, a = position, velocity, acceleration
         e, w, b = q / self.clearance, v / self.clearance, a / self.clearance
-        found = self._short.force(e, w, b, self.frequency)
+        found = self._short(e, w, b, self.frequency)
         if self._ruptured:
             pushed = self.damper.convection(q, v)
             if self.has_inertia:
                 pushed = pushed - np.einsum("ij...,j...->i...", self.damper.mass(q, v), a)
             return found + self._growth * np.sum(e**2, axis=0) * pushed + self._around(q, v)
         more, added = self._small
-        centered = self._short.force(np.zeros_like(e), w, b, self.frequency)
+        centered = self._short(np.zeros_like(e), w, b, self.frequency)
         return np.asarray(found - centered - more * v - added * a)
 
     def force_along(
@@ -114,14 +87,18 @@ class JudgedDamper(InertialModel):
         return math.isfinite(self.damper.slenderness_limit)
 
     @cached_property
-    def _short(self) -> Neglected:
-        """The short film, with what of its length counts."""
+    def _short(self) -> Callable[[Array, Array, Array, float], Array]:
+        """What a short film leaves out, with what of its length counts."""
         damper = self.damper
         share = 1.0 if self._is_short else parabola_mean(damper.slenderness)
         leak = damper.squeeze_case.end_leak * damper.slenderness
-        inertial = damper.density * damper.radius * damper.length**3
-        seal = 3.0 / leak if self._ruptured else 0.0
-        return Neglected(share * damper.force_scale, share * inertial, seal, self._ruptured)
+        return partial(
+            neglected_force,
+            viscous=share * damper.force_scale,
+            inertial=share * damper.inertia_scale,
+            seal=3.0 / leak if self._ruptured else 0.0,
+            cavitated=self._ruptured,
+        )
 
     @cached_property
     def _small(self) -> tuple[float, float]:
@@ -169,11 +146,25 @@ NODES = 1440
 """Around a film that is cut off: within 1e-3 of its force to eps = .9."""
 
 
-class Neglected(NamedTuple):
-    """The numbers of a film that its left-out forces need; lengths in clearances.
+def neglected_force(
+    e: Array,
+    w: Array,
+    b: Array,
+    frequency: float,
+    *,
+    viscous: float,
+    inertial: float,
+    seal: float = 0.0,
+    cavitated: bool = False,
+) -> Array:
+    """Return the force that a film leaves out, shape (2, n) [N].
 
-    Attributes
+    Parameters
     ----------
+    e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
+        Position, velocity and acceleration / clearance.
+    frequency : float [rad/s]
+        Of the motion.
     viscous : float [N s]
         viscosity radius length^3/clearance^2, that of the length which counts.
     inertial : float [kg m]
@@ -182,57 +173,16 @@ class Neglected(NamedTuple):
         What the seals of a short film add to h^-3: clearance^3/(2 viscosity G_s length).
     cavitated : bool
     """
-
-    viscous: float
-    inertial: float
-    seal: float
-    cavitated: bool
-
-    def force(self, e: Array, w: Array, b: Array, frequency: float) -> Array:
-        """Return the force that is left out, shape (2, n) [N].
-
-        Parameters
-        ----------
-        e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
-            Position, velocity and acceleration / clearance.
-        frequency : float [rad/s]
-            Of the motion.
-        """
-        if self.cavitated:
-            film = _around(e, w, b)
-            return _over(self._pressure(film) * self._moved(film))
-        return self._second(frequency) * np.polynomial.polynomial.polyval(np.sum(e * e, axis=0), SECOND) * w
-
-    def _second(self, frequency: float) -> float:
-        """Return density radius length^3 Re frequency; Re is frequency inertial/viscous."""
-        return self.inertial**2 / self.viscous * frequency**2
-
-    def _pressure(self, film: _Around) -> Array:
-        """Return the integral of the pressure along the axis, times radius, by angle [N]."""
-        viscous = self.viscous * (film.h**-3 + self.seal) * film.s
-        return -viscous - self.inertial * (0.1 * film.t / film.h - CONVECTION * (film.s / film.h) ** 2)
-
-    def _moved(self, film: _Around) -> Array:
-        """Return 1 where only the whole pressure presses, -1 where only the viscous one does."""
-        return np.asarray((self._pressure(film) > 0.0) * 1.0 - (film.s < 0.0))
-
-
-class _Around(NamedTuple):
-    """Directions (2, M); film and its first and second derivative in time, each (M, n)."""
-
-    m: Array
-    h: Array
-    s: Array
-    t: Array
-
-
-def _around(e: Array, w: Array, b: Array) -> _Around:
-    theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
-    m = np.stack([np.cos(theta), np.sin(theta)])
-    return _Around(m, 1.0 + m.T @ e, m.T @ w, m.T @ b)
-
-
-def _over(pressure: Array) -> Array:
-    """Return the force of a pressure (M, n)."""
-    theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
-    return np.asarray(2.0 * np.pi / NODES * np.stack([np.cos(theta), np.sin(theta)]) @ pressure)
+    if cavitated:
+        theta = 2.0 * np.pi / NODES * (np.arange(NODES) + 0.5)
+        m = np.stack([np.cos(theta), np.sin(theta)])
+        # Film thickness and its first and second derivative in time, each (NODES, n).
+        h, s, t = 1.0 + m.T @ e, m.T @ w, m.T @ b
+        pressure = -viscous * (h**-3 + seal) * s
+        pressure -= inertial * (0.1 * t / h - CONVECTION * (s / h) ** 2)
+        # 1 where only the whole pressure presses, -1 where only the viscous one does.
+        moved = (pressure > 0.0) * 1.0 - (s < 0.0)
+        return np.asarray(2.0 * np.pi / NODES * m @ (pressure * moved))
+    # density radius length^3 Re frequency; Re is frequency inertial/viscous.
+    second = inertial**2 / viscous * frequency**2
+    return second * np.polynomial.polynomial.polyval(np.sum(e * e, axis=0), SECOND) * w

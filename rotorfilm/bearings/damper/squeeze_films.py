@@ -109,9 +109,9 @@ def layer_modes(layer: PorousLayer | None) -> LayerModes:
         return one
     if layer.thin and not layer.vented:
         return one._replace(leak=leakage(layer, np.ones(1)))
-    groups = _groups()
-    k2 = groups.numbers**2
-    weight = groups.shares @ (6.0 / axial_numbers() ** 4)
+    numbers, shares = _groups()
+    k2 = numbers**2
+    weight = shares @ (6.0 / axial_numbers() ** 4)
     return LayerModes(weight / weight.sum(), leakage(layer, k2) / k2, _exchange(layer, k2)[1])
 
 
@@ -143,7 +143,7 @@ def axial_shapes(modes: LayerModes, Z: Array) -> Array:
         return whole[None]
     a = axial_numbers()[:, None]
     signs = (-1.0) ** np.arange(LAST_MODE)[:, None]
-    shapes = _groups().shares @ (2.0 * signs / a**3 * np.cos(a * Z))
+    shapes = _groups()[1] @ (2.0 * signs / a**3 * np.cos(a * Z))
     shapes[-1] += whole - shapes.sum(axis=0)
     return np.asarray(shapes)
 
@@ -165,16 +165,11 @@ def _exchange(layer: PorousLayer, k2: Array) -> tuple[Array, Array]:
     return q2 * span / below, np.exp(-plus) / below
 
 
-class _Groups(NamedTuple):
-    """The a_n that stand for the groups of modes, (N,), and how much of each mode is in which, (N, modes)."""
-
-    numbers: Array
-    shares: Array
-
-
 @cache
-def _groups() -> _Groups:
-    """Return single modes, then blocks by Gauss quadrature of their modes over log a_n, 6/a_n^4 the weight.
+def _groups() -> tuple[Array, Array]:
+    """Return the a_n that stand for groups of modes, (N,), and how much of each mode is in which, (N, modes).
+
+    Single modes, then blocks by Gauss quadrature of their modes over log a_n, 6/a_n^4 the weight.
 
     What multiplies a mode is interpolated in log a_n from the nodes of its block. 1/(h^3 + c_n) is smooth
     there whatever the layer, though c_n itself falls by decades.
@@ -191,7 +186,7 @@ def _groups() -> _Groups:
         share[:, first:last] = np.linalg.solve(np.vander(nodes).T, powers.T)
         numbers.append(np.exp(0.5 * (low + high + (high - low) * nodes)))
         shares.append(share)
-    return _Groups(np.concatenate(numbers), np.concatenate(shares))
+    return np.concatenate(numbers), np.concatenate(shares)
 
 
 # The squeeze film of a short damper: what a law answers, and the full film in closed form.
@@ -223,33 +218,11 @@ class SqueezeFilm(Protocol):
         """Return d force / d (eccentricity, rate), shape (2, 4, ...)."""
 
 
-class CircleIntegrals(NamedTuple):
-    """Integrals over the whole circumference, and their derivatives by E = eccentricity ratio squared.
-
-    With I(f) the integral of f/(h^3 + c) over theta, each (N, ...):
-
-    Attributes
-    ----------
-    across : ndarray
-        I(sin^2).
-    excess : ndarray
-        (I(cos^2) - I(sin^2))/E.
-    lift : ndarray
-        -I(cos)/sqrt(E).
-    across_slope, excess_slope, lift_slope : ndarray
-        d/dE.
-    """
-
-    across: Array
-    excess: Array
-    lift: Array
-    across_slope: Array
-    excess_slope: Array
-    lift_slope: Array
-
-
-def circle_integrals(E: Array, leak: Array) -> CircleIntegrals:
+def circle_integrals(E: Array, leak: Array) -> tuple[Array, ...]:
     """Return the integrals of a film with 1/(h^3 + leak), exact for every leak >= 0 and 0 <= E < 1.
+
+    With I(f) the integral of f/(h^3 + leak) over the whole circumference, each (N, ...): across = I(sin^2),
+    excess = (I(cos^2) - I(sin^2))/E, lift = -I(cos)/sqrt(E), then d/dE of the three.
 
     Parameters
     ----------
@@ -284,7 +257,7 @@ def circle_integrals(E: Array, leak: Array) -> CircleIntegrals:
     even_E = 2 * s1 * s1_E - s2_E + s1 * s3 - s2 * s2 + E * (s1_E * s3 + s1 * s3_E - 2.0 * s2 * s2_E)
     odd = s1 - E * E * s2 * s3
     odd_E = s1_E - 2.0 * E * s2 * s3 - E * E * (s2_E * s3 + s2 * s3_E)
-    return CircleIntegrals(
+    return (
         across,
         common * even,
         common * odd,
@@ -354,13 +327,8 @@ SMALLEST = 1e-200
 """Eccentricity ratio below which the direction of the eccentricity counts for nothing."""
 
 
-class Arc(NamedTuple):
-    """Cosine and sine at the nodes of an arc, film thickness and weights, each (M, B)."""
-
-    cos: Array
-    sin: Array
-    h: Array
-    weight: Array
+Arc = tuple[Array, Array, Array, Array]
+"""Cosine and sine at the nodes of an arc, film thickness and weights, each (M, B)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -381,10 +349,10 @@ class CavitatedSqueezeFilm:
     def force(self, eccentricity: Array, rate: Array) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
         e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
-        axes, arc = self._arc(e, w)
+        axes, (cos, sin, h, weight) = self._arc(e, w)
         along, across = np.einsum("ib,ijb->jb", w, axes)
-        pressure = self._conductance(arc.h)[0] * arc.weight * (along * arc.cos + across * arc.sin)
-        polar = np.stack([np.sum(pressure * arc.cos, axis=0), np.sum(pressure * arc.sin, axis=0)])
+        pressure = self._conductance(h)[0] * weight * (along * cos + across * sin)
+        polar = np.stack([np.sum(pressure * cos, axis=0), np.sum(pressure * sin, axis=0)])
         return -np.einsum("ijb,jb->ib", axes, polar).reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, rate: Array) -> Array:
@@ -397,11 +365,11 @@ class CavitatedSqueezeFilm:
         """
         e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
         _require_motion(e, w)
-        axes, arc = self._arc(e, w)
+        axes, (cos, sin, h, weight) = self._arc(e, w)
         along, across = np.einsum("ib,ijb->jb", w, axes)
-        G, G_h = self._conductance(arc.h)
-        by_rate = _moments(-G * arc.weight, arc)
-        by_position = _moments(G_h * arc.weight * (along * arc.cos + across * arc.sin), arc)
+        G, G_h = self._conductance(h)
+        by_rate = _moments(-G * weight, cos, sin)
+        by_position = _moments(G_h * weight * (along * cos + across * sin), cos, sin)
         turned = [np.einsum("ikb,klb,jlb->ijb", axes, block, axes) for block in (by_position, by_rate)]
         return np.concatenate(turned, axis=1).reshape(2, 4, *eccentricity.shape[1:])
 
@@ -449,18 +417,16 @@ def arc_nodes(eps: Array, start: Array, end: Array, depth: float, nodes: Array, 
     one_minus_cos = 2.0 * ((1.0 - b) * np.sin(0.5 * xi)) ** 2 / den
     sin = (1.0 - b * b) * np.sin(xi) / den
     h = (1.0 - eps) + eps * one_minus_cos
-    return Arc(1.0 - one_minus_cos, sin, h, half * weights * (1.0 - b * b) / den)
+    return 1.0 - one_minus_cos, sin, h, half * weights * (1.0 - b * b) / den
 
 
 def _spread(psi: Array, b: Array) -> Array:
     return psi + 2.0 * np.arctan2(b * np.sin(psi), 1.0 - b * np.cos(psi))
 
 
-def _moments(density: Array, arc: Arc) -> Array:
+def _moments(density: Array, cos: Array, sin: Array) -> Array:
     """Return the sum of density u u^T in polar axes, shape (2, 2, B)."""
-    cc, cs, ss = (
-        np.sum(density * product, axis=0) for product in (arc.cos**2, arc.cos * arc.sin, arc.sin**2)
-    )
+    cc, cs, ss = (np.sum(density * product, axis=0) for product in (cos**2, cos * sin, sin**2))
     return np.array([[cc, cs], [cs, ss]])
 
 
@@ -484,15 +450,8 @@ CLIPPED_NODES = 6
 ROOT_STEPS = 12
 
 
-class _Points(NamedTuple):
-    """Points of the film: unit vectors (2, K) from the center to it, thickness and pressure parts (K,)."""
-
-    u: Array
-    h: Array
-    slope: Array
-    """Pressure per w.u."""
-    offset: Array
-    """Pressure at rest."""
+_Points = tuple[Array, Array, Array, Array]
+"""Unit vectors (2, K) from the center to points of the film, thickness, pressure per w.u and at rest (K,)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -539,8 +498,8 @@ class ClippedSqueezeFilm:
         return np.moveaxis(slopes, 0, -1).reshape(2, 4, *eccentricity.shape[1:])
 
     def _force(self, e: Array, w: Array) -> Array:
-        points, weight = self._film(e, w)
-        return -points.u @ (weight * (points.slope * (w @ points.u) + points.offset))
+        (u, _, slope, offset), weight = self._film(e, w)
+        return -u @ (weight * (slope * (w @ u) + offset))
 
     def _jacobian(self, e: Array, w: Array) -> Array:
         if not (np.any(w) or np.any(self.feed) or np.any(self.ends)):
@@ -548,12 +507,10 @@ class ClippedSqueezeFilm:
                 "velocity must not vanish where a derivative of a cavitated squeeze film without feed is "
                 f"asked for, got rest at eccentricity ratio {np.hypot(*e):.6g}"
             )
-        points, weight = self._film(e, w, slopes=True)
-        u, towards = points.u, w @ points.u
-        plain, weight = weight[0], weight[1:]
-        by_rate = -(u * (plain * points.slope)) @ u.T
+        (u, _, slope, _), (plain, thinner, fed) = self._film(e, w, slopes=True)
+        by_rate = -(u * (plain * slope)) @ u.T
         # dh/de = -u
-        by_position = (u * (weight[0] * towards + weight[1])) @ u.T
+        by_position = (u * (thinner * (w @ u) + fed)) @ u.T
         return np.concatenate([by_position, by_rate], axis=1)
 
     def _film(self, e: Array, w: Array, *, slopes: bool = False) -> tuple[_Points, Array]:
@@ -573,8 +530,9 @@ class ClippedSqueezeFilm:
         weight = 1.5 * self._axial[1][rows] * (half * weights).ravel() * stretch
         if not slopes:
             return points, weight
-        inverse = 1.0 / (points.h**3 + self.modes.leak[:, None])
-        thinner = -3.0 * points.h**2 * inverse**2 * self._axial[2][:, rows]
+        h = points[1]
+        inverse = 1.0 / (h**3 + self.modes.leak[:, None])
+        thinner = -3.0 * h**2 * inverse**2 * self._axial[2][:, rows]
         ratio = self.feed / self.modes.weight
         return points, weight * np.stack([np.ones_like(weight), thinner.sum(axis=0), ratio @ thinner])
 
@@ -583,21 +541,16 @@ class ClippedSqueezeFilm:
         rows = np.repeat(np.arange(AXIAL_NODES), edges.size)
 
         def pressure(xi: Array, row: np.ndarray) -> Array:
-            points = self._points(eps, axis, xi, row)[0]
-            return points.slope * (w @ points.u) + points.offset
+            u, _, slope, offset = self._points(eps, axis, xi, row)[0]
+            return slope * (w @ u) + offset
 
         at_edges = pressure(np.tile(edges, AXIAL_NODES), rows).reshape(AXIAL_NODES, -1)
         low, high = at_edges[:, :-1], at_edges[:, 1:]
         first = np.broadcast_to(edges[:-1], low.shape).copy()
         last = np.broadcast_to(edges[1:], low.shape).copy()
         row, column = np.nonzero((low > 0.0) != (high > 0.0))
-        root = _root(
-            lambda xi: pressure(xi, row),
-            edges[column],
-            edges[column + 1],
-            low[row, column],
-            high[row, column],
-        )
+        ends = edges[column], edges[column + 1], low[row, column], high[row, column]
+        root = _root(lambda xi: pressure(xi, row), *ends)
         rising = high[row, column] > 0.0
         first[row[rising], column[rising]] = root[rising]
         last[row[~rising], column[~rising]] = root[~rising]
@@ -616,7 +569,7 @@ class ClippedSqueezeFilm:
         ends = self.ends[0] + 0.5 * (1.0 + Z[row]) * (self.ends[1] - self.ends[0])
         offset = ends + (self.feed / self.modes.weight) @ parts
         u = np.stack([np.cos(psi), np.sin(psi)])
-        return _Points(u, h, parts.sum(axis=0), offset), (1.0 - b * b) / den
+        return (u, h, parts.sum(axis=0), offset), (1.0 - b * b) / den
 
     @cached_property
     def _axial(self) -> tuple[Array, Array, Array]:
@@ -660,22 +613,8 @@ LARGEST = 0.99
 """Eccentricity ratio to which the harmonics resolve the pressure."""
 
 
-class _Radial(NamedTuple):
-    """Integrals of the pressures of unit sources cos, sin and 1; slopes by the eccentricity ratio."""
-
-    cos: float
-    sin: float
-    lift: float
-    cos_slope: float
-    sin_slope: float
-    lift_slope: float
-
-
-class _Matrix(NamedTuple):
-    """A matrix and its derivative by the eccentricity ratio."""
-
-    value: Array
-    slope: Array
+_Matrix = tuple[Array, Array]
+"""A matrix and its derivative by the eccentricity ratio."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -744,30 +683,28 @@ class FiniteSqueezeFilm:
         A[:, 1, 1], A[:, 0, 0], A_chi[:, 1, 1], A_chi[:, 0, 0] = values[:, (0, 1, 3, 4)].T
         return PolarResponse(A, A_chi, np.zeros_like(A)), values[:, 2], values[:, 5]
 
-    def _radial(self, eps: float) -> _Radial:
-        """Return the integrals of cos, sin, -cos/eps times the pressures of the sources cos, sin, feed."""
+    def _radial(self, eps: float) -> Array:
+        """Return integrals of cos, sin, -cos/eps times the pressures of sources cos, sin, feed; slopes."""
         even, odd = _cubes(eps, _harmonics(eps))
-        m = np.arange(float(len(even.value)))
+        m = np.arange(float(len(even[0])))
         total = np.zeros(6)
         for n, a in enumerate(axial_numbers()[:TWO_DIMENSIONAL_MODES]):
             k2 = a * a + (self.slenderness * m) ** 2
             leak = np.zeros_like(k2) if self.layer is None else leakage(self.layer, k2)
             feed = (self.feed[0] if len(self.feed) == 1 else self.feed[n] / self.modes.weight[n]) / eps
-            around = self._around(odd, m[1:])
-            cosines = _Matrix(*(_bordered(block) for block in around))
+            cosines = self._around(odd, m[1:], first=0)
             (by_cos, by_feed), (cos_slope, feed_slope) = _solve(cosines, even, leak, a, sources=2)
-            sines = _Matrix(*(matrix[1:, 1:] for matrix in even))
-            (by_sin,), (sin_slope,) = _solve(
-                _Matrix(*self._around(sines, m[1:])), odd, leak[1:], a, sources=1
-            )
+            sines = self._around((even[0][1:, 1:], even[1][1:, 1:]), m[1:], first=1)
+            (by_sin,), (sin_slope,) = _solve(sines, odd, leak[1:], a, sources=1)
             lift, lift_slope = -feed * by_feed, -feed * (feed_slope - by_feed / eps)
             total += 6.0 / a**2 * np.array([by_cos, by_sin, lift, cos_slope, sin_slope, lift_slope])
-        return _Radial(*total.tolist())
+        return total
 
-    def _around(self, cube: _Matrix, m: Array) -> tuple[Array, Array]:
-        """Return -(L/D)^2 (h^3 X')' for harmonics m >= 1; `cube` multiplies the other parity by h^3."""
-        L2 = self.slenderness**2
-        return L2 * m[:, None] * cube.value * m, L2 * m[:, None] * cube.slope * m
+    def _around(self, cube: _Matrix, m: Array, *, first: int) -> _Matrix:
+        """Return -(L/D)^2 (h^3 X')' from a `first` harmonic on; `cube` multiplies the other parity by h^3."""
+        value, slope = (self.slenderness**2 * m[:, None] * part * m for part in cube)
+        border = (1 - first, 0)
+        return np.pad(value, border), np.pad(slope, border)
 
 
 def _solve(around: _Matrix, cube: _Matrix, leak: Array, a: float, *, sources: int) -> tuple[Array, Array]:
@@ -776,8 +713,8 @@ def _solve(around: _Matrix, cube: _Matrix, leak: Array, a: float, *, sources: in
     The sources are that harmonic and, as the second of two, a uniform one.
     """
     first = sources - 1
-    matrix = around.value + a * a * cube.value + np.diag(leak)
-    slope = around.slope + a * a * cube.slope
+    matrix = around[0] + a * a * cube[0] + np.diag(leak)
+    slope = around[1] + a * a * cube[1]
     source = np.zeros((len(matrix), sources))
     source[first, 0] = source[0, first] = 1.0
     X = np.linalg.solve(matrix, source)
@@ -794,12 +731,8 @@ def _cubes(eps: float, size: int) -> tuple[_Matrix, _Matrix]:
     cubes = []
     for cos in (even, odd):
         h = np.eye(len(cos)) + eps * cos
-        cubes.append(_Matrix(h @ h @ h, 3.0 * cos @ h @ h))
+        cubes.append((h @ h @ h, 3.0 * cos @ h @ h))
     return cubes[0], cubes[1]
-
-
-def _bordered(block: Array) -> Array:
-    return np.pad(block, ((1, 0), (1, 0)))
 
 
 def _harmonics(eps: float) -> int:

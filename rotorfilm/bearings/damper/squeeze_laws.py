@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -75,15 +75,11 @@ class SqueezeLaw(Protocol):
 class SqueezeOptions:
     """What a squeeze law may have besides `bind`: what it leaves as it is here, it has not."""
 
-    @property
-    def slenderness_limit(self) -> float:
-        """Largest length / diameter for which the film is meant; beyond, a damper warns."""
-        return math.inf
+    slenderness_limit: ClassVar[float] = math.inf
+    """Largest length / diameter for which the film is meant; beyond, a damper warns."""
 
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the film is meant; 1 where it is meant up to the wall."""
-        return 1.0
+    largest_eccentricity_ratio: ClassVar[float] = 1.0
+    """Eccentricity ratio to which the film is meant; 1 where it is meant up to the wall."""
 
     def tabulated(self, case: SqueezeCase) -> SqueezeLaw | None:
         """Return this law with the table that it would make in a damper; None if it makes none."""
@@ -122,7 +118,7 @@ class FiniteSqueeze(SqueezeOptions):
         if case.cavitated:
             raise InputError("extent must be FullFilm() for FiniteSqueeze(), got a cavitated film")
         if case.is_sealed or case.heavy:
-            return TabulatedSqueezeFilm(radial_table(case.slenderness, case.end_leak))
+            return radial_table(case.slenderness, case.end_leak)
         return FiniteSqueezeFilm(case.slenderness, case.layer, case.modes, case.feed)
 
     def inertia(self, case: SqueezeCase) -> FilmInertia:
@@ -222,15 +218,6 @@ NODES = np.polynomial.legendre.leggauss(40)
 """Of Gauss and Legendre over the zone, and their weights."""
 
 
-class _Zone(NamedTuple):
-    """Direction of the film (2, M, B), thickness and weights (M, B), rate along the direction (M, B)."""
-
-    u: Array
-    h: Array
-    weight: Array
-    toward: Array
-
-
 @dataclass(frozen=True, eq=False)
 class ZoneInertia:
     """Pressure of the inertia on the half circle towards which the rotor moves, as if the zone stayed so.
@@ -249,22 +236,20 @@ class ZoneInertia:
 
     share: float = 1.0
 
-    @property
-    def reach(self) -> float:
-        """Up to the wall."""
-        return 1.0
+    reach: ClassVar[float] = 1.0
+    """Up to the wall."""
 
     def mass(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""
-        zone = _zone(eccentricity, rate)
-        found = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, 0.1 * self.share * zone.weight / zone.h)
+        """Return the added mass, shape (2, 2, ...); see `FullInertia.mass`."""
+        u, h, weight, _ = _zone(eccentricity, rate)
+        found = np.einsum("imb,jmb,mb->ijb", u, u, 0.1 * self.share * weight / h)
         return found.reshape(2, 2, *eccentricity.shape[1:])
 
     def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 2, 4, ...); see `FilmInertia.mass_slopes`."""
-        zone, e, w = _zone(eccentricity, rate), eccentricity.reshape(2, -1), rate.reshape(2, -1)
-        weight = 0.1 * self.share * zone.weight
-        by_e = np.einsum("imb,jmb,kmb,mb->ijkb", zone.u, zone.u, zone.u, weight / zone.h**2)
+        """Return its derivatives, shape (2, 2, 4, ...); see `FullInertia.mass_slopes`."""
+        u, h, weight, _ = _zone(eccentricity, rate)
+        e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
+        by_e = np.einsum("imb,jmb,kmb,mb->ijkb", u, u, u, 0.1 * self.share * weight / h**2)
         size = np.hypot(*w)
         turn = np.stack([-w[1], w[0]]) / np.where(size > 0.0, size, 1.0)
         across = np.sum(e * turn, axis=0)
@@ -274,30 +259,30 @@ class ZoneInertia:
         return np.concatenate([by_e, by_w], axis=2).reshape(2, 2, 4, *eccentricity.shape[1:])
 
     def convection(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force of convection, shape (2, ...); see `FilmInertia.convection`."""
-        zone = _zone(eccentricity, rate)
-        push = CONVECTION * self.share * zone.weight * (zone.toward / zone.h) ** 2
-        found = -np.einsum("imb,mb->ib", zone.u, push)
+        """Return the force of convection, shape (2, ...); see `FullInertia.convection`."""
+        u, h, weight, toward = _zone(eccentricity, rate)
+        found = -np.einsum("imb,mb->ib", u, CONVECTION * self.share * weight * (toward / h) ** 2)
         return found.reshape(eccentricity.shape)
 
     def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 4, ...); see `FilmInertia.convection_slopes`."""
-        zone = _zone(eccentricity, rate)
-        push = -2.0 * CONVECTION * self.share * zone.weight * zone.toward / zone.h**2
-        by_w = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, push)
-        by_e = np.einsum("imb,jmb,mb->ijb", zone.u, zone.u, push * zone.toward / zone.h)
+        """Return its derivatives, shape (2, 4, ...); see `FullInertia.convection_slopes`."""
+        u, h, weight, toward = _zone(eccentricity, rate)
+        push = -2.0 * CONVECTION * self.share * weight * toward / h**2
+        by_w = np.einsum("imb,jmb,mb->ijb", u, u, push)
+        by_e = np.einsum("imb,jmb,mb->ijb", u, u, push * toward / h)
         return np.concatenate([by_e, by_w], axis=1).reshape(2, 4, *eccentricity.shape[1:])
 
 
-def _zone(eccentricity: Array, rate: Array) -> _Zone:
-    """Return the nodes of the half circles in which w.u > 0."""
+def _zone(eccentricity: Array, rate: Array) -> tuple[Array, Array, Array, Array]:
+    """Return nodes where w.u > 0: directions u (2, M, B), film thickness, weights and w.u (M, B)."""
     e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
     minimum = np.arctan2(e[1], e[0])
     ahead = np.arctan2(w[1], w[0]) - minimum
-    arc = arc_nodes(np.hypot(*e), ahead - 0.5 * np.pi, ahead + 0.5 * np.pi, 0.0, *NODES)
+    ends = ahead - 0.5 * np.pi, ahead + 0.5 * np.pi
+    c, s, h, weight = arc_nodes(np.hypot(*e), *ends, 0.0, *NODES)
     cos, sin = np.cos(minimum), np.sin(minimum)
-    u = np.stack([cos * arc.cos - sin * arc.sin, sin * arc.cos + cos * arc.sin])
-    return _Zone(u, arc.h, arc.weight, np.einsum("ib,imb->mb", w, u))
+    u = np.stack([cos * c - sin * s, sin * c + cos * s])
+    return u, h, weight, np.einsum("ib,imb->mb", w, u)
 
 
 # Functions of the radius for full films of finite length, between ends of any leakage, in a short table.
@@ -310,12 +295,14 @@ INERTIA_NODES = 20
 """Of the table, over sqrt(1 - eps^2)."""
 
 POWERS = np.array([1.0, 1.0, 1.0, 1.0, 3.0, 3.0, 5.0])
-"""Of 1/sqrt(1 - eps^2) in the `InertiaFunctions` and the two of the damping: those of the short film."""
+"""Of 1/sqrt(1 - eps^2) in the functions of the inertia and c, d of the damping: those of the short film."""
 
 
 @dataclass(frozen=True, eq=False)
 class RadialTable:
-    """Seven functions of the squared eccentricity ratio, as polynomials in s = sqrt(1 - E).
+    """Full film of finite length between ends of any leakage: F = -c w - d (e.w) e, and its inertia.
+
+    Seven functions of the squared eccentricity ratio, as polynomials in s = sqrt(1 - E).
 
     Parameters
     ----------
@@ -325,15 +312,25 @@ class RadialTable:
 
     table: Array
 
-    def inertia(self, E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
-        """Return the functions of mass and convection, and their slopes; see `film_inertia.Radial`."""
+    def inertia(self, E: Array) -> tuple[Array, Array]:
+        """Return m, n, a, b, c of the inertia, shape (5, ...), and their slopes; see `FullInertia`."""
         values, slopes = self._at(E)
-        return InertiaFunctions(*values[:5]), InertiaFunctions(*slopes[:5])
+        return values[:5], slopes[:5]
 
-    def damping(self, E: Array) -> tuple[Array, Array]:
-        """Return the damping C w = c w + d (e.w) e as (c, d), shape (2, ...), and its slopes by E."""
-        values, slopes = self._at(E)
-        return values[5:], slopes[5:]
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
+        c, d = self._at(_squared(eccentricity))[0][5:]
+        return -c * rate - d * np.sum(eccentricity * rate, axis=0) * eccentricity
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
+        e, w, unit = eccentricity, rate, _unit(eccentricity)
+        (c, d), (c_E, d_E) = (both[5:] for both in self._at(_squared(e)))
+        ew = np.sum(e * w, axis=0)
+        by_rate = -c * unit - d * e[:, None] * e
+        grown = c_E * w + d_E * ew * e
+        by_position = -2.0 * grown[:, None] * e - d * (ew * unit + e[:, None] * w)
+        return np.concatenate([by_position, by_rate], axis=1)
 
     def _at(self, E: Array) -> tuple[Array, Array]:
         s = np.sqrt(1.0 - E)
@@ -378,34 +375,6 @@ def _functions(eps: float, slenderness: float, end_leak: float) -> tuple[float, 
     return m_t, (m_r - m_t) / eps**2, a, b, (radial / eps - a - b) / eps**2, c_t, (c_r - c_t) / eps**2
 
 
-@dataclass(frozen=True, eq=False)
-class TabulatedSqueezeFilm:
-    """Full film of finite length between ends of any leakage: F = -c w - d (e.w) e.
-
-    Parameters
-    ----------
-    table : RadialTable
-    """
-
-    table: RadialTable
-
-    def force(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        (c, d), _ = self.table.damping(np.asarray(np.sum(eccentricity**2, axis=0)))
-        return -c * rate - d * np.sum(eccentricity * rate, axis=0) * eccentricity
-
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
-        e, w = eccentricity, rate
-        (c, d), (c_E, d_E) = self.table.damping(np.asarray(np.sum(e**2, axis=0)))
-        ew = np.sum(e * w, axis=0)
-        unit = np.eye(2).reshape(2, 2, *(1,) * ew.ndim)
-        by_rate = -c * unit - d * e[:, None] * e
-        grown = c_E * w + d_E * ew * e
-        by_position = -2.0 * grown[:, None] * e - d * (ew * unit + e[:, None] * w)
-        return np.concatenate([by_position, by_rate], axis=1)
-
-
 # The inertia of the oil in a full squeeze film: the mass that it adds and the force of its
 # convection.
 #
@@ -421,12 +390,22 @@ CONVECTION = 17.0 / 70.0
 """Force of convection in a short film per integral of (w.m)^2 m/h^2: (102/35)/12 of its pressure."""
 
 
-class FilmInertia(Protocol):
-    """The inertia of a film in its units."""
+@dataclass(frozen=True, eq=False)
+class FullInertia:
+    """Inertia of a film all round in its units, the same in every direction: five functions of the radius.
 
-    @property
-    def reach(self) -> float:
-        """Eccentricity ratio to which it is meant; 1 where that is the wall."""
+    Mass m I + n e e and convection a |w|^2 e + b (e.w) w + c (e.w)^2 e.
+
+    Parameters
+    ----------
+    radial : callable
+        Returns m, n, a, b, c, each (...), and their slopes at squared eccentricity ratios (...).
+    reach : float [1]
+        Eccentricity ratio to which they are meant.
+    """
+
+    radial: Callable[[Array], tuple[Any, Any]]
+    reach: float = 1.0
 
     def mass(self, eccentricity: Array, rate: Array) -> Array:
         """Return the added mass, shape (2, 2, ...), symmetric.
@@ -438,85 +417,41 @@ class FilmInertia(Protocol):
         rate : ndarray, shape (2, ...) [1/s]
             Velocity / clearance; of a ruptured film only its direction matters, of a full one nothing.
         """
+        e, (m, n, *_) = eccentricity, self.radial(_squared(eccentricity))[0]
+        return m * _unit(e) + n * e[:, None] * e
 
     def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
         """Return d mass / d (eccentricity, rate), shape (2, 2, 4, ...)."""
-
-    def convection(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force of convection on the rotor, shape (2, ...)."""
-
-    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d convection / d (eccentricity, rate), shape (2, 4, ...)."""
-
-
-class InertiaFunctions(NamedTuple):
-    """Mass m I + n e e and convection a |w|^2 e + b (e.w) w + c (e.w)^2 e of a full film, each (...).
-
-    Attributes
-    ----------
-    m, n, a, b, c : ndarray
-        Functions of the squared eccentricity ratio.
-    """
-
-    m: Array
-    n: Array
-    a: Array
-    b: Array
-    c: Array
-
-
-Radial = Callable[[Array], tuple[InertiaFunctions, InertiaFunctions]]
-"""Values and slopes of the functions at squared eccentricity ratios."""
-
-
-@dataclass(frozen=True, eq=False)
-class FullInertia:
-    """Inertia of a film all round, which does not depend on direction: five functions of the radius.
-
-    Parameters
-    ----------
-    radial : callable
-        Returns the `InertiaFunctions` and their slopes at squared eccentricity ratios (...).
-    reach : float [1]
-        Eccentricity ratio to which they are meant.
-    """
-
-    radial: Radial
-    reach: float = 1.0
-
-    def mass(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""
-        e, at = eccentricity, self.radial(_squared(eccentricity))[0]
-        return at.m * _unit(e) + at.n * e[:, None] * e
-
-    def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 2, 4, ...); see `FilmInertia.mass_slopes`."""
         e, unit = eccentricity, _unit(eccentricity)
-        at, slope = self.radial(_squared(e))
-        by_e = 2.0 * (slope.m * unit + slope.n * e[:, None] * e)[:, :, None] * e
-        by_e += at.n * (unit[:, None] * e[:, None] + e[:, None, None] * unit)
+        (_, n, *_), (m_E, n_E, *_) = self.radial(_squared(e))
+        by_e = 2.0 * (m_E * unit + n_E * e[:, None] * e)[:, :, None] * e
+        by_e += n * (unit[:, None] * e[:, None] + e[:, None, None] * unit)
         return np.concatenate([by_e, np.zeros_like(by_e)], axis=2)
 
     def convection(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force of convection, shape (2, ...); see `FilmInertia.convection`."""
-        e, w, at = eccentricity, rate, self.radial(_squared(eccentricity))[0]
+        """Return the force of convection on the rotor, shape (2, ...)."""
+        e, w, (*_, a, b, c) = eccentricity, rate, self.radial(_squared(eccentricity))[0]
         ew = np.sum(e * w, axis=0)
-        return (at.a * _squared(w) + at.c * ew**2) * e + at.b * ew * w
+        return (a * _squared(w) + c * ew**2) * e + b * ew * w
 
     def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 4, ...); see `FilmInertia.convection_slopes`."""
+        """Return d convection / d (eccentricity, rate), shape (2, 4, ...)."""
         e, w, unit = eccentricity, rate, _unit(eccentricity)
-        at, slope = self.radial(_squared(e))
+        (*_, a, b, c), (*_, a_E, b_E, c_E) = self.radial(_squared(e))
         ew, ww = np.sum(e * w, axis=0), _squared(w)
-        grown = (slope.a * ww + slope.c * ew**2) * e + slope.b * ew * w
-        by_e = 2.0 * grown[:, None] * e + (at.a * ww + at.c * ew**2) * unit
-        by_e += (2.0 * at.c * ew * e + at.b * w)[:, None] * w
-        by_w = 2.0 * at.a * e[:, None] * w + (2.0 * at.c * ew * e + at.b * w)[:, None] * e
-        return np.concatenate([by_e, by_w + at.b * ew * unit], axis=1)
+        grown = (a_E * ww + c_E * ew**2) * e + b_E * ew * w
+        by_e = 2.0 * grown[:, None] * e + (a * ww + c * ew**2) * unit
+        by_e += (2.0 * c * ew * e + b * w)[:, None] * w
+        by_w = 2.0 * a * e[:, None] * w + (2.0 * c * ew * e + b * w)[:, None] * e
+        return np.concatenate([by_e, by_w + b * ew * unit], axis=1)
 
 
-def short_inertia(E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
-    """Return the functions of a short film, open or sealed, and their slopes; exact for 0 <= E < 1.
+FilmInertia = FullInertia | ZoneInertia
+"""The inertia of a film in its units."""
+
+
+def short_inertia(E: Array) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Return m, n, a, b, c of a short film, open or sealed, and their slopes; exact for 0 <= E < 1.
 
     Parameters
     ----------
@@ -540,8 +475,8 @@ def short_inertia(E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
     by_s = -0.5 / s  # ds/dE
     n_log = -(1.0 / s + 2.0 / near) * by_s
     c_log = (3.0 / (3.0 * s + 1.0) - 3.0 / s - 3.0 / near) * by_s
-    values = InertiaFunctions(2.0 * tenth / near, n, t, 2.0 * t, c)
-    slopes = InertiaFunctions(-2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log)
+    values = (2.0 * tenth / near, n, t, 2.0 * t, c)
+    slopes = (-2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log)
     return values, slopes
 
 
@@ -590,37 +525,6 @@ class SqueezeMotions(NamedTuple):
     convection: tuple[float, float, float]
 
 
-class _Axis(NamedTuple):
-    """Functions along the axis at Gauss nodes, (functions, nodes), and their values at an end."""
-
-    weight: Array
-    value: Array
-    slope: Array
-    bend: Array
-    end: Array
-
-
-class _Slopes(NamedTuple):
-    """Derivatives of a pressure over the angle and over the axis in half lengths, each (theta, z)."""
-
-    t: Array
-    z: Array
-    tt: Array
-    tz: Array
-    zz: Array
-
-
-class _Flow(NamedTuple):
-    """Mean velocity around and along, and its derivatives over both in radii, each (theta, z)."""
-
-    around: Array
-    along: Array
-    around_t: Array
-    around_z: Array
-    along_t: Array
-    along_z: Array
-
-
 def squeeze_motions(eps: float, slenderness: float, end_leak: float) -> SqueezeMotions:
     """Return what a film does in unit motions.
 
@@ -637,7 +541,7 @@ def squeeze_motions(eps: float, slenderness: float, end_leak: float) -> SqueezeM
     pressures = [film.pressure(k) for k in range(2)]
     slopes = [film.slopes(k, P) for k, P in enumerate(pressures)]
     flows = [film.flow(p) for p in slopes]
-    mass = [0.15 / slenderness**2 * film.over(film.h * (v.around**2 + v.along**2)) for v in flows]
+    mass = [0.15 / slenderness**2 * film.over(film.h * (v[0] ** 2 + v[1] ** 2)) for v in flows]
     damping = [film.damping(k, P) for k, P in enumerate(pressures)]
     moved = [[film.moved(k, p, way) for way in range(2)] for k, p in enumerate(slopes)]
     pushes = [film.convection(k, rate, flows, moved) for k, rate in ((0, (1, 0)), (0, (0, 1)), (1, (1, 1)))]
@@ -650,7 +554,8 @@ class _Film:
     def __init__(self, eps: float, slenderness: float, end_leak: float) -> None:
         count = _harmonics(eps)
         theta = 2.0 * np.pi / (4 * count) * np.arange(4 * count)
-        self.s, self.leak, self.axis = slenderness, end_leak, _axis(free_ends=math.isfinite(end_leak))
+        self.s, self.leak = slenderness, end_leak
+        self.weight, self.axis, self.end = _axis(free_ends=math.isfinite(end_leak))
         self.m = (np.cos(theta)[:, None], np.sin(theta)[:, None])
         self.h, self.h_t = 1.0 + eps * self.m[0], -eps * self.m[1]
         self.step = 2.0 * np.pi / theta.size
@@ -662,69 +567,66 @@ class _Film:
 
     def over(self, values: Array) -> float:
         """Return the integral over the angle and over the axis in half lengths."""
-        return float(self.step * np.sum(values @ self.axis.weight))
+        return float(self.step * np.sum(values @ self.weight))
 
     def pressure(self, k: int) -> Array:
         """Return the pressure of a unit rate along x (0) or y (1): coefficients (harmonics, functions)."""
-        source = (self.ring[k][0] * self.step) @ self.m[k] * (self.axis.value @ self.axis.weight)
+        source = (self.ring[k][0] * self.step) @ self.m[k] * (self.axis[0] @ self.weight)
         return self._solved(k, -self.s * source)
 
-    def slopes(self, parity: int, P: Array) -> _Slopes:
-        """Return the derivatives of a pressure on the grid."""
-        (value, slope, bend), axis = self.ring[parity], self.axis
-        pairs = ((slope, axis.value), (value, axis.slope), (bend, axis.value), (slope, axis.slope))
-        return _Slopes(*(ring.T @ P @ line for ring, line in (*pairs, (value, axis.bend))))
+    def slopes(self, parity: int, P: Array) -> list[Array]:
+        """Return p_t, p_z, p_tt, p_tz, p_zz, each (theta, z): over the angle and the axis in half lengths."""
+        ring, line = self.ring[parity], self.axis
+        return [ring[i].T @ P @ line[j] for i, j in ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))]
 
     def damping(self, k: int, P: Array) -> float:
         """Return minus the force on the rotor along k."""
-        return -1.5 / self.s**2 * self.over(self.m[k] * (self.ring[k][0].T @ P @ self.axis.value))
+        return -1.5 / self.s**2 * self.over(self.m[k] * (self.ring[k][0].T @ P @ self.axis[0]))
 
-    def flow(self, p: _Slopes) -> _Flow:
-        """Return the velocity -h^2 grad p and its derivatives."""
-        h, s, grown = self.h**2, self.s, 2.0 * self.h * self.h_t
-        return _Flow(
-            -h * p.t,
-            -h * p.z / s,
-            -(grown * p.t + h * p.tt),
-            -h * p.tz / s,
-            -(grown * p.z + h * p.tz) / s,
-            -h * p.zz / s**2,
-        )
+    def flow(self, p: list[Array]) -> list[Array]:
+        """Return the velocity -h^2 grad p around and along, then its derivatives over both in radii."""
+        (t, z, tt, tz, zz), h, s, grown = p, self.h**2, self.s, 2.0 * self.h * self.h_t
+        around, along = -h * t, -h * z / s
+        return [around, along, -(grown * t + h * tt), -h * tz / s, -(grown * z + h * tz) / s, -h * zz / s**2]
 
-    def moved(self, k: int, p: _Slopes, way: int) -> tuple[Array, Array]:
+    def moved(self, k: int, p: list[Array], way: int) -> tuple[Array, Array]:
         """Return how the velocity of a unit rate along k changes as the rotor moves along x (0) or y (1)."""
         parity, by_h = (k + way) % 2, 2.0 * self.h * self.m[way]
         bent = 3.0 * self.h**2 * self.m[way] * self.step
         value, slope = self.ring[parity][:2]
-        axis, weight = self.axis, self.axis.weight
-        load = self.s * (slope @ (bent * p.t)) @ (weight * axis.value).T
-        load += (value @ (bent * p.z)) @ (weight * axis.slope).T / self.s
+        (along, along_slope, _), weight, p_t, p_z = self.axis, self.weight, *p[:2]
+        load = self.s * (slope @ (bent * p_t)) @ (weight * along).T
+        load += (value @ (bent * p_z)) @ (weight * along_slope).T / self.s
         change = self.slopes(parity, self._solved(parity, -load))
         h = self.h**2
-        return -(by_h * p.t + h * change.t), -(by_h * p.z + h * change.z) / self.s
+        return -(by_h * p_t + h * change[0]), -(by_h * p_z + h * change[1]) / self.s
 
     def convection(
-        self, k: int, rate: tuple[float, float], flows: list[_Flow], moved: list[list[tuple[Array, Array]]]
+        self,
+        k: int,
+        rate: tuple[float, float],
+        flows: list[list[Array]],
+        moved: list[list[tuple[Array, Array]]],
     ) -> float:
         """Return the force of convection along k for a rate of the rotor that stays the same."""
-        v = _Flow(*(rate[0] * a + rate[1] * b for a, b in zip(*flows, strict=True)))
+        around, along, *by = (rate[0] * a + rate[1] * b for a, b in zip(*flows, strict=True))
         squeezed = 6.0 / 35.0 * (rate[0] * self.m[0] + rate[1] * self.m[1]) / self.h
-        carried = (v.around * v.around_t + v.along * v.around_z, v.around * v.along_t + v.along * v.along_z)
-        power = np.zeros_like(v.around)
-        for axis, (own, along) in enumerate(zip(flows[k][:2], carried, strict=True)):
+        carried = (around * by[0] + along * by[1], around * by[2] + along * by[3])
+        power = np.zeros_like(around)
+        for axis, (own, v, convected) in enumerate(zip(flows[k], (around, along), carried, strict=False)):
             changing = sum(rate[i] * rate[j] * moved[i][j][axis] for i in range(2) for j in range(2))
-            power += own * (1.2 * changing + 54.0 / 35.0 * along - squeezed * v[axis])
+            power += own * (1.2 * changing + 54.0 / 35.0 * convected - squeezed * v)
         return -0.125 / self.s**2 * self.over(self.h * power)
 
     def _matrix(self, parity: int) -> Array:
         """Return the quadratic form of the pressure: its flow in the film, and out of both ends."""
         value, slope, _ = self.ring[parity]
-        axis, cube = self.axis, self.step * self.h[:, 0] ** 3
-        lines = [(rows * axis.weight) @ rows.T for rows in (axis.value, axis.slope)]
+        cube = self.step * self.h[:, 0] ** 3
+        lines = [(rows * self.weight) @ rows.T for rows in self.axis[:2]]
         matrix = self.s * np.kron((slope * cube) @ slope.T, lines[0])
         matrix += np.kron((value * cube) @ value.T, lines[1]) / self.s
         if math.isfinite(self.leak):
-            ends = 2.0 * self.leak * np.outer(axis.end, axis.end)
+            ends = 2.0 * self.leak * np.outer(self.end, self.end)
             matrix += np.kron(self.step * value @ value.T, ends)
             if parity == 0 and self.leak == 0.0:
                 matrix[0, 0] = 1.0  # of a sealed film the mean pressure is free, and has no force
@@ -734,21 +636,20 @@ class _Film:
         return np.asarray(cho_solve(self.factor[parity], load.ravel()).reshape(load.shape))
 
 
-def _axis(*, free_ends: bool) -> _Axis:
-    """Return differences of even Legendre polynomials, and the constant of ends with a pressure."""
+def _axis(*, free_ends: bool) -> tuple[Array, list[Array], Array]:
+    """Return Gauss weights along the axis, functions with two derivatives there, and their values at an end.
+
+    They are differences of even Legendre polynomials, and a constant where the ends have a pressure.
+    """
     x, weight = np.polynomial.legendre.leggauss(2 * AXIAL + 4)
     rows = np.zeros((AXIAL, 2 * AXIAL + 1))
     for j in range(AXIAL):
         rows[j, [2 * j, 2 * j + 2]] = np.array([-1.0, 1.0]) / math.sqrt(4.0 * j + 3.0)
     if free_ends:
         rows = np.vstack([np.eye(1, rows.shape[1]), rows])
-    value, slope, bend = (
-        np.asarray(
-            np.polynomial.legendre.legval(x, np.polynomial.legendre.legder(rows.T, order)), dtype=float
-        )
-        for order in range(3)
-    )
-    return _Axis(weight, value, slope, bend, np.sum(rows, axis=1))
+    legendre = np.polynomial.legendre
+    values = [np.asarray(legendre.legval(x, legendre.legder(rows.T, order)), float) for order in range(3)]
+    return weight, values, np.sum(rows, axis=1)
 
 
 def _harmonics(eps: float) -> int:

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import ClassVar, NamedTuple
+from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 from scipy.optimize import root
@@ -21,7 +22,7 @@ from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.sources import source_digest
 from ...native import MapKernel
-from ..films.kernel_film import BoundKernel
+from ..films.law import BoundKernel
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import VERSION, MapTable, cached_table, table_path
 from ..journal import MapFilm
@@ -105,8 +106,10 @@ def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, in
     """
     modes = layer_modes(layer)
     if cavitated:
+        film = CavitatedSqueezeFilm(modes)
+        # Under the protocol of journal films, whatever the slenderness.
         table = tabulate_film(
-            _AsJournalFilm(CavitatedSqueezeFilm(modes)),
+            SimpleNamespace(force=lambda e, w, slenderness: film.force(e, w)),
             slenderness_range=(RATIO, RATIO),
             cells=(*cells, 0),
             largest_eccentricity_ratio=LARGEST,
@@ -167,16 +170,6 @@ def _full_table(film: SqueezeFilm, cells: tuple[int, int], largest: float) -> Ma
         largest_eccentricity_ratio=largest,
         slope=np.zeros(1),
     )
-
-
-@dataclass(frozen=True)
-class _AsJournalFilm:
-    """A squeeze film under the protocol of journal films, whatever the slenderness."""
-
-    film: SqueezeFilm
-
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        return self.film.force(eccentricity, source)
 
 
 # Squeeze films as impedance maps: the potential in a table of its own, evaluated in C.
@@ -377,28 +370,6 @@ FARTHEST = 1.5
 """How far an end of the film may lie from where the squeeze vanishes [rad]."""
 
 
-class _Basis(NamedTuple):
-    """Trial functions on -1 <= x <= 1 that vanish at both ends; values and slopes at Gauss-Legendre nodes."""
-
-    x: Array
-    weight: Array
-    value: Array
-    slope: Array
-    end_slope: Array
-
-
-class _Film(NamedTuple):
-    """One arc: conductance h^3 + leak, dpsi/dx, source w.u, weights, and harmonics of the trial functions."""
-
-    h: Array
-    stretch: Array
-    source: Array
-    weight: Array
-    harmonics: np.ndarray
-    end_stretch: Array
-    end_h: Array
-
-
 @dataclass(frozen=True)
 class CavitatedPotential:
     """Least J = (F.w)/2 of a cavitated film, in units viscosity * radius * length^3 / clearance^2 per 1/s.
@@ -424,9 +395,10 @@ class CavitatedPotential:
         """
 
         def slopes(ends: Array) -> Array:
-            film = self._film(eps, heading, ends)
-            P = self._solved(film, 0)[0]
-            return (film.end_h**3 + self._leak) * (_basis().end_slope @ P) / film.end_stretch
+            P = self._solved(self._film(eps, heading, ends), 0)[0]
+            edge = np.array([-1.0, 1.0]), np.ones(2)
+            _, _, h, stretch = arc_nodes(np.asarray(eps), ends[0], ends[1], self._depth, *edge)
+            return (h**3 + self._leak) * (_basis()[4] @ P) / stretch
 
         for beyond in STARTS:
             start = heading + np.array([-0.5, 0.5]) * (np.pi + beyond * self.slenderness)
@@ -440,45 +412,39 @@ class CavitatedPotential:
             f"{eps:.6g}, direction {heading:.6g} rad"
         )
 
-    def _potential(self, film: _Film) -> float:
+    def _potential(self, film: tuple[np.ndarray, ...]) -> float:
+        h, towards, weight, _ = film
         power = 0.0
         for n in range(AXIAL_MODES):
             P, source = self._solved(film, n)
             power += 6.0 / axial_numbers()[n] ** 2 * float(source @ P)
         rest = self._rest
-        conductance = rest.weight @ (1.0 / (film.h**3 + rest.leak[:, None]))
-        return -0.5 * (power + float(film.weight @ (film.source**2 * conductance)))
+        conductance = rest.weight @ (1.0 / (h**3 + rest.leak[:, None]))
+        return -0.5 * (power + float(weight @ (towards**2 * conductance)))
 
-    def _solved(self, film: _Film, n: int) -> tuple[Array, Array]:
+    def _solved(self, film: tuple[np.ndarray, ...], n: int) -> tuple[Array, Array]:
         """Return the coefficients of the pressure of axial mode n and of its source."""
-        basis, a2 = _basis(), axial_numbers()[n] ** 2
-        cube = film.h**3 + self._along
-        matrix = self.slenderness**2 * (basis.slope.T * (cube / film.stretch * basis.weight)) @ basis.slope
-        matrix += (basis.value.T * (film.weight * (a2 * cube + self._through))) @ basis.value
-        if self._spectral:
+        (_, gauss, value, slope, _), a2 = _basis(), axial_numbers()[n] ** 2
+        h, towards, weight, harmonics = film
+        cube = h**3 + self._along
+        matrix = self.slenderness**2 * (slope.T * (cube / (weight / gauss) * gauss)) @ slope
+        matrix += (value.T * (weight * (a2 * cube + self._through))) @ value
+        # The flux of a layer that is not thin depends on more than pressure and second derivative here.
+        if self.layer is not None and not self.layer.thin:
             m = np.arange(HARMONICS + 1.0)
             taken = self._taken(a2 + (self.slenderness * m) ** 2)
             taken[1:] *= 2.0
-            matrix += (film.harmonics.conj().T * taken / (2.0 * np.pi) @ film.harmonics).real
-        source = basis.value.T @ (film.weight * film.source)
+            matrix += (harmonics.conj().T * taken / (2.0 * np.pi) @ harmonics).real
+        source = value.T @ (weight * towards)
         return np.asarray(np.linalg.solve(matrix, source), dtype=np.float64), source
 
-    def _film(self, eps: float, heading: float, ends: Array) -> _Film:
-        basis = _basis()
-        e, first, last = np.asarray(eps), ends[0], ends[1]
-        arc = arc_nodes(e, first, last, self._depth, basis.x, basis.weight)
-        edge = arc_nodes(e, first, last, self._depth, np.array([-1.0, 1.0]), np.ones(2))
-        weighted = arc.weight[:, None] * basis.value
-        powers = (arc.cos - 1j * arc.sin)[:, None] ** np.arange(HARMONICS + 1)
-        source = np.cos(heading) * arc.cos + np.sin(heading) * arc.sin
-        return _Film(
-            arc.h, arc.weight / basis.weight, source, arc.weight, powers.T @ weighted, edge.weight, edge.h
-        )
-
-    @property
-    def _spectral(self) -> bool:
-        """Whether the layer's flux depends on more than the pressure and its second derivative here."""
-        return self.layer is not None and not self.layer.thin
+    def _film(self, eps: float, heading: float, ends: Array) -> tuple[np.ndarray, ...]:
+        """Return film, source w.u and weights at nodes of one arc, and harmonics of the trial functions."""
+        x, gauss, value, *_ = _basis()
+        cos, sin, h, weight = arc_nodes(np.asarray(eps), ends[0], ends[1], self._depth, x, gauss)
+        powers = (cos - 1j * sin)[:, None] ** np.arange(HARMONICS + 1)
+        towards = np.cos(heading) * cos + np.sin(heading) * sin
+        return h, towards, weight, powers.T @ (weight[:, None] * value)
 
     def _taken(self, k2: Array) -> Array:
         assert self.layer is not None
@@ -521,12 +487,15 @@ class CavitatedPotential:
 
 
 @lru_cache(maxsize=1)
-def _basis() -> _Basis:
-    """Return integrated Legendre polynomials."""
+def _basis() -> tuple[Array, Array, Array, Array, Array]:
+    """Return trial functions on -1 <= x <= 1 that vanish at both ends: integrated Legendre polynomials.
+
+    Gauss-Legendre nodes x and weights, values and slopes there, slopes at both ends.
+    """
     x, weight = np.polynomial.legendre.leggauss(NODES)
     k = np.arange(FUNCTIONS)
     P = np.polynomial.legendre.legvander(x, FUNCTIONS + 1)
     scale = 1.0 / np.sqrt(4.0 * k + 6.0)
     slope = scale * (2.0 * k + 3.0)
     ends = np.stack([slope * (-1.0) ** (k + 1), slope])
-    return _Basis(x, weight, scale * (P[:, 2:] - P[:, :-2]), slope * P[:, 1:-1], ends)
+    return x, weight, scale * (P[:, 2:] - P[:, :-2]), slope * P[:, 1:-1], ends

@@ -8,8 +8,13 @@ if TYPE_CHECKING:
     from ..formulas import elliptic_integrals
     from .ball_bearing import (
         BallBearing as BallBearing,
+        BearingPair as BearingPair,
         RollingMaterial as RollingMaterial,
+        TiltingBalls as TiltingBalls,
         Waviness as Waviness,
+        back_to_back as back_to_back,
+        face_to_face as face_to_face,
+        tandem as tandem,
     )
     from .ball_cage import FiveDegreeBalls as FiveDegreeBalls, TurningBalls as TurningBalls
     from .ball_element import (
@@ -22,30 +27,21 @@ if TYPE_CHECKING:
         RunningBalls as RunningBalls,
         StaticBalls as StaticBalls,
     )
-    from .bearing_pair import (
-        BearingPair as BearingPair,
-        TiltingBalls as TiltingBalls,
-        back_to_back as back_to_back,
-        face_to_face as face_to_face,
-        tandem as tandem,
-    )
     from .lubricated_balls import (
         FilmDamping as FilmDamping,
         LubricatedBalls as LubricatedBalls,
+        RaceFilm as RaceFilm,
+        ball_films as ball_films,
         film_damping as film_damping,
+        film_parameter as film_parameter,
         lubricated_balls as lubricated_balls,
+        race_films as race_films,
     )
     from .palmgren_balls import (
         PalmgrenBalls as PalmgrenBalls,
         load_integrals as load_integrals,
         palmgren_stiffness as palmgren_stiffness,
         stribeck_load as stribeck_load,
-    )
-    from .race_film import (
-        RaceFilm as RaceFilm,
-        ball_films as ball_films,
-        film_parameter as film_parameter,
-        race_films as race_films,
     )
 else:
     show(__name__)

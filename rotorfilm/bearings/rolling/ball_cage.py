@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -208,10 +209,8 @@ class FiveDegreeBalls:
             *((f"moment_{axis}", "N.m", size * arm, f"moment on the shaft about {axis}") for axis in "xy"),
         )
 
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """No states."""
-        return ()
+    states: ClassVar[tuple[()]] = ()
+    """No states."""
 
     def inputs_at(
         self,

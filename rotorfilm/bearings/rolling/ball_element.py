@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,15 +34,23 @@ from ...native.spec import parameter
 from ..formulas import EllipticIntegrals, curvature_ratio, elliptic_integrals
 from ..reaction import KernelReaction
 
-# Force and moment of ball bearings over the motion of their shaft in five degrees of freedom.
-
+_ROUNDOFF = 4e-16
 
 MOST_PRESSURE = 4.2e9
 """Contact pressure that defines the static load rating of ball bearings (ISO 76) [Pa]."""
 
 
-class BallDegrees(ABC):
-    """Rows of balls on one shaft that moves along x, y, z and tilts about x and y."""
+class BallElement(KernelReaction, ABC):
+    """Rows of balls on one shaft: a Reaction for planar rotors, and force and moment in five degrees.
+
+    The shaft moves along x, y, z and tilts about x and y. Fields of a class say how a planar shaft stands
+    otherwise, and what damps it.
+    """
+
+    axial_displacement: float
+    axial_load: float | None
+    tilt: tuple[float, float]
+    damping: float
 
     @property
     @abstractmethod
@@ -63,11 +71,6 @@ class BallDegrees(ABC):
     @abstractmethod
     def separates(self) -> bool:
         """Whether the rings come apart under the wrong thrust, as those of one angular contact bearing."""
-
-    @property
-    @abstractmethod
-    def kernel(self) -> BallKernel:
-        """The bearing in compiled code."""
 
     @cached_property
     def largest_load(self) -> float:
@@ -239,31 +242,6 @@ class BallDegrees(ABC):
                 f"{most:.3g} balls slide, {where}"
             )
 
-
-def _five(name: str, value: ArrayLike) -> Array:
-    array = require_finite(name, value)
-    if array.shape != (DEGREES,):
-        raise InputError(f"{name} must have shape (5,) for x, y, z, tilt_x, tilt_y, got shape {array.shape}")
-    return array
-
-
-# What ball bearings and sets of them share: five degrees of freedom, and the planar reaction of a rotor.
-
-
-_ROUNDOFF = 4e-16
-
-
-class BallElement(BallDegrees, KernelReaction):
-    """Rows of balls on one shaft: a Reaction for planar rotors, and force and moment in five degrees.
-
-    Its fields say how the shaft stands otherwise, and what damps it.
-    """
-
-    axial_displacement: float
-    axial_load: float | None
-    tilt: tuple[float, float]
-    damping: float
-
     @property
     @abstractmethod
     def waves(self) -> Array:
@@ -424,6 +402,13 @@ class BallElement(BallDegrees, KernelReaction):
             )
         motion = np.array([x, y, z, *self.tilt])
         self.explain(self.kernel.at(motion, speed), motion, speed)
+
+
+def _five(name: str, value: ArrayLike) -> Array:
+    array = require_finite(name, value)
+    if array.shape != (DEGREES,):
+        raise InputError(f"{name} must have shape (5,) for x, y, z, tilt_x, tilt_y, got shape {array.shape}")
+    return array
 
 
 def require_balls(bearing: object) -> None:
@@ -634,20 +619,14 @@ class StaticBalls:
     For low speeds; the force does not depend on the speed.
     """
 
-    @property
-    def numbers(self) -> Numbers:
-        """No inertia."""
-        return 0, 0.0, 0.0
+    numbers: ClassVar[Numbers] = (0, 0.0, 0.0)
+    """No inertia."""
 
-    @property
-    def parameters(self) -> tuple[tuple[str, str, float, str], ...]:
-        """None that a simulator may set."""
-        return ()
+    parameters: ClassVar[tuple[()]] = ()
+    """None that a simulator may set."""
 
-    @property
-    def most_traction(self) -> float:
-        """Traction coefficient beyond which balls slide [1]; these need none."""
-        return math.inf
+    most_traction: ClassVar[float] = math.inf
+    """Traction coefficient beyond which balls slide [1]; these need none."""
 
 
 @quantities
@@ -733,15 +712,11 @@ class RaceControl:
         """Control by one race."""
         return (1 if self.outer_control else 2), 0.0, 0.0
 
-    @property
-    def parameters(self) -> tuple[tuple[str, str, float, str], ...]:
-        """None that a simulator may set."""
-        return ()
+    parameters: ClassVar[tuple[()]] = ()
+    """None that a simulator may set."""
 
-    @property
-    def most_traction(self) -> float:
-        """Traction coefficient beyond which balls slide [1]."""
-        return CONTROL_TRACTION
+    most_traction: ClassVar[float] = CONTROL_TRACTION
+    """Traction coefficient beyond which balls slide [1]."""
 
 
 BallLaw = StaticBalls | RunningBalls | RaceControl

@@ -1,26 +1,369 @@
-"""A ball bearing whose contacts hold oil films with a dynamics of their own, in five degrees of freedom."""
+"""The oil films between balls and races: thickness, reduced law, damping; a bearing with their dynamics."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import InputError, require_kind, require_non_negative, require_number
+from ...core.errors import (
+    InputError,
+    ValidityWarning,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+    warn_user,
+)
 from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization
 from ...core.readable import Readable
 from ...core.signals import Signal, signals_of
 from ...native.ball_kernel import ROW
-from ..contact import ContactGrid, in_series, require_state_space
-from .ball_bearing import BallBearing
-from .ball_element import BallElement, BallRest, require_balls
-from .bearing_pair import BearingPair
-from .race_film import USUAL_GRID, RaceFilm, race_films
+from ..contact import (
+    BarusViscosity,
+    ContactGrid,
+    ContactLaw,
+    PointContact,
+    RoelandsViscosity,
+    in_series,
+    reduce_contact,
+    require_state_space,
+    roelands_viscosity,
+)
+from ..formulas import Ellipse, HamrockDowson
+from .ball_bearing import BallBearing, BearingPair
+from .ball_element import BallElement, BallLoads, BallRest, EllipticContact, require_balls
+
+USUAL_ELLIPTICITY = 4.0
+"""Of the law that serves every race: from here on the relative stiffness hardly depends on it."""
+
+SPEEDS, PRESSURES = (0.005, 5.0), (6.0, 40.0)
+"""V and Q0 among which the formula of the slow damping was fitted."""
+
+USUAL_GRID = ContactGrid(cells=(48, 48), half_width=1.5)
+"""Rectangle and cells of that law."""
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class RaceFilm:
+    """The flooded film between a ball and one of its races, under one load and speed.
+
+    Parameters
+    ----------
+    touch : EllipticContact
+        The dry contact.
+    load : float [N]
+        Of the ball.
+    rolling_speed : float [m/s]
+        Mean of the speeds of both surfaces, seen from the contact.
+    viscosity : float [Pa s]
+        At ambient pressure and the temperature of the races.
+    pressure_coefficient : float [1/Pa]
+        Of the viscosity, d ln mu/dp at ambient pressure.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+
+    touch: EllipticContact
+    load: float
+    rolling_speed: float
+    viscosity: float
+    pressure_coefficient: float
+
+    def __post_init__(self) -> None:
+        require_kind("touch", self.touch, EllipticContact, "an EllipticContact")
+        require_each(self, require_positive, "load", "rolling_speed", "viscosity", "pressure_coefficient")
+
+    @property
+    def half_axis(self) -> float:
+        """Half-axis b of the dry contact along the rolling [m]."""
+        return self.touch.half_axes(self.load)[1]
+
+    @property
+    def contact_pressure(self) -> float:
+        """Largest pressure p_H of the dry contact [Pa]."""
+        return self.touch.pressure(self.load)
+
+    @property
+    def V(self) -> float:
+        """Speed parameter 24 mu0 (u1 + u2) R_x^2/(p_H b^3) [1]."""
+        scale = self.contact_pressure * self.half_axis**3
+        return 48.0 * self.viscosity * self.rolling_speed * self.touch.rolling_radius**2 / scale
+
+    @property
+    def Q0(self) -> float:
+        """Pressure-viscosity coefficient times p_H [1]."""
+        return self.pressure_coefficient * self.contact_pressure
+
+    @property
+    def film_scale(self) -> float:
+        """b^2/(2 R_x) [m]: unit of film thickness and approach."""
+        return self.half_axis**2 / (2.0 * self.touch.rolling_radius)
+
+    @property
+    def time_scale(self) -> float:
+        """t0 = 2 b/(u1 + u2) [s]: unit of time."""
+        return self.half_axis / self.rolling_speed
+
+    @property
+    def central_film(self) -> float:
+        """Central film thickness by Hamrock & Dowson (1977) [m]."""
+        return self._numbers.central_film * self.touch.rolling_radius
+
+    @property
+    def minimum_film(self) -> float:
+        """Smallest film thickness by Hamrock & Dowson (1977) [m]."""
+        return self._numbers.minimum_film * self.touch.rolling_radius
+
+    @property
+    def _numbers(self) -> HamrockDowson:
+        radius, modulus = self.touch.rolling_radius, self.touch.combined_modulus
+        return HamrockDowson(
+            self.viscosity * self.rolling_speed / (modulus * radius),
+            self.pressure_coefficient * modulus,
+            self.load / (modulus * radius**2),
+            self.touch.ellipticity,
+        )
+
+    @property
+    def stiffness(self) -> float:
+        """Of the dry contact, k_H = 1.5 load/approach [N/m]."""
+        return 1.5 * self.load / self.touch.approach(self.load)
+
+    @property
+    def slow_damping(self) -> float:
+        """Damping of slow motions c0 [N s/m], by a formula fitted to solutions of the film.
+
+        c0 = .0619 k_H t0 (V/.1)^(.537 - .0244 ln(V/.1)) (Q0/15)^.342: 6 % for the ellipticity 4 and Roelands'
+        law, V from .005 to 5 and Q0 from 6 to 40; the ellipticities 2 to 8 are off by 5 % more.
+
+        Warns
+        -----
+        ValidityWarning
+            If V or Q0 is outside of that.
+        """
+        for name, value, (low, high) in (("V", self.V, SPEEDS), ("Q0", self.Q0, PRESSURES)):
+            if not low <= value <= high:
+                warn_user(
+                    f"the damping formula is for {name} from {low:g} to {high:g}, got {value:.3g}",
+                    ValidityWarning,
+                )
+        speed = math.log(self.V / 0.1)
+        share = 0.0619 * math.exp((0.537 - 0.0244 * speed) * speed) * (self.Q0 / 15.0) ** 0.342
+        return share * self.stiffness * self.time_scale
+
+    def contact(
+        self,
+        grid: ContactGrid = USUAL_GRID,
+        *,
+        ellipticity: float | None = None,
+        roelands: bool = True,
+    ) -> PointContact:
+        """Return the dimensionless contact.
+
+        Parameters
+        ----------
+        grid : ContactGrid
+        ellipticity : float [1], optional
+            That of the race by default.
+        roelands : bool
+            Whether the viscosity follows Roelands' law, with the same slope at ambient pressure, rather than
+            Barus' exponential, with which contacts of some GPa are beyond reach.
+        """
+        return PointContact(
+            V=self.V,
+            Q0=self.Q0,
+            grid=grid,
+            piezoviscosity=self._roelands() if roelands else BarusViscosity(),
+            ellipticity=self.touch.ellipticity if ellipticity is None else ellipticity,
+        )
+
+    def _roelands(self) -> RoelandsViscosity:
+        return roelands_viscosity(
+            viscosity=self.viscosity,
+            pressure_coefficient=self.pressure_coefficient,
+            pressure=self.contact_pressure,
+        )
+
+    def law(
+        self, order: int = 5, *, ellipticity: float = USUAL_ELLIPTICITY, grid: ContactGrid = USUAL_GRID
+    ) -> ContactLaw:
+        """Return the reduced law of this film in SI, as `reduce_contact` makes it and keeps it on disk.
+
+        The film is solved on an ellipse of the given ellipticity, 4 by default, and its approaches are scaled
+        so that the dry stiffness is that of the race.
+
+        Parameters
+        ----------
+        order : int
+            States of the dynamic part.
+        ellipticity : float [1]
+        grid : ContactGrid
+        """
+        law = reduce_contact(self.contact(grid, ellipticity=ellipticity), order)
+        wider = Ellipse(self.touch.ellipticity).depth / Ellipse(ellipticity).depth
+        return replace(
+            law,
+            film_scale=law.film_scale * self.film_scale * wider,
+            time_scale=law.time_scale * self.time_scale,
+            force_scale=law.force_scale * self.load,
+        )
+
+
+# The oil films in the contacts of a ball bearing.
+
+
+@arguments
+def race_films(
+    bearing: BallBearing, *, load: float, speed: float, viscosity: float, pressure_coefficient: float
+) -> tuple[RaceFilm, RaceFilm]:
+    """Return the films of a ball at the inner and the outer race.
+
+    Both races roll at the mean speed of their surfaces, |speed| * pitch_diameter
+    (1 - (D cos(alpha)/pitch_diameter)^2)/4.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    load : float [N]
+        Of the ball.
+    speed : float [rad/s]
+        Angular speed of the inner ring, not 0.
+    viscosity : float [Pa s]
+        At ambient pressure and the temperature of the races.
+    pressure_coefficient : float [1/Pa]
+        Of the viscosity, d ln mu/dp at ambient pressure.
+
+    Raises
+    ------
+    InputError
+        If the speed is 0 or not finite, or another argument is not finite and positive.
+    """
+    angle = bearing.free_contact_angle
+    inner, outer = (
+        _race_film(bearing, contact, angle, load, speed, (viscosity, pressure_coefficient))
+        for contact in bearing.contacts
+    )
+    return inner, outer
+
+
+@arguments
+def ball_films(
+    bearing: BallBearing, *, load: float, speed: float, viscosity: float, pressure_coefficient: float
+) -> tuple[float, float]:
+    """Return the central films of the inner and the outer contact [m], by Hamrock & Dowson (1977).
+
+    As `films` of the bearing they shift the static law: the oil hardly changes its slope.
+
+    Parameters
+    ----------
+    bearing, load, viscosity, pressure_coefficient
+        As of `race_films`; the films change little with the load.
+    speed : float [rad/s]
+        Angular speed of the inner ring.
+
+    Raises
+    ------
+    InputError
+        If the speed is not finite, or another argument is not finite and positive.
+    """
+    if require_number("speed", speed) == 0.0:
+        for name, value in {
+            "load": load, "viscosity": viscosity, "pressure_coefficient": pressure_coefficient
+        }.items():  # fmt: skip
+            require_positive(name, value)
+        return 0.0, 0.0
+    inner, outer = race_films(
+        bearing, load=load, speed=speed, viscosity=viscosity, pressure_coefficient=pressure_coefficient
+    )
+    return inner.central_film, outer.central_film
+
+
+@arguments
+def film_parameter(
+    bearing: BallBearing,
+    balls: BallLoads,
+    *,
+    speed: float,
+    viscosity: float,
+    pressure_coefficient: float,
+    roughness: float,
+) -> float:
+    """Return lambda [1]: the smallest film thickness of all contacts under load over their roughness.
+
+    The minimum film is that of Hamrock & Dowson (1977). Above 3 the surfaces are taken to be apart, below 1
+    to touch.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    balls : BallLoads
+        Its balls under load; of a pair those of both rows.
+    speed, viscosity, pressure_coefficient
+        As of `ball_films`.
+    roughness : float [m]
+        Of ball and race together, sqrt(Rq_1^2 + Rq_2^2).
+
+    Raises
+    ------
+    InputError
+        If the speed is not finite, another argument is not finite and positive, or no ball is under load.
+    """
+    for name, value in {
+        "roughness": roughness, "viscosity": viscosity, "pressure_coefficient": pressure_coefficient
+    }.items():  # fmt: skip
+        require_positive(name, value)
+    oil = viscosity, pressure_coefficient
+    places = (balls.inner_load, balls.inner_angle), (balls.outer_load, balls.outer_angle)
+    loaded = [
+        (number, float(angles[loads.argmax()]), float(loads.max()))
+        for number, (loads, angles) in enumerate(places)
+        if loads.max() > 0.0
+    ]
+    if not loaded:
+        raise InputError("balls must be under load for a film parameter, got loads of 0 N")
+    if require_number("speed", speed) == 0.0:
+        return 0.0
+    films = [
+        _race_film(bearing, bearing.contacts_at(angle, angle)[number], angle, load, speed, oil).minimum_film
+        for number, angle, load in loaded
+    ]
+    return min(films) / roughness
+
+
+def _race_film(
+    bearing: BallBearing,
+    contact: EllipticContact,
+    angle: float,
+    load: float,
+    speed: float,
+    oil: tuple[float, float],
+) -> RaceFilm:
+    """Return the film of a contact [rad], [N] on an oil of a viscosity and its pressure coefficient."""
+    pitch = bearing.pitch_diameter
+    share = bearing.ball_diameter * math.cos(angle) / pitch
+    return RaceFilm(
+        touch=contact,
+        load=load,
+        rolling_speed=0.25 * abs(require_number("speed", speed)) * pitch * (1.0 - share**2),
+        viscosity=oil[0],
+        pressure_coefficient=oil[1],
+    )
+
+
+# A ball bearing whose contacts hold oil films with a dynamics of their own.
+
 
 TINY = 1e-300
 """What stands for no load in a denominator."""
@@ -104,7 +447,7 @@ class LubricatedBalls:
 
     def resting(self, u: ArrayLike) -> Array:
         """Return the state of films that have long rested at a motion u (5,) of the shaft."""
-        drive = self._geometry(u).drive
+        drive = self._geometry(u)[1]
         return np.asarray(-np.outer(drive, np.linalg.solve(self.A, self.B[:, 0])).ravel())
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -115,18 +458,18 @@ class LubricatedBalls:
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt [1/s]."""
         states = np.reshape(np.asarray(x, dtype=float), (-1, self.order))
-        drive = self._geometry(u).drive
+        drive = self._geometry(u)[1]
         return np.asarray((states @ self.A.T + drive[:, None] * self.B[:, 0]).ravel())
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives; at a kink those of one side."""
-        at, geometry, balls = self._balls(x, u), self._geometry(u), len(self._moves)
+        at, (*_, by_approach), balls = self._balls(x, u), self._geometry(u), len(self._moves)
         A = np.asarray(np.kron(np.eye(balls), self.A), dtype=float)
-        B = np.einsum("ji,k->jki", geometry.by_motion, self.B[:, 0]).reshape(-1, 5)
+        B = np.einsum("ji,k->jki", by_approach, self.B[:, 0]).reshape(-1, 5)
         push = np.einsum("jai,ja->ji", self._moves, at.direction)
         acts = self.shares * at.acts
         C = np.einsum("ji,j,k->ijk", push, acts, self.C[0]).reshape(5, -1)
-        by_motion = acts[:, None] * self.D[0, 0] * geometry.by_motion
+        by_motion = acts[:, None] * self.D[0, 0] * by_approach
         loaded = np.einsum("ja,jai->ji", at.direction, at.moved)
         by_motion -= (at.pressed - at.acts)[:, None] * loaded
         turned = at.moved - at.direction[:, :, None] * loaded[:, None]
@@ -136,9 +479,9 @@ class LubricatedBalls:
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return what changes sign where a ball takes or leaves its load, and where its force vanishes."""
-        at, geometry = self._balls(x, u), self._geometry(u)
+        at, (depth, *_) = self._balls(x, u), self._geometry(u)
         force = self.bearing.nominal_force
-        return np.concatenate([geometry.depth / self.bearing.clearance, (at.load + at.film) / force])
+        return np.concatenate([depth / self.bearing.clearance, (at.load + at.film) / force])
 
     def _balls(self, x: ArrayLike, u: ArrayLike) -> _Balls:
         motion = np.asarray(u, dtype=float)
@@ -150,29 +493,21 @@ class LubricatedBalls:
         pressed = (load > 0.0).astype(float)
         direction = push / np.maximum(load, TINY)[:, None]
         states = np.reshape(np.asarray(x, dtype=float), (-1, self.order))
-        film = self.shares * (states @ self.C[0] + self.D[0, 0] * self._geometry(u).drive)
+        film = self.shares * (states @ self.C[0] + self.D[0, 0] * self._geometry(u)[1])
         acts = pressed * (film > -load)
         place = kernel.each["by_place"].reshape(-1, 2, 2)
-        return _Balls(
-            wrench=kernel.wrench,
-            slopes=kernel.slopes[:, :5],
-            direction=direction,
-            load=load,
-            moved=place @ self._moves,
-            film=film,
-            gained=pressed * np.maximum(film, -load),
-            acts=acts,
-            pressed=pressed,
-        )
+        gained = pressed * np.maximum(film, -load)
+        moved, slopes = place @ self._moves, kernel.slopes[:, :5]
+        return _Balls(kernel.wrench, slopes, direction, load, moved, film, gained, acts, pressed)
 
-    def _geometry(self, u: ArrayLike) -> _Geometry:
+    def _geometry(self, u: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return the approach of both grooves at each ball, what drives its films, and d(that)/d(motion)."""
         center = self._still + self._moves @ np.asarray(u, dtype=float)
         length = np.hypot(center[:, 0], center[:, 1])
         depth = length - self._touch
         along = (depth > 0.0)[:, None] * center / length[:, None]
-        return _Geometry(
-            depth, np.maximum(depth, 0.0) - self._rested, np.einsum("ja,jai->ji", along, self._moves)
-        )
+        by_motion = np.einsum("ja,jai->ji", along, self._moves)
+        return depth, np.maximum(depth, 0.0) - self._rested, by_motion
 
     @cached_property
     def _moves(self) -> Array:
@@ -197,14 +532,6 @@ class LubricatedBalls:
     def _column(self, name: str) -> Array:
         rows = self.bearing.rows
         return np.repeat(rows[:, ROW.index(name)], rows[:, ROW.index("count")].astype(int))
-
-
-class _Geometry(NamedTuple):
-    """Approach of both grooves at each ball, what drives its films, and the derivatives by the motion."""
-
-    depth: Array
-    drive: Array
-    by_motion: Array
 
 
 class _Balls(NamedTuple):
@@ -411,7 +738,8 @@ def ball_moves(rows: Array) -> Array:
 def _passed_on(bearing: BallElement, rest: BallRest) -> Iterator[tuple[Array, Array]]:
     """Yield the approaches of inner and outer contact of each ball per motion of its inner groove, (2,)."""
     balls, still = rest.balls, np.zeros(2)
-    reach = np.repeat(bearing.rows[:, [ROW.index("inner"), ROW.index("outer")]], _counts(bearing), axis=0)
+    counts = bearing.rows[:, ROW.index("count")].astype(int)
+    reach = np.repeat(bearing.rows[:, [ROW.index("inner"), ROW.index("outer")]], counts, axis=0)
     numbers = zip(
         balls.inner_load, balls.outer_load, balls.inner_angle, balls.outer_angle, reach, strict=True
     )
@@ -434,10 +762,6 @@ def _contact(stiffness: float, load: float, angle: float, touch: float) -> tuple
     along, across = np.array([np.sin(angle), np.cos(angle)]), np.array([np.cos(angle), -np.sin(angle)])
     stiff = 1.5 * load / depth * np.outer(along, along)
     return along, stiff + load / (touch + depth) * np.outer(across, across)
-
-
-def _counts(bearing: BallElement) -> list[int]:
-    return [int(count) for count in bearing.rows[:, ROW.index("count")]]
 
 
 def _planar(damping: Array, stiffness: Array, *, free: bool) -> Array:

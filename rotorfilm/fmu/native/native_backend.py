@@ -5,27 +5,30 @@ from __future__ import annotations
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from importlib.resources import files
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.errors import FmuError
 from ...core.model import Array, Dynamic, Model, Stepped, Switched
 from ...core.signals import Variable
+from ...core.sources import PACKAGE
 from ...native.resource import FILE_NAME, carried_library, kernel_row, kernel_texts, pack
 from ...native.spec import NativeSpec
-from ..archive import licenses
+from ..archive import guid_of, licenses
 from ..description import (
+    Description,
     build_description,
+    dependencies,
     fmi_variables,
     labelled,
     references,
     require_unique,
     structured_name,
     terminal_files,
+    to_xml,
 )
 from ..documentation import NATIVE, NATIVE_STEPPED, to_html
-from ..python.python_backend import PACKAGE
 from ..reference import reference_table, to_csv
 from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
 
@@ -69,17 +72,6 @@ INTERFACES = {
     },
 }
 """What the C library can do, as each FMI version spells it."""
-
-
-def interfaces_of(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:
-    """Return what the C library can do with a model: one that steps by itself has Co-Simulation alone."""
-    every = INTERFACES[version]
-    if not isinstance(model, Stepped):
-        return every
-    own = {
-        name: "false" if "Derivatives" in f"{name}s" else yes for name, yes in every["CoSimulation"].items()
-    }
-    return {"CoSimulation": own}
 
 
 CATEGORIES = {
@@ -132,15 +124,46 @@ class Export(NamedTuple):
     prefix: str
 
 
-def native_tool() -> str:
-    """Return what made the FMU, with its version."""
-    return f"{PACKAGE} {installed_version(PACKAGE)}"
+def native_contents(export: Export, described: dict[str, Any]) -> dict[str, bytes]:
+    """Return all files of a native FMU by path; `described` is what any description says.
+
+    Raises
+    ------
+    FmuError
+        If the library is missing or cannot be compiled, or the model has no reference trajectory.
+    """
+    variables, version, sources = native_model_variables(export), export.version, native_sources()
+    compiled = tuple(name for name in sources if name.endswith(".c"))
+    times = np.linspace(0.0, export.stop_time, 7).tolist()
+    description = Description(
+        **described,
+        tool=f"{PACKAGE} {installed_version(PACKAGE)}",
+        interfaces=_interfaces(export.model, version),
+        categories=CATEGORIES,
+        variables=variables,
+        dependencies=dependencies(export.model, export.inputs, times),
+        sources=compiled,
+    )
+    contents = {f"sources/{name}": content for name, content in sources.items()}
+    if version == "3.0":
+        contents["sources/buildDescription.xml"] = build_description(export.component, compiled)
+    contents |= _files(export, variables)
+    resource = f"resources/{FILE_NAME}"
+    unnamed = {**contents, resource: pack(export.spec, "", variables)}
+    token = guid_of(unnamed, to_xml(description, version, ""))
+    contents[resource] = pack(export.spec, token, variables)
+    return {**contents, "modelDescription.xml": to_xml(description, version, token)}
 
 
-def copyright_line() -> str:
-    """Return the line of the license that names the holder."""
-    text = licenses((PACKAGE,))[f"documentation/licenses/{PACKAGE}.txt"].decode()
-    return next((line.strip() for line in text.splitlines() if line.startswith("Copyright")), "")
+def _interfaces(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:
+    """Return what the C library can do with a model: one that steps by itself has Co-Simulation alone."""
+    every = INTERFACES[version]
+    if not isinstance(model, Stepped):
+        return every
+    own = {
+        name: "false" if "Derivatives" in f"{name}s" else yes for name, yes in every["CoSimulation"].items()
+    }
+    return {"CoSimulation": own}
 
 
 def native_model_variables(export: Export) -> tuple[Variable, ...]:
@@ -188,41 +211,18 @@ def _switches(export: Export) -> list[Variable]:
     return [Variable(name=label, causality="local", description=text, switch=True) for label in labels]
 
 
-def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
-    """Return all files of the FMU but the XML and the resource, by path.
-
-    Raises
-    ------
-    FmuError
-        If the library is missing or cannot be compiled, or the model has no reference trajectory.
-    """
+def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
+    """Return all files but the sources, the XML and the resource, by path."""
     fill = all_binaries if export.platforms == "all" else host_binary
-    sources = native_sources()
     return {
         **fill(export.component, export.version, carried_library(export.spec)),
-        **{f"sources/{name}": content for name, content in sources.items()},
         **licenses((PACKAGE,)),
         **foreign_licenses(),
         **_pictures(export),
         **terminal_files(export.model, export.component, export.prefix, export.version == "3.0"),
         "documentation/index.html": _page(export, variables),
         REFERENCE: _reference(export, variables),
-        **({"sources/buildDescription.xml": _build(export)} if export.version == "3.0" else {}),
     }
-
-
-def source_names() -> tuple[str, ...]:
-    """Return the C files that make the library."""
-    return tuple(name for name in native_sources() if name.endswith(".c"))
-
-
-def resource(export: Export, variables: tuple[Variable, ...], token: str) -> dict[str, bytes]:
-    """Return the file that the C library reads, by its path."""
-    return {f"resources/{FILE_NAME}": pack(export.spec, token, variables)}
-
-
-def _build(export: Export) -> bytes:
-    return build_description(export.component, source_names())
 
 
 def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
@@ -240,7 +240,7 @@ def _reference(export: Export, variables: tuple[Variable, ...]) -> bytes:
 
 
 def _pictures(export: Export) -> dict[str, bytes]:
-    name = f"{kernel_row(export.spec.kernel).picture}.png"
+    name = f"{kernel_row(export.spec.kernel)[1]}.png"
     picture = files(__package__ or "").joinpath("data", name)
     if not picture.is_file():
         raise FmuError(f"the picture {name} of the package is missing; install {PACKAGE} again")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import hashlib
 import json
 import warnings
 from collections.abc import Iterable, Mapping
@@ -11,11 +10,12 @@ from importlib.metadata import version as installed_version
 from typing import Any, NamedTuple
 
 from ...core.errors import FmuError
-from ...core.model import Model, Stepped
+from ...core.model import Array, Model, Stepped
 from ...core.signals import Variable
 from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from ...native.library import FILMS, LOOPS, library_path
-from ..archive import binaries, licenses, require_verified_version
+from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
+from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
 from ..documentation import PYTHON, PYTHON_STEPPED, to_html
 from .codec import class_modules, decode, encode, shortened
 from .usermodule import read_user_module, renamed_source
@@ -27,14 +27,12 @@ SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"
-STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
-API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
 LIBRARY = {
     f"{PACKAGE}.native",
     f"{PACKAGE}.bearings.films.mass_conserving_steps",
     f"{PACKAGE}.bearings.rolling.ball_element",
-    f"{PACKAGE}.bearings.pads.tilting_pads",
+    f"{PACKAGE}.bearings.pads.tilting_bearing",
 }
 """What a module imports that calls the compiled library."""
 
@@ -61,11 +59,11 @@ class Bundle(NamedTuple):
     modules: dict[str, str]
 
 
-def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
+def bundle_source(modules: Iterable[str]) -> Bundle:
     """Return the source that a model with classes from `modules` needs.
 
-    Of this package that is what those modules, and the module `slave` of the slave, import; a user's module
-    goes along by itself.
+    Of this package that is what those modules, and the module of the slave, import; a user's module goes
+    along by itself.
 
     Raises
     ------
@@ -75,29 +73,20 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = import_closure({slave, *own}.union(*(module.needs for module in read.values())), SHELVES)
-    companions = _companions(own.union(*(module.needs for module in read.values())))
+    sources = import_closure({SLAVE, *own}.union(*(needs for _, needs in read.values())), SHELVES)
+    companions = _companions(own.union(*(needs for _, needs in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
     # FMUs of the same models, which read the same before the folder of the first is gone.
     models = {"models": " ".join(sorted(own)).encode()}
     package = f"{PACKAGE}_{content_hash({**sources, **companions, **models})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
-    texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
+    texts = {name: ast.unparse(tree).encode() for name, (tree, _) in read.items()}
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
     files = {module_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
     files.update({f"{package}/{name}": content for name, content in companions.items()})
-    files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
+    files.update({f"{names[name]}.py": renamed_source(read[name][0], names).encode() for name in users})
     return Bundle(files, names)
-
-
-def content_hash(contents: Mapping[str, bytes]) -> str:
-    """Return 16 hexadecimal digits that change with any name or content."""
-    digest = hashlib.sha256()
-    for name, content in sorted(contents.items()):
-        for part in (name.encode(), content):
-            digest.update(len(part).to_bytes(8, "big") + part)
-    return digest.hexdigest()[:16]
 
 
 def _companions(modules: Iterable[str]) -> dict[str, bytes]:
@@ -138,8 +127,7 @@ ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 
 import importlib
 
-from {api} import keep
-from {slave} import {base}
+from {slave} import {base}, keep
 
 # PythonFMU runs this file for each instance and then releases its globals, which it only borrowed.
 keep(globals())
@@ -156,22 +144,34 @@ class Slave({base}):
 '''
 
 
-class SlaveClass(NamedTuple):
-    """The class that runs a model, and the module it is in."""
+def python_contents(
+    model: Model | Stepped, prefix: str, inputs: Array, described: dict[str, Any]
+) -> dict[str, bytes]:
+    """Return all files of the FMU by path; `described` is what any description says.
 
-    module: str
-    name: str
+    Raises
+    ------
+    FmuError
+        If the model cannot be carried, or the installed pythonfmu is not the verified version.
+    """
+    start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
+    variables = fmi_variables(model, prefix, start)
+    description = Description(
+        **described,
+        tool=f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})",
+        interfaces=INTERFACES,
+        categories=CATEGORIES,
+        variables=variables,
+        dependencies=dependencies(model, inputs),
+    )
+    component = description.identifier
+    contents = _files(model, component, description.title, start, variables, prefix)
+    contents |= terminal_files(model, component, prefix, icon=False)
+    guid = guid_of(contents, to_xml(description, "2.0", ""))
+    return {**contents, "modelDescription.xml": to_xml(description, "2.0", guid)}
 
 
-STEPPED = SlaveClass(STEPPED_SLAVE, "SteppedSlave")
-
-
-def python_tool() -> str:
-    """Return what made the FMU, with versions."""
-    return f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})"
-
-
-def python_files(
+def _files(
     model: Model | Stepped,
     component: str,
     title: str,
@@ -179,22 +179,15 @@ def python_files(
     variables: tuple[Variable, ...],
     prefix: str,
 ) -> dict[str, bytes]:
-    """Return all files of the FMU but the XML, by path.
-
-    Raises
-    ------
-    FmuError
-        If the model cannot be carried, or the installed pythonfmu is not the verified version.
-    """
+    """Return all files but the XML and the terminals, by path."""
     require_verified_version()
     data = encode(model)
-    slave = SlaveClass(SLAVE, "ModelSlave") if isinstance(model, Model) else STEPPED
-    bundle = bundle_source(class_modules(data), slave.module)
+    bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
+    texts, base = (PYTHON, "ModelSlave") if isinstance(model, Model) else (PYTHON_STEPPED, "SteppedSlave")
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, prefix, start, bundle, slave),
+        **_resources(data, component, prefix, start, bundle, base),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -213,18 +206,20 @@ def _require_rebuilt(data: Any) -> None:
 
 
 def _resources(
-    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
+    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, base: str
 ) -> dict[str, bytes]:
-    """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
+    """Return the files that PythonFMU reads: the entry module, the model as data, and the source.
+
+    The class `base` of the slave's module runs the model.
+    """
     settings = {"component": prefix, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
     tag = content_hash({**bundle.files, "model.json": text})
     entry = f"{component}_{tag}"
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
-        api=bundle.modules[API],
-        slave=bundle.modules[slave.module],
-        base=slave.name,
+        slave=bundle.modules[SLAVE],
+        base=base,
         modules=f"({modules}\n)",
         title=component,
         tag=tag,

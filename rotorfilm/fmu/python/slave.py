@@ -1,4 +1,4 @@
-"""The slave that runs a model inside an FMU; PythonFMU's compiled part calls its methods."""
+"""The slaves that run models inside an FMU; PythonFMU's compiled part calls their methods."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NoReturn, TypeVar
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from ...core.signals import Variable
 from ..description import fmi_variables
 from ..reference import advance
 from .codec import decode
-from .pythonfmu_api import Fmi2Slave, LogMessage, abort
 
 T = TypeVar("T")
 
@@ -32,6 +31,55 @@ DISCARD = 2
 
 TIME_SLACK = 1e-6
 """Accepted gap, in steps, between the end of a step and the start of the next: roundoff of a master."""
+
+
+# What PythonFMU's compiled part expects of a slave, and how to survive its reference counting.
+#
+# PythonFMU 0.7.0 (PySlaveInstance.cpp) knows three outcomes: a method returns, fmi2OK; do_step returns False,
+# fmi2Discard with fmi2Terminated true; a method raises, fmi2Fatal with the exception's repr in the log.
+# There is no way to fmi2Error. An FMU carries the libraries it is exported with, so that the export is where
+# another version is refused (`archive.require_verified_version`).
+
+
+class Fmi2Slave:
+    """The name by which PythonFMU finds a slave class; no copy of its Python package is needed."""
+
+
+class LogMessage:
+    """An entry of the log queue: status (FMI number), category and message."""
+
+    def __init__(self, status: int, category: str, msg: str) -> None:
+        self.status = status
+        self.category = category
+        self.msg = msg
+
+
+class SlaveFailure(Exception):
+    """What a failing slave raises; its repr is the line that the log shows."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+def keep(*held: Any) -> None:
+    """Take one more reference to each object, for one that PythonFMU releases without having it."""
+    for value in held:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(value))
+
+
+def abort(slave: Fmi2Slave, log_queue: list[LogMessage], message: str) -> NoReturn:
+    """Raise SlaveFailure such that the instance, and the process, outlive it.
+
+    On an exception PythonFMU releases its references to the class, the instance and the log queue and
+    releases them again with the instance; each is taken once more here, so that the counts stay right.
+    The queue must be empty, because PythonFMU would call the logger with the exception pending and lose it.
+    """
+    log_queue.clear()
+    keep(type(slave), slave, log_queue)
+    raise SlaveFailure(message)
+
+
+# The slaves.
 
 
 class ModelSlave(Fmi2Slave):
@@ -244,6 +292,41 @@ class ModelSlave(Fmi2Slave):
             raise FmuError(f"the FMU state must come from this FMU ({self.tag}), got {state['tag']}")
         self._time, self._running, self._output = state["time"], state["running"], None
         self._inputs, self._state = np.array(state["inputs"]), np.array(state["state"])
+
+
+class SteppedSlave(ModelSlave):
+    """A Stepped model as FMI 2.0 Co-Simulation slave.
+
+    The resting state under the start values is found when initialization ends. Outputs belong to the end of
+    the last step; inputs set after it act in the next one. A step that fails is discarded: the state stays
+    that of its beginning.
+    """
+
+    _held: Any = None
+
+    def _read_files(self) -> None:
+        """Do nothing: all modules are in memory, and a resting state may take seconds."""
+
+    def _start(self) -> None:
+        self._held, self._output = None, None
+        super()._start()
+
+    def _advance(self, time: float, step_size: float) -> None:
+        held, _, _ = self._model.step(self._held, time, self._inputs.copy(), step_size)
+        output = self._finite(self._model.answer(held))
+        self._held, self._time, self._output = held, time + step_size, output
+
+    def _evaluate(self, time: float, state: Array) -> list[float]:
+        if self._held is None or not self._running:
+            self._held = self._model.start(self._inputs.copy())
+        return self._finite(self._model.answer(self._held))
+
+    def _save(self) -> dict[str, Any]:
+        return {**super()._save(), "blob": b"" if self._held is None else self._model.pack(self._held)}
+
+    def _restore(self, state: dict[str, Any]) -> None:
+        super()._restore(state)
+        self._held = self._model.unpack(state["blob"]) if state["blob"] else None
 
 
 def sealed(content: bytes) -> bytes:

@@ -8,7 +8,6 @@ import inspect
 import sys
 from collections.abc import Collection, Mapping
 from importlib.util import find_spec
-from typing import NamedTuple
 
 from ...core.errors import FmuError
 
@@ -19,22 +18,10 @@ CARRIED = {"core", "bearings", "rotors"}
 """Parts of this package that an FMU can carry."""
 
 
-class UserModule(NamedTuple):
-    """A user's module with each name imported from where it is defined.
+def read_user_module(name: str, users: Collection[str], package: str) -> tuple[ast.Module, set[str]]:
+    """Return the module `name`, ready to be renamed, and the modules of this package that it imports.
 
-    Attributes
-    ----------
-    tree : ast.Module
-    needs : frozenset of str
-        Modules of this package that it imports.
-    """
-
-    tree: ast.Module
-    needs: frozenset[str]
-
-
-def read_user_module(name: str, users: Collection[str], package: str) -> UserModule:
-    """Return the module `name`, ready to be renamed.
+    Each name is imported from where it is defined.
 
     Parameters
     ----------
@@ -52,7 +39,7 @@ def read_user_module(name: str, users: Collection[str], package: str) -> UserMod
     """
     resolver = _Resolver(name, users, package)
     tree = resolver.visit(ast.parse(_source(name)))
-    return UserModule(ast.fix_missing_locations(tree), frozenset(resolver.needs))
+    return ast.fix_missing_locations(tree), resolver.needs
 
 
 def renamed_source(tree: ast.Module, names: Mapping[str, str]) -> str:

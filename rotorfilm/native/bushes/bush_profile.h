@@ -1,4 +1,4 @@
-/* Contact of a shaft with a liner whose worn profile is given at nodes (bearings/bush/worn_profile.py). */
+/* Contact of a shaft with a liner whose worn profile is given at nodes (bearings/bush/bush_reaction.py). */
 #ifndef ROTORFILM_BUSH_PROFILE_H
 #define ROTORFILM_BUSH_PROFILE_H
 

@@ -12,12 +12,11 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from rotorfilm.analysis import OperatingPoint, coefficients, equilibrium, linearize
-from rotorfilm.bearings.bush.bush_reaction import BushReaction
+from rotorfilm.bearings.bush.bush_reaction import BushReaction, LocalMelting, Melting, SharedMelting
 from rotorfilm.bearings.bush.bush_wear import BushWear
 from rotorfilm.bearings.bush.contact_arc import mean_weight
 from rotorfilm.bearings.bush.melting import GlobalBalance
 from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.bearings.bush.worn_profile import LocalMelting, Melting, SharedMelting
 from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.core.model import Dynamic, Reaction, Switched
 from rotorfilm.core.signals import names

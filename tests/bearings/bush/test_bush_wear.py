@@ -13,12 +13,11 @@ from scipy.optimize import brentq
 
 from rotorfilm.analysis import OperatingPoint, linearize
 from rotorfilm.bearings.bush.bearing import Friction
-from rotorfilm.bearings.bush.bush_reaction import BushReaction
+from rotorfilm.bearings.bush.bush_reaction import BushReaction, SharedMelting
 from rotorfilm.bearings.bush.bush_wear import BushWear
 from rotorfilm.bearings.bush.melting import GlobalBalance
 from rotorfilm.bearings.bush.published_bush import f4k20_bush
 from rotorfilm.bearings.bush.wear_at_nodes import Stage, Wearing, wear_at_nodes, wear_by_one_moment
-from rotorfilm.bearings.bush.worn_profile import SharedMelting
 from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.core.model import Dynamic, Switched
 from rotorfilm.core.signals import names

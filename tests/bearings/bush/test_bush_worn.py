@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
+from rotorfilm.bearings.bush.bush_reaction import LocalMelting, SharedMelting, arc_nodes
 from rotorfilm.bearings.bush.wear_at_nodes import (
     Stage,
     Wearing,
@@ -15,7 +16,6 @@ from rotorfilm.bearings.bush.wear_at_nodes import (
     wear_at_nodes,
     wear_by_two_moments,
 )
-from rotorfilm.bearings.bush.worn_profile import LocalMelting, SharedMelting, arc_nodes
 from rotorfilm.core.errors import ConvergenceError
 
 BUSH = f4k20_bush()

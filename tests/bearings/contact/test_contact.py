@@ -21,7 +21,7 @@ from rotorfilm import (
     ValidityWarning,
     perturbed,
 )
-from rotorfilm.bearings.contact import contact_run, contact_run as contact_files
+from rotorfilm.bearings.contact import contact_steps as contact_files
 from rotorfilm.bearings.contact.contact_steps import derivative_weights, extrapolation_weights
 from rotorfilm.bearings.contact.film_equations import TimeDerivative
 from rotorfilm.bearings.contact.stationary import SmallMotion
@@ -367,7 +367,7 @@ def test_a_run_goes_on_under_its_own_load_only(coarse, resting):
 def test_a_run_goes_on_to_the_last_bit_from_every_step(coarse, resting, tmp_path, monkeypatch):
     # Steps adapt, a jump starts the history anew, and snapshots are hit on the way.
     asked = {"duration": 1.5, "W": 0.5, "load": StepLoad(amplitude=0.8, start=0.7), "snapshots": (0.3,)}
-    monkeypatch.setattr(contact_run, "EVERY", -1.0)
+    monkeypatch.setattr(contact_files, "EVERY", -1.0)
     whole, parts = tmp_path / "whole.nc", []
 
     def keep(self, run, path):
