@@ -276,7 +276,7 @@ def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
     axes, style = drawn.axes, drawn.style
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
-    below = {"loc": "outside lower center", "fontsize": 8.5, "frameon": False}
+    below: dict[str, Any] = {"loc": "outside lower center", "fontsize": 8.5, "frameon": False}
     if style.joined:
         if style.legend_below:
             figure.legend(*axes.get_legend_handles_labels(), ncols=4, **below)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,7 +31,7 @@ def plot_ball_curves(result: BallCurves) -> list[Axes]:
     for k in sorted({0, last // 2, last}):
         label = f"inner, {RPM * result.speeds[k]:.5g} rpm"
         (line,) = loads.plot(around[order], result.inner_load[k][order], "o-", label=label)
-        outer = {"color": line.get_color(), "mfc": "none", "label": "outer"}
+        outer: dict[str, Any] = {"color": line.get_color(), "mfc": "none", "label": "outer"}
         loads.plot(around[order], result.outer_load[k][order], "s--", **outer)
     loads.set(xlabel="place of the ball from +x [deg]", ylabel="contact load [N]")
     loads.set_title(f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y")
@@ -41,7 +42,7 @@ def plot_ball_curves(result: BallCurves) -> list[Axes]:
     angles.set_title(f"Contact angles under {result.thrust:g} N of thrust")
     for k, preload in enumerate(result.preloads):
         (line,) = stiffness.plot(speeds, 1e-6 * result.radial_stiffness[k], label=f"radial, {preload:g} N")
-        axial = {"color": line.get_color(), "label": "axial"}
+        axial: dict[str, Any] = {"color": line.get_color(), "label": "axial"}
         stiffness.plot(speeds, 1e-6 * result.axial_stiffness[k], "--", **axial)
     stiffness.set(xlabel="speed [rpm]", ylabel="stiffness [N/um]")
     stiffness.set_title("Pairs back to back by their preload as clamped")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import cycle, groupby
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,7 +46,7 @@ def plot_bearing_thresholds(result: StudyResult, *, axes: Axes | None = None) ->
         lowest = min([lowest, *(RPM * speed for _, speed, _ in points if speed is not None)])
         never = all(met == NEVER for *_, met in points)
         loads = [load for load, *_ in points]
-        line = {"color": color, "clip_on": False}
+        line: dict[str, Any] = {"color": color, "clip_on": False}
         label = f"{name}: no whirl" if never else name
         axes.plot(loads, speeds, style, label=label, linewidth=width, **line)
         lost = [load for load, _, met in points if met == UNCARRIED]

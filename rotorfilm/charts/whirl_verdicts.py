@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -125,7 +126,7 @@ def _draw_missing(axes: Axes, result: StudyResult) -> None:
         where = [row[RATIO] for row in rows if row[MISSING]]
         if where:
             axes.plot(where, np.full(len(where), level), "x", color=color)
-            end = {"ha": "right", "va": "bottom", "fontsize": 8, "color": color}
+            end: dict[str, Any] = {"ha": "right", "va": "bottom", "fontsize": 8, "color": color}
             axes.text(where[-1], level + 0.13, f"{name}: no threshold exists", **end)
             level += 0.45
 

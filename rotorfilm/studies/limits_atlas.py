@@ -216,7 +216,7 @@ def _static(model: JournalBearing, ratios: Array) -> Array:
 
 
 def _whirling(
-    model: JournalBearing | PorousDamper, radius: Array, rate: ArrayLike, speed: ArrayLike
+    model: JournalBearing | PorousDamper, radius: Array, rate: Array | float, speed: ArrayLike
 ) -> Array:
     """Return the forces (2, n) on circles of radii [m] at rates and speeds [rad/s]."""
     still = np.zeros_like(radius)
