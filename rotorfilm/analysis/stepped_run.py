@@ -144,10 +144,10 @@ class _Record:
         rotor, time = self._loop.rotor, self._times[: len(self._states)]
         none = np.zeros(len(rotor.inputs))
         rows = [rotor.output(t, x, none) for t, x in zip(time, self._states, strict=True)]
-        known = [
+        known = (
             *rotor.outputs,
             *(prefixed(s.name, one) for s in self._loop.stations for one in s.film.outputs),
-        ]
+        )
         values = np.hstack([np.reshape(rows, (len(time), -1)), np.reshape(self._outputs, (len(time), -1))])
         signals = dict(zip(names(known), values.T, strict=True))
         return Trajectory(time=time, signals=signals, work=dict(self._loop.work), units=units(known))
@@ -213,7 +213,7 @@ class Moment(NamedTuple):
     outputs: Array
 
 
-def stations_of(rotor: Dynamic, films: Mapping[str, Reaction | SteppedReaction]) -> tuple[FilmStation, ...]:
+def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
