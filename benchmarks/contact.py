@@ -38,7 +38,7 @@ from rotorfilm import (
 from rotorfilm.bearings.contact import contact_steps
 from rotorfilm.bearings.contact.film_newton import NewtonKrylov
 from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion, stationary
-from rotorfilm.studies.contact_cases import decay_time
+from rotorfilm.studies import decay_time
 
 
 class DenseNewton(NewtonKrylov):
@@ -241,7 +241,7 @@ def print_hard():
         control=AdaptiveSteps(tolerance=1e-3),
     )  # fmt: skip
     print(f"load step A = 8, W = 1: complete {run.complete}, {run.work}")
-    print("where the published scheme fails: rotorfilm chart contact-limits")
+    print("where the published scheme fails: python benchmarks/studies/contact_limits.py")
 
 
 PARTS = {

@@ -31,17 +31,14 @@ TASKS = {
     "Equilibrium and coefficients": (
         "analysis.coefficients",
         "analysis.equilibrium",
-        "analysis.heated_equilibrium",
         "analysis.rotor_equilibrium",
         "core.results.Coefficients",
         "bearings.reaction",
         "core.results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (
-        "analysis.campbell",
         "analysis.whirl",
         "analysis.rotor_modes",
-        "analysis.rotor_threshold",
         "analysis.continuation",
         "core.results.WhirlThreshold",
     ),
@@ -52,13 +49,11 @@ TASKS = {
     ),
     "Motion over time": (
         "analysis.compiled_march",
-        "analysis.variable_compliance",
         "core.results.Trajectory",
     ),
     "Orbits": (
         "analysis.circular_orbits",
         "analysis.periodic_orbit",
-        "analysis.basin",
         "core.results.CircularOrbit",
     ),
     "Bearings fitted to measurements": ("identification",),

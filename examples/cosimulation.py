@@ -29,7 +29,9 @@ print(f"longest stable macro step by theory: {math.degrees(limit * speed):.3f} d
 def orbit_error(fmus, degrees, scheme=None):
     """Return the largest distance of coupled and monolithic orbit, in clearances."""
     step = scene.time_of(math.radians(degrees))
-    coupled = cosimulate(fmus.rotor, fmus.film, macro_step=step, duration=duration, scheme=scheme).trajectory
+    coupled = cosimulate(
+        fmus["rotor"], fmus["film"], macro_step=step, duration=duration, scheme=scheme
+    ).trajectory
     whole = simulate(rotor, bearing, duration=duration, times=np.minimum(coupled.time, duration))
     return np.hypot(*(coupled.position - whole.position)).max() / bearing.clearance
 

@@ -59,3 +59,5 @@ else:
     show(__name__)
 
 offer("plot_result", f"{__name__}.charts")  # which `plot()` of results calls
+offer("ask", f"{__name__}.questions")  # which scenes with a question call
+offer("ladders_of", f"{__name__}.questions")  # which a new scene lists

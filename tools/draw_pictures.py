@@ -27,7 +27,7 @@ DRAWN = {
     "rotorfilm chart pads --out .": ["chart_pads"],
     "rotorfilm chart rolling --out .": ["chart_rolling", "chart_rolling_ladder"],
     "rotorfilm chart contact --out .": ["chart_contact"],
-    "rotorfilm chart contact-cases --out .": ["chart_contact_cases"],
+    "python benchmarks/studies/contact_cases.py --out .": ["chart_contact_cases"],
     "rotorfilm chart limits --out .": ["chart_limits", *(f"chart_limits_{name}" for name in PHYSICS)],
     "rotorfilm chart heat --out .": ["chart_heat", "chart_heat_film"],
     "rotorfilm chart damper --out .": ["chart_damper"],

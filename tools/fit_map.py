@@ -14,8 +14,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from rotorfilm.bearings.films.map_fit import fit_map_table
-from rotorfilm.bearings.films.map_table import MapTable
-from rotorfilm.bearings.journal.map.map_build import eccentricity_ratio
+from rotorfilm.bearings.films.map_table import MapTable, unstretch
 
 ROOT = Path(__file__).parents[1]
 
@@ -42,7 +41,7 @@ def fitted(nodes: Path) -> MapTable:
     return fit_map_table(
         log,
         slenderness_range=(float(low), float(high)),
-        largest_eccentricity_ratio=float(eccentricity_ratio(axes[0][-1:])[0]),
+        largest_eccentricity_ratio=float(unstretch(axes[0][-1])),
         slope=slope[:, 0, -1],
     )
 

@@ -38,7 +38,6 @@ CHARTS = (
     "bearings",
     "pads --states 20",
     "rolling",
-    "contact-limits",
     "limits",
     "bush",
     "heat",

@@ -102,11 +102,11 @@ def coupled_error(scene: Scene, name: str) -> float:
     """
     rungs, whole = _whole(scene)
     rung = next(rung for rung in rungs if rung.name == name)
-    coupled, step = rung.run().outcome.trajectory, POINT / abs(scene.speed)
+    coupled, step = rung.case.run(rung.scheme, rung.macro_angle).outcome.trajectory, POINT / abs(scene.speed)
     at = np.round(coupled.time / step).astype(int)
     met = np.abs(coupled.time - at * step) < 1e-6 * step
     distance = np.hypot(*(coupled.position[:, met] - whole[:, at[met]]))
-    return float(distance.max()) / rung.reaction.clearance
+    return float(distance.max()) / rung.case.reaction.clearance
 
 
 @lru_cache(maxsize=1)
@@ -115,5 +115,7 @@ def _whole(scene: Scene) -> tuple[tuple[CouplingRung, ...], np.ndarray]:
     rungs = coupling_ladder(scene, "cosimulation_error").rungs
     turns, step = scene.cosimulation.revolutions, POINT / abs(scene.speed)
     times = step * np.arange(round(2.0 * math.pi * turns / POINT) + 1)
-    run = simulate(rungs[0].rotor, rungs[0].reaction, duration=float(times[-1]), times=times, rtol=1e-9)
+    run = simulate(
+        rungs[0].case.rotor, rungs[0].case.reaction, duration=float(times[-1]), times=times, rtol=1e-9
+    )
     return rungs, run.position

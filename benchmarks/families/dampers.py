@@ -76,12 +76,12 @@ def damper_by_finite_film(scene: Scene) -> Truth:
     near = float(short.answer(None).solution)
 
     def excess(radius: float) -> float:
-        pull = orbit_points(system, np.array([radius])).pull[0]
-        return abs(pull) / system.speed**2 - top.rotor.unbalance
+        pull, _ = orbit_points(system, np.array([radius]))
+        return abs(pull[0]) / system.speed**2 - top.rotor.unbalance
 
     radius = brentq(excess, 0.7 * near, min(1.3 * near, 0.5 * (1.0 + near)), xtol=1e-9)
-    points = orbit_points(system, np.array([radius]))
-    ratio = float(np.abs(points.force[0]) / np.abs(points.pull[0]))
+    pull, force = orbit_points(system, np.array([radius]))
+    ratio = float(np.abs(force[0]) / np.abs(pull[0]))
     return Truth(ratio if scene.question.quantity == "transmissibility" else radius * system.clearance, 1e-6)
 
 

@@ -199,6 +199,6 @@ def orbit_by_map(scene: Scene) -> Truth:
 def blade_by_map(scene: Scene) -> Truth:
     """Return the peak by the map in 3072 steps over a turn."""
     assert scene.journal is not None
-    by_map = replace(scene, journal=replace(scene.journal, film=None))
+    by_map = scene.with_tables(journal=replace(scene.journal, film=None))
     rung = ladder_of(by_map).rungs[0]
     return Truth(replace(rung, steps=3072).answer(None).value, 1e-6)

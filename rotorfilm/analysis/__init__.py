@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from ..core.sources import show
     from .api617 import (
         AxialStage as AxialStage,
         DisturbingStage as DisturbingStage,
@@ -27,25 +26,21 @@ if TYPE_CHECKING:
         tensioned as tensioned,
         twist_modes as twist_modes,
     )
-    from .basin import BasinScan as BasinScan, basin_scan as basin_scan
-    from .campbell import (
-        Campbell as Campbell,
-        CriticalSpeed as CriticalSpeed,
-        campbell as campbell,
-        critical_speeds as critical_speeds,
-        resonant_speeds as resonant_speeds,
-    )
     from .circular_orbits import (
         BistableMap,
         Fold,
         OrbitBranch,
+        OrbitCoefficients,
         SynchronousOrbits,
         bistability_limit as bistability_limit,
         bistable_map as bistable_map,
         cartesian_state,
+        orbit_coefficients as orbit_coefficients,
+        orbit_system as orbit_system,
         orbits_over_speed as orbits_over_speed,
         polar_acceleration,
         polar_series,
+        small_motion_transmissibility as small_motion_transmissibility,
         synchronous_orbits as synchronous_orbits,
         transmitted_ratio as transmitted_ratio,
     )
@@ -58,7 +53,12 @@ if TYPE_CHECKING:
         transmissibility as transmissibility,
         unbalance_response as unbalance_response,
     )
-    from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients
+    from .coefficients import (
+        VariableCompliance as VariableCompliance,
+        coefficient_table as coefficient_table,
+        coefficients as coefficients,
+        variable_compliance as variable_compliance,
+    )
     from .compiled_march import simulate_rotor as simulate_rotor
     from .continuation import (
         Bifurcation as Bifurcation,
@@ -70,9 +70,9 @@ if TYPE_CHECKING:
     )
     from .cracked_response import CrackedResponse as CrackedResponse, cracked_response as cracked_response
     from .critical import critical_speed_map as critical_speed_map
-    from .equilibrium import equilibrium as equilibrium
-    from .heated_equilibrium import (
+    from .equilibrium import (
         HeatedEquilibrium as HeatedEquilibrium,
+        equilibrium as equilibrium,
         heated_equilibrium as heated_equilibrium,
     )
     from .linearize import (
@@ -82,21 +82,26 @@ if TYPE_CHECKING:
         linearize as linearize,
     )
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
-    from .orbit_coefficients import (
-        OrbitCoefficients,
-        orbit_coefficients as orbit_coefficients,
-        orbit_system as orbit_system,
-        small_motion_transmissibility as small_motion_transmissibility,
+    from .periodic_orbit import (
+        BasinScan as BasinScan,
+        PeriodicOrbit as PeriodicOrbit,
+        basin_scan as basin_scan,
+        periodic_orbit as periodic_orbit,
     )
-    from .periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .rotor_equilibrium import (
         RotorEquilibrium as RotorEquilibrium,
         rotor_equilibrium as rotor_equilibrium,
     )
-    from .rotor_modes import RotorModes as RotorModes, rotor_modes as rotor_modes
-    from .rotor_threshold import (
+    from .rotor_modes import (
+        Campbell as Campbell,
+        CriticalSpeed as CriticalSpeed,
+        RotorModes as RotorModes,
         RotorThreshold as RotorThreshold,
         StabilityChange as StabilityChange,
+        campbell as campbell,
+        critical_speeds as critical_speeds,
+        resonant_speeds as resonant_speeds,
+        rotor_modes as rotor_modes,
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
     )
@@ -118,10 +123,6 @@ if TYPE_CHECKING:
         residual_unbalance as residual_unbalance,
         separation_margins as separation_margins,
         tracked_response as tracked_response,
-    )
-    from .variable_compliance import (
-        VariableCompliance as VariableCompliance,
-        variable_compliance as variable_compliance,
     )
     from .whirl import (
         CountedMass as CountedMass,

@@ -9,19 +9,18 @@ from functools import cached_property
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
-from scipy import sparse
 
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
-from ..core.model import Array, Reaction, RestingStates, carries_load
+from ..core.model import Array, Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
 from .coefficients import coefficients
-from .modal_reduction import BandedFactor, DenseFactor, exact_structure
+from .modal_reduction import exact_structure, lu_solver
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import dynamics, journal_rows, motion_near, second_order, whirl_near
-from .rotor_modes import Motions, log_decrement, motions_about, oscillates
+from .rotor_modes import RotorModes, log_decrement, motions_about, oscillates
 from .shaft_statics import chosen_stations, rigid_support_speed
 
 # Log decrement of the first forward whirl over applied cross-coupling, in one set of bearings.
@@ -177,7 +176,7 @@ class StabilityLevelOne(Drawable):
 @arguments
 def stability_level_one(
     rotor: ShaftRotor,
-    cases: Mapping[str, Mapping[str, Reaction]],
+    cases: Mapping[str, Bearings],
     speed: float,
     stages: Sequence[DisturbingStage],
     *,
@@ -250,13 +249,12 @@ def stability_level_one(
         for name, bearings in cases.items()
     )
     zero = min(curve.zero_cross_coupling for curve in curves)
-    found = Screening(
-        margin=zero / anticipated,
-        anticipated_decrement=min(curve.anticipated_decrement for curve in curves),
-        critical_speed_ratio=abs(speed) / rigid_support_speed(rotor, held),
-        average_density=density,
-    )
-    reasons = [*screened(found), *(f"in {c.name}, {c.other_growth}" for c in curves if c.other_growth)]
+    margin, decrement = zero / anticipated, min(curve.anticipated_decrement for curve in curves)
+    ratio = abs(speed) / rigid_support_speed(rotor, held)
+    reasons = [
+        *screened(margin, decrement, ratio, density),
+        *(f"in {c.name}, {c.other_growth}" for c in curves if c.other_growth),
+    ]
     return StabilityLevelOne(
         verdict=_verdict(reasons),
         level_two_required=bool(reasons),
@@ -264,9 +262,9 @@ def stability_level_one(
         anticipated_cross_coupling=anticipated,
         stage_cross_coupling=each,
         zero_cross_coupling=zero,
-        margin=found.margin,
-        anticipated_decrement=found.anticipated_decrement,
-        critical_speed_ratio=found.critical_speed_ratio,
+        margin=margin,
+        anticipated_decrement=decrement,
+        critical_speed_ratio=ratio,
         average_density=density,
         nodes={str(node): part for node, part in parts.items()},
         curves=curves,
@@ -279,9 +277,7 @@ def _verdict(reasons: Sequence[str]) -> str:
     return f"an analysis of level II is required: {'; '.join(reasons)}"
 
 
-def _require_cases(
-    cases: Mapping[str, Mapping[str, Reaction]], stages: Sequence[DisturbingStage], speed: float
-) -> None:
+def _require_cases(cases: Mapping[str, Bearings], stages: Sequence[DisturbingStage], speed: float) -> None:
     if not cases:
         raise InputError("cases must hold at least one set of bearings, got none")
     if not stages:
@@ -311,7 +307,7 @@ def _density(stages: Sequence[DisturbingStage], given: float | None) -> float | 
     return None
 
 
-def _bearings(rotor: ShaftRotor, cases: Mapping[str, Mapping[str, Reaction]]) -> list[str]:
+def _bearings(rotor: ShaftRotor, cases: Mapping[str, Bearings]) -> list[str]:
     """Return the names of the stations without a seal in any case."""
     seals = {name for case in cases.values() for name, one in case.items() if not carries_load(one)}
     return [station.name for station in rotor.stations if station.name not in seals]
@@ -380,9 +376,7 @@ LEAST_FINAL = 0.1
 
 
 @arguments
-def stability_level_two(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float
-) -> StabilityLevelTwo:
+def stability_level_two(rotor: ShaftRotor, bearings: Bearings, speed: float) -> StabilityLevelTwo:
     """Return whether the final log decrement of the first forward whirl is what API 617 wants, above .1.
 
     A rotor of which anything else grows, as a backward whirl or another mode, is not acceptable either.
@@ -642,10 +636,9 @@ class CrossCoupledRotor:
     def _stiffness(self) -> float:
         """Smallest static stiffness [N/m] of the rotor on its bearings, where cross-coupling acts."""
         exact = exact_structure(self.rotor)
-        held = second_order(exact, self.at).stiffness
-        factor = BandedFactor(held) if sparse.issparse(held) else DenseFactor(held)
+        solve = lu_solver(second_order(exact, self.at).stiffness)
         rows = [journal_rows(exact, name) for name in self.shares]
-        return 1.0 / max(float(np.linalg.norm(pair @ factor.solve(pair.T), 2)) for pair in rows)
+        return 1.0 / max(float(np.linalg.norm(pair @ solve(pair.T), 2)) for pair in rows)
 
     def under(self, cross_coupling: float) -> RotorEquilibrium:
         """Return the rest with a cross-coupling [N/m] that drives whirl in the sense of the rotation."""
@@ -661,7 +654,7 @@ class CrossCoupledRotor:
         }
         return replace(self.at, coefficients={**self.at.coefficients, **added})
 
-    def motions(self, cross_coupling: float) -> Motions:
+    def motions(self, cross_coupling: float) -> RotorModes:
         """Return all motions under a cross-coupling [N/m]."""
         return motions_about(self.rotor, self.under(cross_coupling))
 
@@ -703,7 +696,7 @@ _TURN: Array = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 def cross_coupled(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float, nodes: Mapping[int, float]
+    rotor: ShaftRotor, bearings: Bearings, speed: float, nodes: Mapping[int, float]
 ) -> CrossCoupledRotor:
     """Return a rotor at rest, with a station at each node for its part of a cross-coupling."""
     names = {node: f"cross_coupling_{node}" for node in nodes}
@@ -714,7 +707,7 @@ def cross_coupled(
     synchronous = {
         name: coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
         for name, bearing in bearings.items()
-        if isinstance(bearing, RestingStates)
+        if hasattr(bearing, "rest_state")
     }
     at = replace(at, coefficients={**at.coefficients, **synchronous})
     return CrossCoupledRotor(
@@ -738,25 +731,6 @@ BORDER_RATIO = (2.5, 2.0)
 """Critical speed ratios of the border there, and below the first density."""
 
 
-class Screening(NamedTuple):
-    """What the criteria judge.
-
-    Attributes
-    ----------
-    margin : float [1]
-        Q0 / QA.
-    anticipated_decrement : float [1]
-    critical_speed_ratio : float [1]
-    average_density : float or None [kg/m3]
-        None for an axial rotor.
-    """
-
-    margin: float
-    anticipated_decrement: float
-    critical_speed_ratio: float
-    average_density: float | None
-
-
 def border_ratio(density: float) -> float:
     """Return the critical speed ratio [1] above which a density [kg/m3] is in region B."""
     if density > BORDER_DENSITY[1]:
@@ -769,16 +743,28 @@ def in_region_b(ratio: float, density: float) -> bool:
     return ratio > border_ratio(density)
 
 
-def screened(found: Screening) -> Iterator[str]:
-    """Yield why an analysis of level II is required; nothing where it is not."""
-    if found.anticipated_decrement < LEAST_DECREMENT:
-        yield f"delta_A = {found.anticipated_decrement:.3g}, below {LEAST_DECREMENT}"
-    if found.average_density is None:
+def screened(margin: float, decrement: float, speed_ratio: float, density: float | None) -> Iterator[str]:
+    """Yield why an analysis of level II is required; nothing where it is not.
+
+    Parameters
+    ----------
+    margin : float [1]
+        Q0 / QA.
+    decrement : float [1]
+        The anticipated one.
+    speed_ratio : float [1]
+        Critical speed ratio.
+    density : float or None [kg/m3]
+        Average one; None for an axial rotor.
+    """
+    if decrement < LEAST_DECREMENT:
+        yield f"delta_A = {decrement:.3g}, below {LEAST_DECREMENT}"
+    if density is None:
         return
-    if found.margin < LEAST_MARGIN:
-        yield f"Q0/QA = {found.margin:.3g}, below {LEAST_MARGIN:g}"
-    elif found.margin < SAFE_MARGIN and in_region_b(found.critical_speed_ratio, found.average_density):
+    if margin < LEAST_MARGIN:
+        yield f"Q0/QA = {margin:.3g}, below {LEAST_MARGIN:g}"
+    elif margin < SAFE_MARGIN and in_region_b(speed_ratio, density):
         yield (
-            f"Q0/QA = {found.margin:.3g}, below {SAFE_MARGIN:g}, in region B (critical speed ratio "
-            f"{found.critical_speed_ratio:.3g}, {found.average_density:.3g} kg/m3)"
+            f"Q0/QA = {margin:.3g}, below {SAFE_MARGIN:g}, in region B (critical speed ratio "
+            f"{speed_ratio:.3g}, {density:.3g} kg/m3)"
         )

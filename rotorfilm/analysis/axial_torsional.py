@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,13 +24,20 @@ from ..core.readable import Readable
 from ..rotors import Coupling, LayeredElement, ShaftRotor
 from ..rotors.shaft_elements import POINTS, WEIGHTS, ShaftElement, ShaftPiece
 from ..rotors.structure import dense_matrix, summed
-from .closed_loop import checked_speeds
+from .closed_loop import checked_speeds, frequency_response
 
 if TYPE_CHECKING:
     import control
 
 _SWINGS = 1e-6
 """Frequency / size of an eigenvalue, above which a motion swings."""
+
+
+Section = tuple[float | Array, float | Array]
+"""Stiffness and inertia of a cross section of a rod: numbers, or arrays at the places `POINTS`."""
+
+Chain = tuple[Any, Any]
+"""Mass and stiffness of a shaft along its axis, or about it, sparse arrays; the nodes come first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,8 +152,7 @@ def twist_modes(rotor: ShaftRotor, springs: Sequence[TwistSpring] = (), count: i
     InputError
         If a spring is on no node, or a coupling has no stiffness.
     """
-    chain = twist_chain(rotor.elements, [(disk.node, disk.polar_inertia) for disk in rotor.disks])
-    return _modes(chain, rotor, springs, count)
+    return _modes(twist_of(rotor), rotor, springs, count)
 
 
 @arguments
@@ -173,24 +179,34 @@ def axial_response(
     require_shaft_node("node", node, rotor)
     chain = axial_of(rotor)
     stiffness, damping = grounded(chain, rotor, bearings)
-    mass, count = dense_matrix(chain.mass), len(rotor.elements) + 1
+    mass, count = dense_matrix(chain[0]), len(rotor.elements) + 1
     load = np.zeros(len(stiffness))
     load[node] = 1.0
     found = [np.linalg.solve(stiffness - w**2 * mass + 1j * w * damping, load)[:count, None] for w in grid]
-    import control
+    return frequency_response(found, grid, ["force_z"], [f"z_{k}" for k in range(count)], "axial_response")
 
-    return control.FrequencyResponseData(
-        np.stack(found, axis=-1),
-        grid,
-        inputs=["force_z"],
-        outputs=[f"z_{k}" for k in range(count)],
-        name="axial_response",
+
+def axial_of(rotor: ShaftRotor) -> Chain:
+    """Return the matrices of a rotor along its axis, of sections with E A [N] and rho A [kg/m]."""
+
+    def section(element: ShaftElement) -> Section:
+        mass = element.section().mass
+        return element.material.young_modulus / element.material.density * mass, mass
+
+    return _chain(
+        rotor.elements, "axial_stiffness", section, ((disk.node, disk.mass) for disk in rotor.disks)
     )
 
 
-def axial_of(rotor: ShaftRotor) -> StraightChain:
-    """Return the matrices of a rotor along its axis."""
-    return axial_chain(rotor.elements, [(disk.node, disk.mass) for disk in rotor.disks])
+def twist_of(rotor: ShaftRotor) -> Chain:
+    """Return the matrices of a rotor about its axis, of sections, round as they are, with G J and rho J."""
+
+    def section(element: ShaftElement) -> Section:
+        inertia = 2.0 * element.section().inertia
+        return element.material.shear_modulus / element.material.density * inertia, inertia
+
+    disks = ((disk.node, disk.polar_inertia) for disk in rotor.disks)
+    return _chain(rotor.elements, "twist_stiffness", section, disks)
 
 
 def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
@@ -199,9 +215,9 @@ def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
         raise InputError(f"{name} must be on a node 0 to {len(rotor.elements)}, got node {node!r}")
 
 
-def grounded(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tuple[Array, Array]:
+def grounded(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tuple[Array, Array]:
     """Return stiffness and damping with the springs to the ground, dense."""
-    stiffness = dense_matrix(chain.stiffness)
+    stiffness = dense_matrix(chain[1])
     damping = np.zeros_like(stiffness)
     for spring in springs:
         require_shaft_node("bearings", spring.node, rotor)
@@ -210,10 +226,10 @@ def grounded(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring]
     return stiffness, damping
 
 
-def _modes(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> StraightModes:
+def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> StraightModes:
     require_count("count", count)
     stiffness, damping = grounded(chain, rotor, springs)
-    mass = dense_matrix(chain.mass)
+    mass = dense_matrix(chain[0])
     n = len(mass)
     upper = np.hstack([np.zeros((n, n)), np.eye(n)])
     values, vectors = eig(np.vstack([upper, -np.linalg.solve(mass, np.hstack([stiffness, damping]))]))
@@ -221,21 +237,15 @@ def _modes(chain: StraightChain, rotor: ShaftRotor, springs: Sequence[_Spring], 
     held = any(spring.stiffness > 0.0 for spring in springs)
     order, swings = np.argsort(size), values.imag > _SWINGS * size
     whole = [] if held else [0.0j]
-    chosen = [k for k in order[_whole_count(values[order[0]]) if whole else 0 :] if swings[k]]
+    # A free shaft in one piece has 0 twice, by roundoff two real ones or a pair; with dampers once.
+    first = 0 if held else 1 if values[order[0]].imag == 0.0 else 2
+    chosen = [k for k in order[first:] if swings[k]]
     shapes = [np.ones(n, dtype=complex)] if whole else []
     shapes += [vectors[:n, k] for k in chosen]
     nodes = np.array(shapes).T[: len(rotor.elements) + 1]
     largest = np.array([column[np.argmax(np.abs(column))] for column in nodes.T])
     found = np.array([*whole, *values[chosen]], dtype=complex)[:count]
     return StraightModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
-
-
-def _whole_count(smallest: complex) -> int:
-    """Return how many of the smallest eigenvalues are the motion of a free shaft, one piece, as a whole.
-
-    That is 0 twice, by roundoff two real ones, of which none swings, or a pair. With dampers it is 0 once.
-    """
-    return 1 if smallest.imag == 0.0 else 2
 
 
 # A shaft under static forces along its axis, and what its tension does to bending.
@@ -342,60 +352,9 @@ def _stretched(element: ShaftPiece, tension: float) -> ShaftPiece:
 # A shaft that stretches, or twists: one degree of freedom a node, and one in each element.
 
 
-class RodSection(NamedTuple):
-    """What a rod needs to know about its cross section: numbers, or arrays at the places `POINTS`.
-
-    Attributes
-    ----------
-    stiffness : float
-        E A [N], or G J [N m2].
-    inertia : float
-        rho A [kg/m], or rho J [kg m].
-    """
-
-    stiffness: float | Array
-    inertia: float | Array
-
-
-class StraightChain(NamedTuple):
-    """Matrices of a shaft along its axis, or about it; the nodes come first.
-
-    Attributes
-    ----------
-    mass, stiffness : sparse array, shape (n, n)
-    """
-
-    mass: Any
-    stiffness: Any
-
-
-def axial_section(element: ShaftElement) -> RodSection:
-    """Return E A and rho A of an element."""
-    mass = element.section().mass
-    return RodSection(element.material.young_modulus / element.material.density * mass, mass)
-
-
-def twist_section(element: ShaftElement) -> RodSection:
-    """Return G J and rho J of an element, round as it is."""
-    inertia = 2.0 * element.section().inertia
-    return RodSection(element.material.shear_modulus / element.material.density * inertia, inertia)
-
-
-def axial_chain(elements: Sequence[ShaftPiece], masses: Sequence[tuple[int, float]]) -> StraightChain:
-    """Return the matrices of a shaft that stretches, with masses [kg] at nodes."""
-    springs = [e.axial_stiffness if isinstance(e, Coupling) else None for e in elements]
-    rods = [None if isinstance(e, Coupling) else _rod(e, axial_section) for e in elements]
-    return _chain(elements, "axial_stiffness", springs, rods, masses)
-
-
-def twist_chain(elements: Sequence[ShaftPiece], inertias: Sequence[tuple[int, float]]) -> StraightChain:
-    """Return the matrices of a shaft that twists, with polar moments of inertia [kg m2] at nodes."""
-    springs = [e.twist_stiffness if isinstance(e, Coupling) else None for e in elements]
-    rods = [None if isinstance(e, Coupling) else _rod(e, twist_section) for e in elements]
-    return _chain(elements, "twist_stiffness", springs, rods, inertias)
-
-
-def _rod(element: ShaftElement | LayeredElement, section_of: Any) -> tuple[Array, Array]:
+def _rod(
+    element: ShaftElement | LayeredElement, section_of: Callable[[ShaftElement], Section]
+) -> tuple[Array, Array]:
     """Return mass and stiffness of an element, over both nodes and its middle."""
     layers = element.layers if isinstance(element, LayeredElement) else (element,)
     sections = [section_of(layer) for layer in layers]
@@ -410,23 +369,23 @@ def _rod(element: ShaftElement | LayeredElement, section_of: Any) -> tuple[Array
 def _chain(
     elements: Sequence[ShaftPiece],
     wanted: str,
-    springs: Sequence[float | None],
-    rods: Sequence[tuple[Array, Array] | None],
-    masses: Sequence[tuple[int, float]],
-) -> StraightChain:
-    count = len(elements) + 1
-    size = count + sum(rod is not None for rod in rods)
+    section_of: Callable[[ShaftElement], Section],
+    masses: Iterable[tuple[int, float]],
+) -> Chain:
+    """Return the matrices of a shaft with masses [kg], or polar moments of inertia [kg m2], at nodes."""
+    inside = len(elements) + 1
     inertia = [([node], np.array([[mass]])) for node, mass in masses]
     stiffness: list[tuple[list[int], Array]] = []
-    inside = count
-    for number, (rod, spring) in enumerate(zip(rods, springs, strict=True)):
+    for number, element in enumerate(elements):
         ends = [number, number + 1]
-        if rod is None:
+        if isinstance(element, Coupling):
+            spring = getattr(element, wanted)
             if spring is None:
                 raise InputError(f"{wanted} must be given of the coupling behind node {number}, got None")
             stiffness.append((ends, spring * np.array([[1.0, -1.0], [-1.0, 1.0]])))
             continue
-        inertia.append(([*ends, inside], rod[0]))
-        stiffness.append(([*ends, inside], rod[1]))
+        mass, springs = _rod(element, section_of)
+        inertia.append(([*ends, inside], mass))
+        stiffness.append(([*ends, inside], springs))
         inside += 1
-    return StraightChain(summed(size, inertia), summed(size, stiffness))
+    return summed(inside, inertia), summed(inside, stiffness)

@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..bearings.damper import PorousDamper
+from ..bearings.reaction import InertialCoefficients
 from ..core.errors import InputError, require_finite, require_kind, require_number, require_positive
 from ..core.inputs import arguments
 from ..core.model import (
@@ -27,8 +28,14 @@ from ..core.model import (
 )
 from ..core.readable import Drawable, Item, Readable, items_of
 from ..core.results import CircularOrbit, Trajectory
+from ..core.signals import Signal, signals_of
 from ..rotors import RigidRotor
 from ..rotors.structure import rotating_linearization
+from .coefficients import coefficients
+from .linearize import state_space
+
+if TYPE_CHECKING:
+    import control
 
 NODES = 160
 STARTS = 100
@@ -211,36 +218,28 @@ def _folds(system: OrbitRotor, nodes: Array) -> tuple[Fold, ...]:
     slopes = orbit_slope(system, nodes).slope
     folds = []
     for k in np.nonzero(np.diff(np.sign(slopes)))[0]:
-        at = brentq(_slope_at, nodes[k], nodes[k + 1], args=(system,), xtol=1e-14, rtol=1e-14)
+        at = brentq(lambda eps: _squared_slope(system, eps), nodes[k], nodes[k + 1], xtol=1e-14, rtol=1e-14)
         folds.append(
             Fold(
                 eccentricity_ratio=at,
-                unbalance=_unbalances(system, np.array([at]))[0],
+                unbalance=unbalance_at(system, at),
                 upward=bool(slopes[k] > 0.0),
             )
         )
     return tuple(folds)
 
 
-def _slope_at(eccentricity_ratio: float, system: OrbitRotor) -> float:
-    return float(orbit_slope(system, np.array([eccentricity_ratio])).slope[0])
-
-
-def _unbalances(system: OrbitRotor, eccentricity_ratio: Array) -> Array:
-    return np.abs(orbit_points(system, eccentricity_ratio).pull) / system.speed**2
-
-
 def _branch(system: OrbitRotor, low: float, high: float, wanted: Array) -> OrbitBranch:
     """Return the orbits with eccentricity ratios between two folds at the wanted unbalances."""
-    ends = _unbalances(system, np.array([low, high]))
+    ends = unbalances(system, np.array([low, high]))
     unbalance = wanted[(wanted >= ends.min()) & (wanted <= ends.max())]
     eps = _inverted(system, low, high, unbalance, rising=bool(ends[1] > ends[0]))
-    points = orbit_points(system, eps)
+    pull, force = orbit_points(system, eps)
     return OrbitBranch(
         unbalance=unbalance,
         eccentricity_ratio=eps,
-        phase=np.angle(points.pull),
-        transmissibility=np.abs(points.force) / np.abs(points.pull),
+        phase=np.angle(pull),
+        transmissibility=np.abs(force) / np.abs(pull),
         growth_rate=growth_rates(system, orbit_slope(system, eps)),
     )
 
@@ -252,7 +251,7 @@ def _inverted(system: OrbitRotor, low: float, high: float, unbalance: Array, *, 
     # A start from a coarse table of the branch, denser at the folds, where u(e) is level.
     table = low + (high - low) * 0.5 * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, STARTS)))
     order = slice(None) if rising else slice(None, None, -1)
-    eps = np.interp(unbalance, _unbalances(system, table)[order], table[order])
+    eps = np.interp(unbalance, unbalances(system, table)[order], table[order])
     for _ in range(NEWTON_STEPS):
         here = orbit_slope(system, eps)
         slope, excess = here.slope * system.clearance, np.abs(here.pull) ** 2 - target
@@ -271,7 +270,7 @@ def _contact(system: OrbitRotor) -> float | None:
     """Return the unbalance of the orbit as wide as the clearance, if the film is bounded there."""
     if system.reach < 1.0:
         return None
-    near, nearer = _unbalances(system, 1.0 - np.array([1e3 * WALL, WALL]))
+    near, nearer = unbalances(system, 1.0 - np.array([1e3 * WALL, WALL]))
     return float(nearer) if abs(nearer - near) <= _BOUNDED * near else None
 
 
@@ -297,23 +296,6 @@ class OrbitRotor(NamedTuple):
     reaction: Reaction
     reach: float
     """Largest eccentricity ratio that the film is meant for."""
-
-
-class OrbitPoints(NamedTuple):
-    """Orbits of given radii: each array of shape (n,).
-
-    Attributes
-    ----------
-    eccentricity_ratio : ndarray [1]
-    pull : ndarray of complex [N]
-        u w^2 exp(i b).
-    force : ndarray of complex [N]
-        F_r + i F_t on the rotor.
-    """
-
-    eccentricity_ratio: Array
-    pull: np.ndarray
-    force: np.ndarray
 
 
 class OrbitSlope(NamedTuple):
@@ -350,15 +332,17 @@ def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
             "preload the springs and set gravity to (0, 0)"
         )
     # A film that does not depend on direction answers the mirrored motion with the mirrored force.
-    reach = largest_eccentricity_ratio(reaction)
-    system = OrbitRotor(rotor.mass, abs(speeds.pop()), reaction.clearance, reaction, reach)
+    system = damped_orbit(rotor, reaction)
     _require_isotropy(system)
     require_turning(reaction, rotor)
     return system
 
 
-def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
-    """Return the orbits of the given radii / clearance, shape (n,)."""
+def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[np.ndarray, np.ndarray]:
+    """Return pull and force [N] of the orbits of the given radii / clearance, complex, shape (n,).
+
+    The pull is u w^2 exp(i b) of the unbalance u that keeps the orbit, the force radial + i tangential.
+    """
     position, velocity = _motion(system, eccentricity_ratio)
     speed = np.full(eccentricity_ratio.shape, system.speed)
     radial, tangential = system.reaction.force(position, velocity, speed)
@@ -367,7 +351,7 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
         swung = system.speed**2 * position[0] * heavy.mass(position, velocity, speed)[:, 0]
         radial, tangential = radial + swung[0], tangential + swung[1]
     inertia = system.mass * system.speed**2 * position[0]
-    return OrbitPoints(eccentricity_ratio, -(inertia + radial) + 1j * tangential, radial + 1j * tangential)
+    return -(inertia + radial) + 1j * tangential, radial + 1j * tangential
 
 
 def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitSlope:
@@ -380,7 +364,7 @@ def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitSlope:
     if added is not None:
         along = along - added[1][:, 0] - system.speed * added[1][:, 3] + system.speed**2 * added[0][:, 0]
     pull_slope = -(system.mass * system.speed**2 + along[0]) + 1j * along[1]
-    pull = orbit_points(system, eccentricity_ratio).pull
+    pull = orbit_points(system, eccentricity_ratio)[0]
     return OrbitSlope(2.0 * (pull.conj() * pull_slope).real, film, pull, added)
 
 
@@ -422,7 +406,7 @@ def damped_orbit(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
 
 def unbalances(system: OrbitRotor, radius: Array) -> Array:
     """Return the unbalances [kg m] of orbits."""
-    return np.asarray(np.abs(orbit_points(system, radius).pull) / system.speed**2)
+    return np.asarray(np.abs(orbit_points(system, radius)[0]) / system.speed**2)
 
 
 def unbalance_at(system: OrbitRotor, radius: float) -> float:
@@ -432,13 +416,13 @@ def unbalance_at(system: OrbitRotor, radius: float) -> float:
 
 def force_at(system: OrbitRotor, radius: float) -> complex:
     """Return the turning force on the rotor on one orbit [N]."""
-    return complex(orbit_points(system, np.array([radius])).force[0])
+    return complex(orbit_points(system, np.array([radius]))[1][0])
 
 
 def transmitted(system: OrbitRotor, radius: float) -> float:
     """Return force on the housing / pull of the unbalance."""
-    points = orbit_points(system, np.array([radius]))
-    return float(np.abs(points.force[0]) / np.abs(points.pull[0]))
+    pull, force = orbit_points(system, np.array([radius]))
+    return float(np.abs(force[0]) / np.abs(pull[0]))
 
 
 def slope_at(system: OrbitRotor, radius: float) -> float:
@@ -661,3 +645,166 @@ class _Response:
         part = slope[k] / (slope[k] - slope[k + 1])
         rise = part * slope[k] + 0.5 * part**2 * (slope[k + 1] - slope[k])
         return float(np.sqrt(square[k] + step * rise))
+
+
+# Dampers for python-control: small motion about the center, and about a circular orbit in turning axes.
+
+
+TURNING = ("radial", "tangential")
+"""Axes that turn with the orbit."""
+
+_SYMMETRY = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrbitCoefficients(Readable):
+    """Equivalent stiffness and damping of a film on a circular orbit: F_r = -K e, F_t = -C w e.
+
+    Attributes
+    ----------
+    stiffness : float [N/m]
+    damping : float [N s/m]
+    eccentricity_ratio : float [1]
+    speed : float [rad/s]
+    """
+
+    stiffness: float
+    damping: float
+    eccentricity_ratio: float
+    speed: float
+
+
+@arguments
+def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
+    """Return the equivalent coefficients of a film on a synchronous circular orbit.
+
+    With inertia the stiffness is that without the added mass, minus its mass times speed^2. They are what a
+    linear code may take for a cavitated film, which has no damping matrix at rest: exact for this orbit, no
+    derivative, and different at every radius.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Isotropic.
+    eccentricity_ratio : float [1]
+        Radius of the orbit / clearance, above 0 and below 1.
+    speed : float [rad/s]
+        Of the orbit, not zero.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    FilmContactError
+        If the orbit is as wide as the clearance.
+    """
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_positive("eccentricity_ratio", eccentricity_ratio)
+    if require_number("speed", speed) == 0.0:
+        raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
+    radius = eccentricity_ratio * reaction.clearance
+    radial, tangential = reaction.force([radius, 0.0], [0.0, speed * radius], speed)
+    heavy = inertial(reaction)
+    if heavy is not None:
+        heavy.require_range(speed)
+        swung = heavy.mass([radius, 0.0], [0.0, speed * radius], speed)[:, 0] * speed**2 * radius
+        radial, tangential = radial + swung[0], tangential + swung[1]
+    return OrbitCoefficients(
+        stiffness=float(-radial / radius),
+        damping=float(-tangential / (speed * radius)),
+        eccentricity_ratio=eccentricity_ratio,
+        speed=speed,
+    )
+
+
+@arguments
+def small_motion_transmissibility(
+    rotor: RigidRotor, reaction: Reaction, name: str | None = None
+) -> control.TransferFunction:
+    """Return the force on the housing per force on the rotor in small motion about the center.
+
+    T(s) = (M s^2 + C s + K)/((m + M) s^2 + C s + K), M being the mass that the film adds; |T| = 1 at
+    s = i sqrt(2 K/(m + 2 M)) whatever the damping, and M/(m + M) at high speed.
+
+    Parameters
+    ----------
+    rotor : RigidRotor
+    reaction : Reaction
+        Film and springs, isotropic at the center, without cross coupling: a damper with a full film.
+    name : str, optional
+
+    Raises
+    ------
+    UndefinedDerivativeError
+        For a cavitated film, which has no damping matrix at rest; `orbit_coefficients` are what it offers.
+    InputError
+        If the film couples x and y at the center.
+    """
+    at = coefficients(reaction, [0.0, 0.0], 0.0)
+    stiffness, damping = _isotropic("stiffness", at.stiffness), _isotropic("damping", at.damping)
+    added = 0.0
+    if isinstance(at, InertialCoefficients):
+        added = _isotropic("mass", at.mass)
+    numerator = [damping, stiffness]
+    import control
+
+    return control.TransferFunction(
+        [added, *numerator] if added else numerator,
+        [rotor.mass + added, *numerator],
+        inputs=["force"],
+        outputs=["housing_force"],
+        name=name,
+    )
+
+
+@arguments
+def orbit_system(
+    rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None
+) -> control.StateSpace:
+    """Return the small motion about a circular orbit, in radial and tangential axes that turn with it.
+
+    Parameters
+    ----------
+    rotor : RigidRotor
+    reaction : Reaction
+        Film and springs.
+    orbit : CircularOrbit
+        As `synchronous_orbits(...).at(...)` returns them, stable or not.
+    name : str, optional
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs force_radial, force_tangential: small force on the rotor [N]. Outputs radial, tangential and
+        their rates: change of the position in turning axes [m, m/s]; housing_radial, housing_tangential:
+        change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
+    """
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    radius = orbit.eccentricity_ratio * reaction.clearance
+    position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
+    film = reaction.jacobian(position, velocity, orbit.speed)
+    added = orbit_mass(reaction, position, velocity, orbit.speed)
+    matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
+    nominal = reaction.outputs[0].nominal
+    inputs = signals_of(*((f"force_{axis}", "N", nominal, f"{axis} force on the rotor") for axis in TURNING))
+    housing = ((f"housing_{axis}", "N", nominal, f"{axis} force on the housing") for axis in TURNING)
+    states = _turning_states(reaction.clearance, abs(orbit.speed))
+    return state_space(matrices, inputs, (*states, *signals_of(*housing)), states, name)
+
+
+def _turning_states(length: float, speed: float) -> tuple[Signal, ...]:
+    """Return the signals of the position in turning axes and of its rates."""
+    kinds = (("", "m", length), ("_rate", "m/s", length * speed))
+    rows = (
+        (axis + of, unit, size, f"{axis} displacement{of}") for of, unit, size in kinds for axis in TURNING
+    )
+    return signals_of(*rows)
+
+
+def _isotropic(name: str, matrix: np.ndarray) -> float:
+    value = 0.5 * float(np.trace(matrix))
+    if np.abs(matrix - value * np.eye(2)).max() > _SYMMETRY * max(abs(value), np.abs(matrix).max()):
+        raise InputError(
+            f"{name} at the center must be isotropic without cross coupling, got {matrix.tolist()}"
+        )
+    return value

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import block_diag, lu_factor, lu_solve
 
 from ..bearings.reaction import added_mass
 from ..core.errors import (
@@ -24,6 +23,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import (
     Array,
+    Bearings,
     Dynamic,
     JournalForce,
     Linearization,
@@ -42,9 +42,8 @@ from .equilibrium import equilibrium
 from .linearize import OperatingPoint, checked_vector, control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import journal_rows, remembering, rest_near, second_order, small_motion
-from .rotor_threshold import first_growing
-from .truncation_error import LeftOut
+from .rotor_matrices import LeftOut, journal_rows, remembering, rest_near, second_order, small_motion
+from .rotor_modes import first_growing
 
 if TYPE_CHECKING:
     import control
@@ -176,15 +175,17 @@ def transmissibility(
         if isinstance(error, EquilibriumError) or not np.any(load):
             raise type(error)(f"{error}; {CENTERED}") from error
         raise
+    return frequency_response(responses, frequencies, list(FORCE_OUTPUTS), list(HOUSING), "transmissibility")
+
+
+def frequency_response(
+    responses: Sequence[np.ndarray], grid: Array, inputs: list[str], outputs: list[str], name: str
+) -> control.FrequencyResponseData:
+    """Return responses (outputs, inputs), one at each of the frequencies [rad/s], for python-control."""
     import control
 
-    return control.FrequencyResponseData(
-        np.stack(responses, axis=-1),
-        frequencies,
-        inputs=list(FORCE_OUTPUTS),
-        outputs=list(HOUSING),
-        name="transmissibility",
-    )
+    data = np.stack(responses, axis=-1)
+    return control.FrequencyResponseData(data, grid, inputs=inputs, outputs=outputs, name=name)
 
 
 def checked_speeds(speeds: ArrayLike, name: str = "speeds") -> Array:
@@ -298,17 +299,12 @@ def base_response(
         sense, labels = response_rows(rotor, near)
         moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
         responses.append(sense @ with_rates(moved, frequency))
-    import control
-
-    found = control.FrequencyResponseData(
-        np.stack(responses, axis=-1), grid, inputs=list(BASE), outputs=labels, name="base_response"
-    )
-    return with_work(found, work)
+    return with_work(frequency_response(responses, grid, list(BASE), labels, "base_response"), work)
 
 
 @arguments
 def unbalance_response(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return the synchronous response of a rotor to its own unbalance.
 
@@ -356,7 +352,7 @@ def unbalance_response(
 
 
 def driven_by_unbalance(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return `unbalance_response` without looking at stability."""
     require_flexible(rotor)
@@ -370,7 +366,7 @@ def driven_by_unbalance(
 
 def synchronous_response(
     rotor: FlexibleRotor,
-    bearings: Mapping[str, Reaction],
+    bearings: Bearings,
     speeds: ArrayLike,
     loads: Array,
     amplitudes: Callable[[float], np.ndarray],
@@ -381,23 +377,18 @@ def synchronous_response(
     `loads` [N] has shape (N, m), the phasors of their amplitudes at each speed (m, 1).
     """
     grid = checked_speeds(speeds)
-    turned = DrivenResponse(rotor=rotor, bearings=bearings, loads=loads, highest_frequency=float(grid[-1]))
-    responses = []
+    driven, responses = driven_response(rotor, bearings, loads, float(grid[-1])), []
     with counted(*SOLVED) as work:
-        for speed in grid:
-            at, motion = turned.at(float(speed), amplitudes(float(speed)))
+        for speed in grid.tolist():
+            at, motion = driven(speed, amplitudes(speed))
             sense, labels = response_rows(rotor, at)
             responses.append(sense @ motion)
-    data = np.stack(responses, axis=-1)
-    import control
-
-    found = control.FrequencyResponseData(data, grid, inputs=[name], outputs=labels, name=f"{name}_response")
-    return with_work(found, work)
+    return with_work(frequency_response(responses, grid, [name], labels, f"{name}_response"), work)
 
 
 @arguments
 def rotor_transmissibility(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return the forces on all housings per force on each journal that turns with the shaft.
 
@@ -427,26 +418,20 @@ def rotor_transmissibility(
     grid, s = checked_speeds(speeds), rotor.assembly
     # A bearing pushes its housing back; an unbalance does not.
     push = s.journals if s.housings is None else s.journals + s.housings
-    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=push.T, highest_frequency=float(grid[-1]))
+    driven = driven_response(rotor, bearings, push.T, float(grid[-1]))
     responses, wanted = [], []
     with counted(*SOLVED) as work:
-        for speed in grid:
-            at, motion = shaken.at(float(speed), np.eye(len(push)))
+        for speed in grid.tolist():
+            at, motion = driven(speed, np.eye(len(push)))
             sense, labels = response_rows(rotor, at)
             wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
             responses.append(sense[wanted] @ motion)
     if not wanted:
         raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
-    import control
-
-    found = control.FrequencyResponseData(
-        np.stack(responses, axis=-1),
-        grid,
-        inputs=names(rotor.inputs),
-        outputs=[labels[k] for k in wanted],
-        name="transmissibility",
+    outputs = [labels[k] for k in wanted]
+    return with_work(
+        frequency_response(responses, grid, names(rotor.inputs), outputs, "transmissibility"), work
     )
-    return with_work(found, work)
 
 
 def _state_space(
@@ -454,19 +439,23 @@ def _state_space(
 ) -> control.StateSpace:
     """Return a rotor on its films under loads (N, m) [N] per unit of the inputs."""
     with counted(*SOLVED) as work:
-        found = rotor_states(rotor, at, loads)
-    system = control_system(
-        *found.matrices, inputs=inputs, outputs=found.outputs, states=found.states, name=name
-    )
+        matrices, outputs, states = rotor_states(rotor, at, loads)
+    system = control_system(*matrices, inputs=inputs, outputs=outputs, states=states, name=name)
     return with_work(system, work)
 
 
 # The synchronous response of a rotor to forces that turn with it.
 
 
-@dataclass(frozen=True, kw_only=True)
-class DrivenResponse:
-    """A rotor on its films, driven at the frequency of its rotation.
+Driven = Callable[[float, np.ndarray], tuple[RotorEquilibrium, np.ndarray] | None]
+"""The rest at a speed and the phasors of (q, q', q'') at exp(i speed t), shape (3 N, k), of a positive speed
+[rad/s] and the amplitudes (m, k) of the loads; None if more shapes are needed."""
+
+
+def driven_response(
+    rotor: FlexibleRotor, bearings: Bearings, loads: Array, highest_frequency: float
+) -> Callable[[float, np.ndarray], tuple[RotorEquilibrium, np.ndarray]]:
+    """Return the response of a rotor on its films, driven at the frequency of its rotation, as `Driven`.
 
     Parameters
     ----------
@@ -477,55 +466,38 @@ class DrivenResponse:
     highest_frequency : float [rad/s]
         Highest speed of interest; a rotor of many elements moves in the shapes that it needs.
     """
+    known: list[Driven] = []
 
-    rotor: FlexibleRotor
-    bearings: Mapping[str, Reaction]
-    loads: Array
-    highest_frequency: float
-
-    @cached_property
-    def known(self) -> list[_Driven]:
-        """The models so far, the last with the most shapes."""
-        return []
-
-    def at(self, speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray]:
-        """Return the rest at a speed and the phasors of (q, q', q'') at exp(i speed t), shape (3 N, k).
-
-        Parameters
-        ----------
-        speed : float [rad/s]
-            Positive.
-        amplitudes : ndarray, shape (m, k)
-            Of the loads.
-        """
-        for k, model in enumerate(models(self.rotor, self.highest_frequency)):
-            if k == len(self.known):
-                self.known.append(_Driven(model, self.bearings, self.loads))
-            found = self.known[k].at(speed, amplitudes)
+    def at(speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray]:
+        for k, model in enumerate(models(rotor, highest_frequency)):
+            if k == len(known):
+                known.append(_driven(model, bearings, loads))
+            found = known[k](speed, amplitudes)
             if found is not None:
                 return found
         raise AssertionError("all coordinates have no error")  # pragma: no cover
 
+    return at
 
-class _Driven:
-    """The same in some of the shapes."""
 
-    def __init__(self, model: Condensed, bearings: Mapping[str, Reaction], loads: Array) -> None:
-        self.model, self.bearings, self.loads = model, bearings, model.seen(loads)
-        self.left_out = None if model.space is None else LeftOut(model, loads)
-        self.last: RotorEquilibrium | None = None
+def _driven(model: Condensed, bearings: Bearings, loads: Array) -> Driven:
+    """Return the same in some of the shapes."""
+    seen, left_out = model.seen(loads), None if model.space is None else LeftOut(model, loads)
+    last: RotorEquilibrium | None = None
 
-    def at(self, speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray] | None:
-        """Return as `DrivenResponse.at` does; None if more shapes are needed."""
-        self.last = at = rest(self.model.structure, self.bearings, speed, self.last)
+    def at(speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray] | None:
+        nonlocal last
+        last = at = rest(model.structure, bearings, speed, last)
         tally("solutions")
-        factor = lu_factor(small_motion(self.model.structure, at, speed).dynamic_stiffness(speed))
-        few = lu_solve(factor, self.loads @ amplitudes)
-        if self.left_out is not None:
-            dual = lu_solve(factor, self.left_out.seen.T, trans=2)
-            if self.left_out.error(at, speed, amplitudes, few, dual) > TOLERANCE:
+        factor = lu_factor(small_motion(model.structure, at, speed).dynamic_stiffness(speed))
+        few = lu_solve(factor, seen @ amplitudes)
+        if left_out is not None:
+            dual = lu_solve(factor, left_out.seen.T, trans=2)
+            if left_out.error(at, speed, amplitudes, few, dual) > TOLERANCE:
                 return None
-        return at, with_rates(self.model.lifted(few), speed)
+        return at, with_rates(model.lifted(few), speed)
+
+    return at
 
 
 def with_rates(motion: np.ndarray, frequency: float) -> np.ndarray:
@@ -536,16 +508,12 @@ def with_rates(motion: np.ndarray, frequency: float) -> np.ndarray:
 # A flexible rotor on its films as a state space, with the states of bearings whose stiffness is K(s).
 
 
-class RotorStates(NamedTuple):
-    """A rotor on its films: matrices, and the names of outputs and states."""
-
-    matrices: Linearization
-    outputs: list[str]
-    states: list[str]
-
-
-def rotor_states(rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array) -> RotorStates:
+def rotor_states(
+    rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array
+) -> tuple[Linearization, list[str], list[str]]:
     """Return a rotor on its films about a rest, under loads (N, m) [N] per unit of the inputs.
+
+    Its matrices come first, then the names of outputs and states.
 
     Raises
     ------
@@ -565,7 +533,7 @@ def rotor_states(rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array) -> Ro
     columns = np.hstack([-stiffness, -damping, *pushes, loads])
     motion, pushed = np.split(np.linalg.solve(mass, columns), [2 * n + sum(sizes)], axis=1)
     felt = [np.hstack([f.B[:, :2] @ rows[name], f.B[:, 2:] @ rows[name]]) for name, f in films.items()]
-    own = _on_diagonal([film.A for film in films.values()])
+    own = np.asarray(block_diag(np.zeros((0, 0)), *(film.A for film in films.values())))
     sense, outputs = response_rows(rotor, direct)
     by_state = np.hstack([sense[:, : 2 * n], np.zeros((len(sense), sum(sizes)))])
     for name, first, film in zip(films, np.cumsum([2 * n, *sizes]), films.values(), strict=False):
@@ -579,13 +547,8 @@ def rotor_states(rotor: FlexibleRotor, at: RotorEquilibrium, loads: Array) -> Ro
         for name, size in zip(films, sizes, strict=True)
         for k in range(size)
     ]
-    return RotorStates(
-        Linearization(
-            np.vstack(A), np.vstack(B), by_state + by_acceleration @ motion, by_acceleration @ pushed
-        ),
-        outputs,
-        [*names(rotor.states), *further],
-    )
+    C, D = by_state + by_acceleration @ motion, by_acceleration @ pushed
+    return Linearization(np.vstack(A), np.vstack(B), C, D), outputs, [*names(rotor.states), *further]
 
 
 def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
@@ -613,10 +576,3 @@ def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, 
         )
         for name, film in films.items()
     }
-
-
-def _on_diagonal(blocks: Sequence[Array]) -> Array:
-    """Return square blocks on a diagonal; of none an empty matrix."""
-    from scipy.linalg import block_diag
-
-    return np.asarray(block_diag(*blocks)) if blocks else np.zeros((0, 0))

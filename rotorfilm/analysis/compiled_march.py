@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from ctypes import addressof, byref, c_int32, c_int64
 from dataclasses import replace
 from enum import IntEnum
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -37,7 +37,6 @@ from .compiled_rotor import (
     JournalFilms,
     ModalRotor,
     Parts,
-    ShapedStart,
     largest_difference,
     modal_rotor,
     raise_foreign,
@@ -123,39 +122,35 @@ def simulate_rotor(
     if require_finite("initial_state", state).shape != (size,):
         raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
     grid = sample_times(duration, samples, times)
-    wanted = Wanted(grid=grid, duration=duration, rtol=rtol, max_step=max_step, condensation=condensation)
-    return _agreed(starts(mounted, state, whole=condensation == 0.0), wanted)
+    run = partial(_run, duration=duration, rtol=rtol, max_step=max_step)
+    return _agreed(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
 
 
-class Wanted(NamedTuple):
-    """What is asked of a run."""
-
-    grid: Array
-    duration: float
-    rtol: float
-    max_step: float
-    condensation: float
-
-
-def _agreed(starts: Iterator[ShapedStart], wanted: Wanted) -> Trajectory:
+def _agreed(
+    starts: Iterator[tuple[MountedRotor, Array, bool]],
+    run_of: Callable[..., Trajectory],
+    grid: Array,
+    duration: float,
+    condensation: float,
+) -> Trajectory:
     """Return the first run that one in fewer shapes agrees with, or that of the whole rotor."""
     # Runs are compared at more times than those that are asked for.
-    dense = wanted._replace(grid=np.union1d(wanted.grid, np.linspace(0.0, wanted.duration, COMPARED)))
+    dense = np.union1d(grid, np.linspace(0.0, duration, COMPARED))
     work: Counter[str] = Counter()
     before: Trajectory | None = None
-    for start in starts:
+    for mounted, state, condensed in starts:
         failure = None
-        parts = take_apart(start.mounted)
+        parts = take_apart(mounted)
         try:
-            run = _run(start, parts, dense if start.condensed else wanted)
+            run = run_of(mounted, state, parts, dense if condensed else grid)
         except (ContactError, ConvergenceError) as raised:
             failure, run = raised, raised.partial
         work.update(run.work)
-        near = before is not None and largest_difference(parts, before, run) <= wanted.condensation
-        if near or not start.condensed:
+        near = before is not None and largest_difference(parts, before, run) <= condensation
+        if near or not condensed:
             break
         before = run
-    picked = replace(_at(run, wanted.grid), work=dict(work))
+    picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
     return picked
@@ -167,11 +162,19 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
     return replace(run, time=run.time[kept], signals={name: row[kept] for name, row in run.signals.items()})
 
 
-def _run(start: ShapedStart, parts: Parts, wanted: Wanted) -> Trajectory:
-    mounted, state, grid = start.mounted, start.state, wanted.grid
+def _run(
+    mounted: MountedRotor,
+    state: Array,
+    parts: Parts,
+    grid: Array,
+    *,
+    duration: float,
+    rtol: float,
+    max_step: float,
+) -> Trajectory:
     rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
-    longest = min(wanted.max_step, wanted.duration, LONGEST_TURN * 2.0 * np.pi / rate)
-    run = RunUp(parts, state, Settings(rtol=wanted.rtol, longest=longest, duration=wanted.duration))
+    longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
+    run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
     kept: list[Array] = [state[None]] if grid.size and grid[0] == 0.0 else []
     try:
         kept.extend(run.states(grid))
@@ -520,23 +523,11 @@ BANDS = 12
 """Bands of speed between rest and the largest speed: in each the modes are those of its middle."""
 
 
-class Settings(NamedTuple):
-    """How a run is integrated: local error, longest step [s], duration [s]."""
+def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[tuple[float, float]]:
+    """Yield the parts of a run: between kinks of the speed, each within one band of it.
 
-    rtol: float
-    longest: float
-    duration: float
-
-
-class Stretch(NamedTuple):
-    """A part of a run: when it ends [s], and the speed of the modes that it is integrated in [rad/s]."""
-
-    end: float
-    speed: float
-
-
-def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[Stretch]:
-    """Yield the parts of a run: between kinks of the speed, each within one band of it."""
+    A part is told by its end [s] and the speed of the modes that it is integrated in [rad/s].
+    """
     profile = parts.profile
     largest = max(profile.speeds, key=abs)
     width = abs(largest) / bands
@@ -545,7 +536,7 @@ def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[Str
     for begin, end in pairwise(kinks):
         speed, slope = profile.speed(begin), profile.acceleration(begin)
         if not parts.turns or slope == 0.0:
-            yield Stretch(end, speed if parts.turns else largest)
+            yield end, speed if parts.turns else largest
             continue
         first, last = sorted((speed, speed + slope * (end - begin)))
         edges = width * np.arange(np.floor(first / width) + 1.0, np.ceil(last / width))
@@ -553,7 +544,7 @@ def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[Str
         inner = [t for t in crossed if begin < t < end]
         for t, until in pairwise([begin, *inner, end]):
             middle = speed + slope * (0.5 * (t + until) - begin)
-            yield Stretch(until, width * float(np.floor(middle / width) + 0.5))
+            yield until, width * float(np.floor(middle / width) + 0.5)
 
 
 class RunUp:
@@ -564,18 +555,15 @@ class RunUp:
     parts : Parts
     state : ndarray, shape (2 N,)
         At t = 0.
-    settings : Settings
+    duration : float [s]
+    march : callable
+        `March` with its error and step, of `modal`, `state` and `speed`.
     """
 
-    def __init__(self, parts: Parts, state: Array, settings: Settings) -> None:
-        self.parts, self._state, self._settings = parts, state, settings
+    def __init__(self, parts: Parts, state: Array, duration: float, march: Callable[..., March]) -> None:
+        self.parts, self._state, self._duration, self._begun = parts, state, duration, march
         self._marches: dict[float, March] = {}
         self._time, self._step = 0.0, -1
-
-    @property
-    def profile(self) -> SpeedProfile:
-        """The speed over time."""
-        return self.parts.profile
 
     @property
     def work(self) -> dict[str, int]:
@@ -593,17 +581,17 @@ class RunUp:
         ContactError, ConvergenceError
             With the states since the last stretch as partial result.
         """
-        for stretch in stretches(self.parts, self._settings.duration):
-            march = self._march(stretch.speed)
+        for end, speed in stretches(self.parts, self._duration):
+            march = self._march(speed)
             march.resume(self._time, march.modal.modal(self._state), self._step)
-            inside = grid[(grid > self._time) & (grid <= stretch.end)]
+            inside = grid[(grid > self._time) & (grid <= end)]
             try:
-                kept = march.to(stretch.end, inside)
+                kept = march.to(end, inside)
             except (ContactError, ConvergenceError) as failure:
                 partial = march.modal.physical(failure.partial.T).T
                 raise type(failure)(str(failure), partial) from failure
             self._state = march.modal.physical(march.state)
-            self._time, self._step = stretch.end, march.step
+            self._time, self._step = end, march.step
             yield march.modal.physical(kept.T).T
 
     def warn(self) -> None:
@@ -616,9 +604,7 @@ class RunUp:
     def _march(self, speed: float) -> March:
         if speed not in self._marches:
             modal = modal_rotor(self.parts, speed)
-            self._marches[speed] = March(
-                modal=modal, state=modal.modal(self._state), speed=speed, **self._settings._asdict()
-            )
+            self._marches[speed] = self._begun(modal=modal, state=modal.modal(self._state), speed=speed)
         return self._marches[speed]
 
 

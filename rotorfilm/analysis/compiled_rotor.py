@@ -22,7 +22,7 @@ import numpy as np
 
 from ..bearings.assemblies import ParallelReaction, Sprung
 from ..bearings.damper import PorousDamper, SqueezeFilmDamper
-from ..bearings.films.kernel_film import BoundKernel
+from ..bearings.films.law import BoundKernel
 from ..bearings.linear import LinearBearing
 from ..bearings.reaction import FilmReaction
 from ..bearings.rub import RubRing
@@ -119,23 +119,11 @@ def film_call(reaction: Reaction) -> FilmCall:
     return kernel_call(reaction) or _called_back(reaction)
 
 
-class MassCall(NamedTuple):
-    """Where the compiled mass that a bearing adds is; zeros where it adds none.
+def heavy_call(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]:
+    """Return the compiled force of a reaction without states, and where the mass that it adds is.
 
-    Attributes
-    ----------
-    address : int
-        Of the function, an rf_mass_response of native/films/film.h.
-    data : int
-        Its first argument.
-    """
-
-    address: int = 0
-    data: int = 0
-
-
-def heavy_call(reaction: Reaction) -> tuple[FilmCall, MassCall]:
-    """Return the compiled force of a reaction without states, and the mass that it adds.
+    That is the address of an rf_mass_response of native/films/film.h, and of its first argument; zeros where
+    it adds none.
 
     Raises
     ------
@@ -143,14 +131,14 @@ def heavy_call(reaction: Reaction) -> tuple[FilmCall, MassCall]:
         If it adds a mass that is not compiled.
     """
     if inertial(reaction) is None:
-        return film_call(reaction), MassCall()
+        return film_call(reaction), (0, 0)
     film, inner = kernel_call(reaction), reaction.reaction if isinstance(reaction, Sprung) else reaction
     bound = inner.film_in_c if isinstance(inner, SqueezeFilmDamper) else None
     if film is None or not isinstance(bound, BoundKernel) or not isinstance(bound.kernel, OilDamperKernel):
         raise InputError(
             f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
         )
-    return film, MassCall(bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
+    return film, (bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
 
 
 def kernel_call(reaction: Reaction) -> FilmCall | None:
@@ -648,16 +636,11 @@ class ShapesRotor(FlexibleRotor):
         return self._structure
 
 
-class ShapedStart(NamedTuple):
-    """A rotor in its bearings and its state at t = 0; whether more shapes may follow."""
+def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tuple[MountedRotor, Array, bool]]:
+    """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
-    mounted: MountedRotor
-    state: Array
-    condensed: bool
-
-
-def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[ShapedStart]:
-    """Yield a rotor in ever more of its shapes, and whole in the end or at once."""
+    With each come its state at t = 0 and whether more shapes may follow.
+    """
     rotor = mounted.bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
         for k, model in enumerate(models(rotor, FREQUENCY * rotor.nominal_speed)):
@@ -665,8 +648,8 @@ def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[Shap
                 break
             if k % FURTHER == 0:
                 small = ShapesRotor(rotor, model.structure)
-                yield ShapedStart(mount(small, mounted.all_bearings), _within(model, state), True)
-    yield ShapedStart(mounted, state, False)
+                yield mount(small, mounted.all_bearings), _within(model, state), True
+    yield mounted, state, False
 
 
 def _within(model: Condensed, state: Array) -> Array:

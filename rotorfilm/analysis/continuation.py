@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -266,17 +267,18 @@ def _events(
         one, two = _outside(kind, first.free_multipliers), _outside(kind, second.free_multipliers)
         if one != two and not (kind is Bifurcation.BRANCH and folded):
             # The multiplier that crosses is the least stable of its kind on the side with fewer outside.
-            rank = min(one, two)
-            found.append((kind, _Margin(kind, rank)))
+            found.append((kind, partial(_margin, kind, min(one, two))))
     return [event for kind, test in found if (event := _located(curve, before, step, kind, test)) is not None]
 
 
+def _margin(kind: Bifurcation, rank: int, point: Point, orbit: PeriodicOrbit) -> float:
+    """Return how far the multiplier of a rank is outside the unit circle, among those of its kind."""
+    sizes = np.sort(_SIZES[kind](orbit.free_multipliers))[::-1]
+    return float(sizes[rank]) - 1.0 if len(sizes) > rank else -1.0
+
+
 def _located(
-    curve: Curve,
-    point: Point,
-    step: float,
-    kind: Bifurcation,
-    test: Callable[[Point, PeriodicOrbit], float],
+    curve: Curve, point: Point, step: float, kind: Bifurcation, test: Callable[[Point, PeriodicOrbit], float]
 ) -> OrbitEvent | None:
     """Return where a test function vanishes within a step; None where it does not change its sign."""
 
@@ -313,18 +315,6 @@ _SIZES: dict[Bifurcation, Callable[[np.ndarray], Array]] = {
 def _outside(kind: Bifurcation, multipliers: np.ndarray) -> int:
     """Return how many of a kind are beyond 1."""
     return int(np.sum(_SIZES[kind](multipliers) > 1.0))
-
-
-@dataclass(frozen=True)
-class _Margin:
-    """How far the multiplier of a rank is outside the unit circle, among those of its kind."""
-
-    kind: Bifurcation
-    rank: int
-
-    def __call__(self, point: Point, orbit: PeriodicOrbit) -> float:
-        sizes = np.sort(_SIZES[self.kind](orbit.free_multipliers))[::-1]
-        return float(sizes[self.rank]) - 1.0 if len(sizes) > self.rank else -1.0
 
 
 # One point of a curve of periodic orbits: the equations with a parameter, their tangent, a step along it.
@@ -548,12 +538,6 @@ class HopfPoint(Readable):
         return -self.growth_curvature / self.crossing
 
 
-class _Onset(NamedTuple):
-    modal: ModalRotor
-    rest: Rest
-    value: complex
-
-
 @arguments
 def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, float]) -> HopfPoint:
     """Return where a rotor at rest loses stability to whirl, and the criticality of that.
@@ -583,7 +567,7 @@ def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, flo
     low, high = (float(value) for value in require_finite("bounds", bounds))
 
     def growth(parameter: float) -> float:
-        return _onset(family, parameter).value.real
+        return _onset(family, parameter)[2].real
 
     ends = growth(low), growth(high)
     if ends[0] * ends[1] > 0.0:
@@ -591,30 +575,31 @@ def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, flo
             f"bounds must be stable at one end and unstable at the other, got growth rates {ends} 1/s"
         )
     parameter = brentq(growth, low, high, xtol=1e-13 * max(abs(low), abs(high)), rtol=1e-14)
-    at = _onset(family, parameter)
-    if abs(at.value.imag) <= 1e-6 * max(abs(at.modal.parts.speed), abs(at.value)):
+    modal, rest, value = _onset(family, parameter)
+    if abs(value.imag) <= 1e-6 * max(abs(modal.parts.speed), abs(value)):
         raise ConvergenceError(f"rest must be lost to whirl, but is lost without at {parameter:.9g}")
     step = 1e-4 * (high - low)
     crossing = (growth(parameter + step) - growth(parameter - step)) / (2.0 * step)
-    shape, curvature = growth_curvature(at.modal, at.rest, at.value.imag)
+    shape, curvature = growth_curvature(modal, rest, value.imag)
     return HopfPoint(
         parameter=parameter,
-        frequency=float(at.value.imag),
-        speed=at.modal.parts.speed,
-        position=at.rest.position,
+        frequency=value.imag,
+        speed=modal.parts.speed,
+        position=rest.position,
         shape=shape,
         crossing=crossing,
         growth_curvature=curvature,
     )
 
 
-def _onset(family: Callable[[float], MountedRotor], parameter: float) -> _Onset:
+def _onset(family: Callable[[float], MountedRotor], parameter: float) -> tuple[ModalRotor, Rest, complex]:
+    """Return a rotor in modes, its rest, and the leading eigenvalue there, with Im s >= 0."""
     mounted = family(parameter)
     parts = take_apart(mounted)
     modal = modal_rotor(parts, parts.speed)
     rest = rest_of(mounted, modal)
     value = leading(rest.matrix)[0]
-    return _Onset(modal, rest, complex(value.real, abs(value.imag)))
+    return modal, rest, complex(value.real, abs(value.imag))
 
 
 def growth_curvature(modal: ModalRotor, rest: Rest, frequency: float) -> tuple[Complex, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -16,7 +16,7 @@ from scipy.linalg import eig, eigh
 from ..bearings.reaction import added_mass
 from ..core.errors import ConvergenceError, InputError, require_count, require_finite
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import (
@@ -39,6 +39,7 @@ from .rotor_matrices import (
     PATIENCE,
     ROUNDED,
     SecondOrder,
+    WholeRotor,
     dynamics,
     inverse_steps,
     motion_near,
@@ -46,8 +47,8 @@ from .rotor_matrices import (
     rest_near,
     second_order,
     small_motion,
+    whirl_errors,
 )
-from .truncation_error import WholeRotor, whirl_errors
 
 REACH = 1.5
 """Highest frequency to which shapes are kept / top speed."""
@@ -76,19 +77,11 @@ LEAST = 1e-9
 _STEPS = 20
 
 
-class Crossing(NamedTuple):
-    """A whirl of the frequency of the rotation: speed [rad/s], eigenvalue [1/s], shape of the whole rotor."""
-
-    speed: float
-    value: complex
-    shape: np.ndarray
-
-
 class _Unproven(Exception):
     """The shapes kept are too few, or a step must be halved."""
 
 
-def crossings(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array) -> list[Crossing]:
+def crossings(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Crossing]:
     """Return all whirls of the frequency of the rotation between the first and the last speed, rising.
 
     Raises
@@ -123,7 +116,7 @@ class _Search:
     """
 
     rotor: FlexibleRotor
-    bearings: Mapping[str, Reaction]
+    bearings: Bearings
     model: Condensed
     end: float
     top: float
@@ -249,22 +242,16 @@ class _Search:
             return None
         return [one for one in found if one is not None]
 
-    def _crossing(self, span: SpannedModes, start: CrossingCandidate) -> Crossing | None:
+    def _crossing(self, span: SpannedModes, start: Crossing) -> Crossing | None:
         """Return where a whirl crosses within a step; None if it does so beyond."""
         found = self._newton(self.model.structure, span, start)
-        if found is None or self.model.space is None:
-            return None if found is None else self._told(span, found)
-        right, left = (self.model.lifted(side) for side in (found.right, found.left))
-        found = self._newton(self.exact, span, CrossingCandidate(found.turn, found.value, right, left))
-        return None if found is None else self._told(span, found)
+        if found is not None and self.model.space is not None:
+            right, left = (self.model.lifted(side) for side in (found.right, found.left))
+            found = self._newton(self.exact, span, found._replace(right=right, left=left))
+        forward = -1.0 if span.rests[1].speed < 0.0 else 1.0
+        return None if found is None else found._replace(speed=found.speed * forward)
 
-    @staticmethod
-    def _told(span: SpannedModes, found: CrossingCandidate) -> Crossing:
-        return Crossing(found.turn * (-1.0 if span.rests[1].speed < 0.0 else 1.0), found.value, found.right)
-
-    def _newton(
-        self, structure: Structure, span: SpannedModes, start: CrossingCandidate
-    ) -> CrossingCandidate | None:
+    def _newton(self, structure: Structure, span: SpannedModes, start: Crossing) -> Crossing | None:
         """Return the crossing by Newton's method in speed and eigenvalue; None if it is beyond the step.
 
         Raises
@@ -283,7 +270,7 @@ class _Search:
             lead = value.imag - turn
             settled = abs(value - before) <= max(CONVERGED, NEAR) * abs(value) or count >= PATIENCE
             if settled and abs(lead) <= (NEAR if count < PATIENCE else ROUNDED) * abs(value):
-                return CrossingCandidate(turn, value, right, left)
+                return Crossing(turn, value, right, left)
             slope = dynamics(system, value)[1]
             rate = complex(
                 -(left.conj() @ span.slope(structure, turn, value, right)) / (left.conj() @ (slope @ right))
@@ -316,19 +303,19 @@ BENT = 2.0
 Rests = tuple[RotorEquilibrium, RotorEquilibrium, RotorEquilibrium]
 
 
-class CrossingCandidate(NamedTuple):
-    """A whirl that may have the frequency of the rotation in a step, once at most.
+class Crossing(NamedTuple):
+    """A whirl that has the frequency of the rotation, or that may have it in a step, once at most.
 
     Attributes
     ----------
-    turn : float [rad/s]
-        Where it is expected to, as |speed|.
+    speed : float [rad/s]
+        Of a candidate |speed|, where it is expected to.
     value : complex [1/s]
     right, left : ndarray, shape (n,)
-        L right = 0, left* L = 0 in the middle of the step.
+        L right = 0, left* L = 0, of a candidate in the middle of the step.
     """
 
-    turn: float
+    speed: float
     value: complex
     right: np.ndarray
     left: np.ndarray
@@ -391,7 +378,7 @@ class SpannedModes:
         bends = [0.5 * (high[k] + low[k]) - middle[k] for k in (2, 1)]
         return Changing(values, in_modes(*rates), BENT * np.abs(in_modes(*bends)), self.half)
 
-    def candidates(self) -> tuple[list[CrossingCandidate], float] | None:
+    def candidates(self) -> tuple[list[Crossing], float] | None:
         """Return what may cross, and the largest error of its eigenvalues; None if more steps must tell.
 
         Each eigenvalue that may come to the line Im s = |speed| has a way that is proven, and goes from one
@@ -415,11 +402,11 @@ class SpannedModes:
             self._candidate(ways, k, float(-leads[k] / rates[k])) for k in np.flatnonzero(near).tolist()
         ], self._error(ways.places[near])
 
-    def _candidate(self, ways: Branches, k: int, change: float) -> CrossingCandidate:
+    def _candidate(self, ways: Branches, k: int, change: float) -> Crossing:
         place, change = ways.places[k], min(max(change, -self.half), self.half)
         values, right, left = self.modes
         value = complex(values[place] + change * self.changing.rates[place, place])
-        return CrossingCandidate(self.middle + change, value, right[:, place], left[place].conj())
+        return Crossing(self.middle + change, value, right[:, place], left[place].conj())
 
     def _error(self, places: Places) -> float:
         """Return the largest relative error of eigenvalues by the shapes that were left out."""

@@ -135,14 +135,14 @@ NONE = np.zeros((2, 2))
 
 
 class RestTangent(NamedTuple):
-    """A film of constant stiffness and damping.
+    """A film of constant stiffness and damping, or along a motion of n places, which then is the last axis.
 
     Attributes
     ----------
-    force : ndarray, shape (2,) [N]
-        On the journal at rest.
-    stiffness, damping : ndarray, shape (2, 2) [N/m], [N s/m]
-    mass : ndarray, shape (2, 2) [kg]
+    force : ndarray, shape (2, ...) [N]
+        On the journal at rest; along a motion with that of an added mass.
+    stiffness, damping : ndarray, shape (2, 2, ...) [N/m], [N s/m]
+    mass : ndarray, shape (2, 2, ...) [kg]
         That the film adds.
     """
 
@@ -166,23 +166,6 @@ class StatesAlong(NamedTuple):
     velocity: Array
     acceleration: Array
     step: float
-
-
-class TangentsAlong(NamedTuple):
-    """A film along a motion.
-
-    Attributes
-    ----------
-    force : ndarray, shape (2, n) [N]
-        With that of an added mass.
-    stiffness, damping, mass : ndarray, shape (2, 2, n) [N/m], [N s/m], [kg]
-        The mass is the added one.
-    """
-
-    force: Array
-    stiffness: Array
-    damping: Array
-    mass: Array
 
 
 class ShakenRotor(NamedTuple):
@@ -221,25 +204,25 @@ class ShakenRotor(NamedTuple):
         position = self.rest[:, None] + moved.position
         return MarchMotion(time=moved.time, position=position, velocity=moved.velocity)
 
-    def tangents(self, film: Reaction | RestTangent, states: StatesAlong) -> TangentsAlong:
+    def tangents(self, film: Reaction | RestTangent, states: StatesAlong) -> RestTangent:
         """Return force and derivatives of a film along a motion."""
         q, v, a, count = states.position, states.velocity, states.acceleration, states.position.shape[1]
         if isinstance(film, RestTangent):
             force = film.force[:, None] - film.stiffness @ (q - self.rest[:, None]) - film.damping @ v
             parts = (np.repeat(part[:, :, None], count, axis=2) for part in film[1:])
-            return TangentsAlong(force - film.mass @ a, *parts)
+            return RestTangent(force - film.mass @ a, *parts)
         speeds = np.full(count, self.speed)
         slopes = film.jacobian(q, v, speeds)[:, :4]
         heavy = inertial(film)
         if heavy is None or not isinstance(film, InertialModel):
-            return TangentsAlong(
+            return RestTangent(
                 film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
             )
         by_motion = heavy.mass_slopes(q, v, speeds)[:, :, :4]
         slopes = slopes - np.einsum("ijk...,j...->ik...", by_motion, a)
         force = film.force_along(q, v, a, speeds)  # type: ignore[misc]  # heavy and film are one
         mass = heavy.mass(q, v, speeds)
-        return TangentsAlong(force, -slopes[:, :2], -slopes[:, 2:], mass)
+        return RestTangent(force, -slopes[:, :2], -slopes[:, 2:], mass)
 
     def propagated(
         self, states: StatesAlong, own: Reaction | RestTangent, rich: Reaction

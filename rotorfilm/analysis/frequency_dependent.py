@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,7 @@ from scipy.optimize import brentq
 
 from ..bearings.reaction import DynamicStiffness, MemoryCoefficients
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Reaction, Settling
+from ..core.model import Array, Bearings
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import models, usual_frequency
@@ -29,21 +28,13 @@ MOVED = 1e-2
 _REAL = 1e-8
 
 
-class Motion(NamedTuple):
-    """An exponent s [1/s] and its vectors, shape (N,): L(s) right = 0, left* L(s) = 0."""
-
-    value: complex
-    right: np.ndarray
-    left: np.ndarray
-
-
 def motion_by_memory(
     structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, shape: np.ndarray
-) -> Motion | None:
+) -> tuple[complex, np.ndarray, np.ndarray] | None:
     """Return the motion on films that remember next to one on films that do not; None for none.
 
-    A motion that decays faster than it turns may have no other next to it: the film's own exponents are many
-    there.
+    That is s [1/s] and its vectors, shape (N,): L(s) right = 0, left* L(s) = 0. A motion that decays faster
+    than it turns may have no other next to it: the film's own exponents are many there.
 
     Raises
     ------
@@ -51,17 +42,14 @@ def motion_by_memory(
         If there is none next to a motion that turns faster than it decays, or grows.
     """
     try:
-        found = Motion(*whirl_near(structure, at, frequency, value, shape))
+        s, right, left = whirl_near(structure, at, frequency, value, shape)
     except ConvergenceError:
         if value.imag > -value.real:
             raise
         return None
-    s = found.value
     if abs(s.imag) <= _REAL * abs(s):
-        return found._replace(value=complex(s.real, 0.0))
-    if s.imag < 0.0:
-        return Motion(s.conjugate(), found.right.conj(), found.left.conj())
-    return found
+        return complex(s.real, 0.0), right, left
+    return (s.conjugate(), right.conj(), left.conj()) if s.imag < 0.0 else (s, right, left)
 
 
 def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray) -> int:
@@ -97,17 +85,13 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
 
 
 def require_all_growing(
-    rotor: FlexibleRotor,
-    bearings: Mapping[str, Reaction],
-    speed: float,
-    values: np.ndarray,
-    growing: int,
+    rotor: FlexibleRotor, bearings: Bearings, speed: float, values: np.ndarray, growing: int
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if not any(isinstance(bearing, Settling) for bearing in bearings.values()):
+    if not any(hasattr(bearing, "at_rest") for bearing in bearings.values()):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
@@ -154,24 +138,16 @@ _TOP = 4.0
 _DECADES = 4.0
 
 
-class Exponents(NamedTuple):
-    """Exponents of motion.
+def rigid_exponents(film: MemoryCoefficients, mass: float) -> tuple[NDArray[np.complex128], int]:
+    """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
 
-    Attributes
-    ----------
+    Returns
+    -------
     values : ndarray, shape (n,) [1/s]
         By falling real part, those with imaginary part >= 0: all that grow, or one that is damped, which need
         not be the least damped, where `growing` is 0.
     growing : int
         How many grow, both of a pair, by the phase of the determinant.
-    """
-
-    values: NDArray[np.complex128]
-    growing: int
-
-
-def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
-    """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
 
     Raises
     ------
@@ -187,10 +163,10 @@ def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
         found = sorted([*found, value], key=lambda one: -one.real)
         known = sum(2 if one.imag else 1 for one in found if one.real > 0.0)
         if abs(found[0].real) <= NEUTRAL * abs(found[0]):  # on the border itself nothing is counted
-            return Exponents(np.array(found), known)
+            return np.array(found), known
         growing = rigid_growing(film, mass) if growing is None else growing
         if known == growing:
-            return Exponents(np.array(found), growing)
+            return np.array(found), growing
     raise ConvergenceError(
         f"all {growing} growing exponents of a mass of {mass:.6g} kg on the film must be found, and "
         f"{len(found)} exponents were: {found}"
@@ -339,15 +315,8 @@ RATIOS = np.concatenate([np.geomspace(0.01, 0.1, 6, endpoint=False), np.linspace
 """Whirl ratios between which a border is looked for; oil crosses the cavity in half a turn or more."""
 
 
-class Border(NamedTuple):
-    """A mass [kg] and the frequency [rad/s] at which it whirls for ever."""
-
-    mass: float
-    frequency: float
-
-
-def mass_borders(film: MemoryCoefficients) -> list[Border]:
-    """Return all masses with det(K(i nu) - mass nu^2) = 0 for a frequency nu, the lightest first.
+def mass_borders(film: MemoryCoefficients) -> list[tuple[float, float]]:
+    """Return all masses with det(K(i nu) - mass nu^2) = 0, and the frequency nu of each, the lightest first.
 
     With K = A + i B the imaginary part gives k = mass nu^2 = (Axx Byy + Ayy Bxx - Axy Byx - Ayx Bxy) /
     (Bxx + Byy), the real part a function of nu alone, (Axx - k)(Ayy - k) - Axy Ayx - det B.
@@ -360,7 +329,7 @@ def mass_borders(film: MemoryCoefficients) -> list[Border]:
             nu = float(brentq(lambda nu: _residue(film, nu), low, high, xtol=1e-13 * high))
             mixed, trace = _stiffness(film.dynamic_stiffness.stiffness(1j * nu))
             if mixed * trace > 0.0:
-                found.append(Border(mixed / trace / nu**2, nu))
+                found.append((mixed / trace / nu**2, nu))
     return sorted(found)
 
 

@@ -11,7 +11,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.oil.laminar import warn_of_flow
+from ..bearings.oil.oil import warn_of_flow
 from ..core.errors import EquilibriumError, FilmContactError, ValidityWarning, require_number, warn_user
 from ..core.inputs import arguments
 from ..core.model import Array, Reaction, prepared_tangent

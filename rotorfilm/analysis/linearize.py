@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..bearings.reaction import Complex, MemoryCoefficients, StateSpaceStiffness
 from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Dynamic, Linearization, Model, Remembering, RestingStates, settled
+from ..core.model import Array, Dynamic, Linearization, Model, Remembering, settled
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names
@@ -110,8 +110,9 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
 def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
     given = names(model.inputs)
     u = np.array([*at.position, 0.0, 0.0, at.speed])
-    if given == list(JOURNAL_INPUTS) and isinstance(model, RestingStates):
-        return OperatingPoint(x=model.rest_state(at.position, at.speed), u=u)
+    rest_state = getattr(model, "rest_state", None)
+    if given == list(JOURNAL_INPUTS) and rest_state is not None:
+        return OperatingPoint(x=rest_state(at.position, at.speed), u=u)
     if given != list(JOURNAL_INPUTS):
         raise InputError(
             "at must be an OperatingPoint for a model that is no film with the inputs "
@@ -232,9 +233,7 @@ def film_system(
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
     by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
-    import control
-
-    system = control.StateSpace(
+    system = control_system(
         A,
         np.hstack([B, np.zeros((len(A), 1))]),
         C,
@@ -243,7 +242,6 @@ def film_system(
         outputs=list(FORCE_OUTPUTS),
         states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(len(fit.parts))],
         name=name,
-        remove_useless_states=False,
     )
     return FilmSystem(system=system, error=fit.error, highest_frequency=float(fit.highest_frequency))
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
-from typing import Any, NamedTuple, Protocol, TypeGuard, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
-from ..core.model import Array, JournalForce, Reaction, Settling, require_reactions
+from ..core.model import Array, JournalForce, at_rest, require_reactions
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
@@ -71,16 +71,16 @@ class BandedFactor:
         return found
 
 
-class DenseFactor:
-    """The LU factor of a dense matrix."""
+def lu_solver(matrix: Any) -> Callable[..., np.ndarray]:
+    """Return the function of a load (N,), and adjoint=False, that solves with a factored matrix.
 
-    def __init__(self, matrix: np.ndarray) -> None:
-        tally("factorizations")
-        self.factor = lu_factor(matrix, check_finite=False)
-
-    def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
-        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
-        return np.asarray(lu_solve(self.factor, load, trans=2 if adjoint else 0))
+    With `adjoint` it is the conjugate transpose that is solved; a sparse matrix may be complex.
+    """
+    if sparse.issparse(matrix):
+        return BandedFactor(matrix).solve
+    tally("factorizations")
+    factor = lu_factor(matrix, check_finite=False)
+    return lambda load, adjoint=False: np.asarray(lu_solve(factor, load, trans=2 if adjoint else 0))
 
 
 def band_order(matrix: Any) -> Array:
@@ -158,7 +158,7 @@ def _loads(full: Structure) -> Array:
     housings = np.eye(n)[list(full.supports)]
     both = [full.journals[:, :n], full.journals[:, n:], housings]
     both += [full.weight.reshape(2, n), full.unbalance[:n].T, full.unbalance[n:].T]
-    both += [readout.row[: 2 * n].reshape(2, n) for readout in full.readouts]
+    both += [row[: 2 * n].reshape(2, n) for _, row in full.readouts]
     both += [] if full.tilts is None else [full.tilts[:, :n], full.tilts[:, n:]]
     rows = np.vstack(both)
     return np.asarray(rows[np.any(rows, axis=1)].T)
@@ -168,18 +168,26 @@ def _modes_below(
     mass: Any, stiffness: Any, solid: BandedCholesky, shift: float, cut: float
 ) -> tuple[Array, Array]:
     """Return frequencies and shapes, of unit mass, of the modes below a frequency, with no bearings."""
-    n = mass.shape[0]
-    inverse = LinearOperator((n, n), matvec=solid.solve, dtype=float)
-    start = np.random.default_rng(0).normal(size=n)
-    count = _FIRST_COUNT
+    n, count = mass.shape[0], _FIRST_COUNT
     while True:
         count = min(count, n - 2)
-        squares, modes = eigsh(stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start)
+        squares, modes = modes_near(stiffness, mass, solid, -(shift**2), count)
         rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
         # Lanczos' method may miss one: the law of inertia tells how many there are.
         if (count > len(rising) == negative_count(stiffness, cut**2, mass)) or count == n - 2:
             return np.sqrt(np.maximum(squares[rising], 0.0)), modes[:, rising]
         count *= 2
+
+
+def modes_near(
+    stiffness: Any, mass: Any, shifted: BandedCholesky, square: float, count: int
+) -> tuple[Array, Array]:
+    """Return squared frequencies nearest to `square` [rad2/s2] and shapes, with that shift factored."""
+    n = mass.shape[0]
+    inverse = LinearOperator((n, n), matvec=shifted.solve, dtype=float)
+    start = np.random.default_rng(0).normal(size=n)
+    squares, shapes = eigsh(stiffness, count, mass, sigma=square, which="LM", OPinv=inverse, v0=start)
+    return squares, shapes
 
 
 # A rotor in as few shapes as a range of frequencies needs, and how far off its whirls are.
@@ -292,26 +300,12 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
 # Bearings that resist the tilt of a shaft too: what linear analysis asks of them, and where they act.
 
 
-class TiltingReaction(Protocol):
-    """A bearing with force and moment over the place (x, y, tilt_x, tilt_y) of the shaft [m], [rad]."""
+def resists_tilt(bearing: object) -> bool:
+    """Return whether a bearing has force and moment over the place (x, y, tilt_x, tilt_y) [m], [rad].
 
-    @property
-    def clearance(self) -> float:
-        """Radial way [m] on which the force may change much."""
-
-    @property
-    def planar(self) -> Reaction:
-        """The bearing with its tilts held."""
-
-    def tilting_force(self, place: Array, speed: float) -> Array:
-        """Return force [N] along x, y and moment [N m] about x, y on the shaft, shape (4,)."""
-
-    def tilting_coefficients(self, place: Array, speed: float) -> Coefficients:
-        """Return stiffness and damping, shape (4, 4), at a place of the shaft at rest."""
-
-
-def resists_tilt(bearing: object) -> TypeGuard[TiltingReaction]:
-    """Return whether a bearing resists tilts."""
+    It says them by `tilting_force(place, speed)`, shape (4,), and `tilting_coefficients(place, speed)` with
+    matrices of shape (4, 4); `planar` is the bearing with its tilts held.
+    """
     return hasattr(type(bearing), "tilting_force")
 
 
@@ -343,20 +337,20 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
     """
     if resists_tilt(bearing):
         return bearing.tilting_force(place, speed)
-    if not isinstance(bearing, Settling):
+    following = at_rest(bearing)
+    if following is None:
         force: Array = bearing.force(place, np.zeros(2), speed)
         return force
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnloadedPadWarning)
-        return np.asarray(bearing.at_rest().force(place, np.zeros(2), speed))
+        return np.asarray(following.force(place, np.zeros(2), speed))
 
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square, of the force that `force_at` returns."""
     if resists_tilt(bearing):
         return -bearing.tilting_coefficients(place, speed).stiffness
-    film: Any = bearing.at_rest() if isinstance(bearing, Settling) else bearing
-    slopes: Array = film.jacobian(place, np.zeros(2), speed)[:, :2]
+    slopes: Array = (at_rest(bearing) or bearing).jacobian(place, np.zeros(2), speed)[:, :2]
     return slopes
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, NamedTuple
@@ -12,16 +13,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.reaction import reach
-from ..core.errors import EquilibriumError, InputError, require_count, require_positive
+from ..core.errors import (
+    ContactError,
+    EquilibriumError,
+    InputError,
+    require_count,
+    require_positive,
+    require_vector,
+)
 from ..core.inputs import arguments
-from ..core.model import MOST_LEFT, Array, Reaction
-from ..core.readable import Drawable
+from ..core.model import MOST_LEFT, Array, Bearings, Reaction
+from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import Structure
 from .coefficients import coefficients
-from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
-from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
+from .compiled_march import LONGEST_TURN, STAGES, March, ModalArrays, StepTable, radau_scheme
+from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
 from .harmonic_balance import (
     CONVERGED,
@@ -305,13 +313,10 @@ def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> A
 
 def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
     """Return a rotor on other springs and dampers at its journals: further slopes (2 n, 4)."""
-    rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
-    forced = np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1)
-    A = ((modal.shapes * modal.values) @ modal.inverse).real
-    B = (modal.shapes @ modal.push).real
+    A, B = shifted_matrix(modal), (modal.shapes @ modal.push).real
     size = len(A) // 2
     rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
-    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ forced, rate)
+    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ _by_state(modal, slopes), rate)
     return modal._replace(
         values=values,
         shapes=shapes,
@@ -369,37 +374,30 @@ class Rest(NamedTuple):
         Of the journals.
     matrix : ndarray, shape (2 N, 2 N)
         x' = A x of small motion.
-    stiffness, damping : ndarray, shape (2 n_bearings, 2)
-        Slopes of each bearing's force by its own position and velocity, positive where they drive.
     """
 
     position: Array
     matrix: Array
-    stiffness: Array
-    damping: Array
 
 
-def rest_of(mounted: MountedRotor, modal: ModalRotor, guess: Array | None = None) -> Rest:
-    """Return where a rotor rests, from a guess of its journals' positions if there is one.
+def rest_of(mounted: MountedRotor, modal: ModalRotor) -> Rest:
+    """Return where a rotor rests.
 
     Raises
     ------
     EquilibriumError
         If it is not found.
     """
-    start = first_guess(mounted, modal) if guess is None else guess
-    try:
-        position = _newton(modal, start)
-    except EquilibriumError:
-        if guess is None:
-            raise
-        position = _newton(modal, first_guess(mounted, modal))
+    position = _newton(modal, first_guess(mounted, modal))
     _, stiffness, damping = film_forces(modal, position[:, None], np.zeros((len(position), 1)))
-    stiffness, damping = stiffness[..., 0], damping[..., 0]
+    forced = _by_state(modal, np.concatenate([stiffness, damping], axis=1)[..., 0])
+    return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced)
+
+
+def _by_state(modal: ModalRotor, slopes: Array) -> Array:
+    """Return the derivatives of forces (2 n, 4) by each bearing's own motion by the state of the rotor."""
     rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
-    by_motion = np.concatenate([stiffness, damping], axis=1).reshape(-1, 2, 4)
-    forced = np.einsum("bij,bjn->bin", by_motion, rows).reshape(-1, len(modal.shapes))
-    return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced, stiffness, damping)
+    return np.asarray(np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1))
 
 
 def shifted_matrix(modal: ModalRotor) -> Array:
@@ -496,9 +494,7 @@ class RotorAnswers(NamedTuple):
         """Samples over a turn that these harmonics stand for."""
         return 2 * self.harmonics + 1
 
-    def on(
-        self, bearings: Mapping[str, Reaction], sloped: Mapping[str, Reaction] | None = None
-    ) -> Balance[DrivenRotor]:
+    def on(self, bearings: Bearings, sloped: Bearings | None = None) -> Balance[DrivenRotor]:
         """Return the equations of the orbit on these bearings, their slopes those of others where given."""
         rotor = DrivenRotor(self, bearings, bearings if sloped is None else sloped)
         return Balance(rotor=rotor, harmonics=self.harmonics, periods=1, collocated=True)
@@ -531,7 +527,7 @@ def rotor_answers(
     # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); turning backward mirrors it.
     turning = speed**2 * structure.unbalance @ np.array([1.0, -1.0j * np.sign(speed)])
     answers, external, seen = [], np.zeros((2, len(rows)), dtype=complex), {}
-    own = {readout.signal.name: readout.row[: len(structure.weight)] for readout in structure.readouts}
+    own = {signal.name: row[: len(structure.weight)] for signal, row in structure.readouts}
     for k in range(samples // 2 + 1):
         whole = with_hysteresis(structure, system, k * turn, speed).dynamic_stiffness(k * turn)
         load = structure.weight if k == 0 else turning
@@ -568,8 +564,8 @@ class DrivenRotor(NamedTuple):
     """
 
     answers: RotorAnswers
-    bearings: Mapping[str, Reaction]
-    sloped: Mapping[str, Reaction]
+    bearings: Bearings
+    sloped: Bearings
 
     @property
     def clearances(self) -> Array:
@@ -583,7 +579,7 @@ class DrivenRotor(NamedTuple):
 
     def receptance(self, harmonics: int, frequency: float) -> Receptance:
         """Return what the journals answer at the frequency of the shaft."""
-        return Receptance(self.answers.journals, None)
+        return self.answers.journals, None
 
     def external(self, harmonics: int, periods: int, frequency: float) -> Array:
         """Return the series of the answer to weight and unbalance."""
@@ -638,7 +634,7 @@ def rest_on_film(rotor: RigidRotor, bearing: Reaction) -> RotorEquilibrium:
     )
 
 
-def distance(balance: Balance[DrivenRotor], others: Mapping[str, Reaction], orbit: Array) -> Array:
+def distance(balance: Balance[DrivenRotor], others: Bearings, orbit: Array) -> Array:
     """Return how much the forces of other bearings than its own change an orbit [m], to first order."""
     rotor = balance.rotor
     other = rotor.answers.on(others, sloped=rotor.sloped).residual(orbit, balance.frequency)
@@ -646,9 +642,7 @@ def distance(balance: Balance[DrivenRotor], others: Mapping[str, Reaction], orbi
     return balance.in_length(np.asarray(np.linalg.solve(other.by_series, -missing)))
 
 
-def propagated(
-    balance: Balance[DrivenRotor], orbit: Array, own: Mapping[str, Reaction] | None
-) -> tuple[Array, Array]:
+def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None) -> tuple[Array, Array]:
     """Return the change of an orbit that makes up for what it lacks, by two slopes.
 
     The slopes of the balance's own, and those of other bearings along the orbit, or K0 and C0 where none are
@@ -663,7 +657,7 @@ def propagated(
     return balance.in_length(step), balance.in_length(other)
 
 
-def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, Reaction]) -> float:
+def reach_of(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
     """Return how far the journals go towards contact at the samples; see `contact_place.reach`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
     return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
@@ -672,3 +666,160 @@ def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, React
 def _by_bearing(rows: Array) -> Array:
     """Return (2 m, n) as (m, 2, n)."""
     return rows.reshape(-1, 2, rows.shape[1])
+
+
+# Which initial offsets of a rotor at rest decay, and which end in whirl.
+
+
+BLOCK = 10
+"""Turns between two looks at the amplitude."""
+
+SAMPLES = 200
+"""Samples of a block."""
+
+SETTLED = 0.01
+"""Amplitude, in that of the offset, below which a stable rest is taken to be reached."""
+
+STEADY = 1e-6
+"""Relative change of the amplitude from block to block at which whirl is taken to be steady."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BasinScan(Readable):
+    """Where a rotor goes from offsets of its journals.
+
+    Attributes
+    ----------
+    offsets : ndarray, shape (2, ...) [m]
+        Initial displacement of all journals from their rest.
+    amplitude : ndarray, shape (...) [1]
+        Largest distance of a journal from its rest / clearance over the last turns; nan where it hit
+        the wall.
+    whirls : ndarray of bool, shape (...)
+        Whether the rotor whirls in the end, or hit the wall.
+    eccentricity : ndarray, shape (...) [1]
+        Largest eccentricity ratio over the last turns.
+    rest : ndarray, shape (2 n_bearings,) [m]
+        Position of the journals at rest.
+    work : dict of str to int
+    """
+
+    offsets: Array
+    amplitude: Array
+    whirls: np.ndarray
+    eccentricity: Array
+    rest: Array
+    work: dict[str, int]
+
+
+@arguments
+def basin_scan(
+    mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6
+) -> BasinScan:
+    """Return which offsets from the rest decay and which end in whirl.
+
+    The rotor starts without velocity, its journals off their rest by the same displacement, the shaft bent as
+    little as that takes.
+
+    Parameters
+    ----------
+    mounted : MountedRotor
+        From `mount`, at constant speed, without unbalance.
+    offsets : array_like, shape (2, ...) [m]
+        Those that touch the wall count as whirl, with the amplitude nan.
+    turns : int
+        Longest run in turns of the shaft; it ends sooner once it is decided.
+    rtol : float [1]
+        As in `simulate_rotor`.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the rotor has an unbalance.
+    EquilibriumError
+        If there is no rest.
+    """
+    require_count("turns", turns)
+    require_positive("rtol", rtol)
+    grid = require_vector("offsets", offsets)
+    parts = take_apart(mounted)
+    if np.any(parts.structure.unbalance):
+        raise InputError("rotor must have no unbalance for a basin of whirl")
+    modal = modal_rotor(parts, parts.speed)
+    rest = rest_of(mounted, modal)
+    shapes = offset_shapes(parts)
+    state = _rest_state(modal, rest)
+    work: Counter[str] = Counter()
+    flat = grid.reshape(2, -1)
+    ends = np.array([_end(modal, rest, state, shapes @ offset, turns, rtol, work) for offset in flat.T])
+    amplitude, eccentricity, whirls = ends.reshape(*grid.shape[1:], 3).transpose(-1, *range(grid.ndim - 1))
+    return BasinScan(
+        offsets=grid,
+        amplitude=amplitude,
+        whirls=whirls > 0.0,
+        eccentricity=eccentricity,
+        rest=rest.position,
+        work=dict(work),
+    )
+
+
+def _end(
+    modal: ModalRotor, rest: Rest, state: Array, shape: Array, turns: int, rtol: float, work: Counter[str]
+) -> tuple[float, float, bool]:
+    """Return amplitude, eccentricity ratio and whether it whirls in the end, from one offset."""
+    start = state.copy()
+    start[: len(shape)] += shape
+    turn = 2.0 * np.pi / abs(modal.parts.speed)
+    march = March(
+        modal=modal,
+        state=modal.modal(start),
+        rtol=rtol,
+        longest=LONGEST_TURN * turn,
+        duration=turns * turn,
+    )
+    first = _amplitude(modal, rest, march.state[:, None].copy())[0]
+    before, amplitude, eccentricity = np.inf, first, 0.0
+    begin = 0.0
+    while begin < turns * turn * (1.0 - 1e-12):
+        stop = min(begin + BLOCK * turn, turns * turn)
+        try:
+            kept = march.to(stop, np.linspace(begin, stop, SAMPLES + 1)[1:])
+        except ContactError:
+            work.update(march.work)
+            return float("nan"), 1.0, True
+        amplitude, eccentricity = _amplitude(modal, rest, kept.T)
+        if amplitude < SETTLED * first or abs(amplitude - before) <= STEADY * amplitude:
+            break
+        before, begin = amplitude, stop
+    work.update(march.work)
+    return amplitude, eccentricity, amplitude > 0.5 * first or amplitude > 0.05
+
+
+def _amplitude(modal: ModalRotor, rest: Rest, kept: Complex) -> tuple[float, float]:
+    """Return the largest distance of a journal from its rest, and from its center, in clearances."""
+    motion = (modal.sense @ kept).real + modal.journal_rest[:, None]
+    position = motion.reshape(-1, 4, motion.shape[1])[:, :2]
+    lengths = modal.parts.lengths[:, None]
+    away = position - rest.position.reshape(-1, 2, 1)
+    return (
+        float((np.hypot(away[:, 0], away[:, 1]) / lengths).max()),
+        float((np.hypot(position[:, 0], position[:, 1]) / lengths).max()),
+    )
+
+
+def _rest_state(modal: ModalRotor, rest: Rest) -> Array:
+    """Return the state of the whole rotor at rest."""
+    none = np.zeros((len(rest.position), 1))
+    force = film_forces(modal, rest.position[:, None], none)[0][:, 0]
+    return modal.physical(-(modal.push[:, :-2] @ force) / modal.values)
+
+
+def offset_shapes(parts: Parts) -> Array:
+    """Return the displacement of the rotor per common offset of its journals, least bent, shape (N, 2)."""
+    stiffness, rows = parts.structure.stiffness, parts.rows
+    n, count = len(stiffness), len(rows)
+    size = float(np.abs(stiffness).max()) or 1.0
+    saddle = np.block([[stiffness / size, rows.T], [rows, np.zeros((count, count))]])
+    right = np.zeros((n + count, 2))
+    right[n:] = np.tile(np.eye(2), (count // 2, 1))
+    return np.asarray(np.linalg.lstsq(saddle, right, rcond=None)[0][:n])

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -24,7 +23,7 @@ from ..core.errors import (
     require_number,
 )
 from ..core.inputs import arguments
-from ..core.model import MOST_LEFT, Array, Reaction, Warming, inertial
+from ..core.model import MOST_LEFT, Array, Bearings, Reaction, Warming, inertial
 from ..core.readable import Readable
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor, require_flexible
@@ -83,9 +82,7 @@ class RotorEquilibrium(Readable):
 
 
 @arguments
-def rotor_equilibrium(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float
-) -> RotorEquilibrium:
+def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) -> RotorEquilibrium:
     """Return where a rotor rests in its bearings under its weight.
 
     In two bearings the loads follow from statics; in more of them from the stiffness of the shaft as well.
@@ -131,10 +128,7 @@ def rotor_equilibrium(
 
 
 def rest(
-    structure: Structure,
-    bearings: Mapping[str, Reaction],
-    speed: float,
-    near: RotorEquilibrium | None = None,
+    structure: Structure, bearings: Bearings, speed: float, near: RotorEquilibrium | None = None
 ) -> RotorEquilibrium:
     """Return where a rotor of these matrices rests, from that at another speed on, as `rotor_equilibrium`."""
     if near is not None and _is_the_same_at_any_speed(structure, bearings):
@@ -164,7 +158,7 @@ def rest(
     )
 
 
-def _is_the_same_at_any_speed(structure: Structure, bearings: Mapping[str, Reaction]) -> bool:
+def _is_the_same_at_any_speed(structure: Structure, bearings: Bearings) -> bool:
     """Return whether all bearings are springs and dampers, and no damping that turns presses on them."""
     turning = structure.hysteresis is not None or abs(structure.circulation).max() > 0.0
     return not turning and all(type(bearing) is LinearBearing for bearing in bearings.values())
@@ -225,7 +219,7 @@ _SINGULAR = 1e15
 class RestEquations:
     """The equations of a rotor at rest: displacements in units of the smallest clearance."""
 
-    def __init__(self, structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> None:
+    def __init__(self, structure: Structure, bearings: Bearings, speed: float) -> None:
         unknown = sorted(set(bearings) - set(structure.stations))
         if unknown:
             raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
@@ -283,7 +277,7 @@ class RestEquations:
 
     def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
-        bearing = self.given[k]
+        bearing: Any = self.given[k]
         if resists_tilt(bearing):
             still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
             place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position

@@ -3,25 +3,45 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eig
+from scipy.optimize import brentq, linear_sum_assignment
 
-from ..core.errors import InputError, require_finite, require_number, require_positive
+from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction
-from ..core.readable import Readable
+from ..core.model import Array, Bearings
+from ..core.progress import Report, silent
+from ..core.readable import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
-from .frequency_dependent import motion_by_memory
-from .modal_reduction import COUNTS, TOLERANCE, Condensed, counted, models, tally, usual_frequency
+from .critical import Crossing, crossings
+from .frequency_dependent import motion_by_memory, require_all_growing
+from .modal_reduction import (
+    COUNTS,
+    TOLERANCE,
+    Condensed,
+    CountedTuple,
+    counted,
+    models,
+    tally,
+    usual_frequency,
+)
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import remembering, rest_near, small_motion
-from .truncation_error import WholeRotor, roundoff, whirl_errors
+from .rotor_matrices import (
+    WholeRotor,
+    remembering,
+    rest_near,
+    roundoff,
+    small_motion,
+    value_error,
+    whirl_errors,
+)
 
 _OSCILLATES = 1e-6
 
@@ -108,7 +128,7 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
 
 @arguments
 def rotor_modes(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
+    rotor: FlexibleRotor, bearings: Bearings, speed: float, highest_frequency: float = math.inf
 ) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
@@ -140,14 +160,10 @@ def rotor_modes(
     return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
 
-class Motions(RotorModes):
-    """The whirls at a speed, those beyond `highest_frequency` too, after motions that do not oscillate."""
-
-
 def motions_at(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
-) -> Motions:
-    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
+    rotor: FlexibleRotor, bearings: Bearings, speed: float, highest_frequency: float = math.inf
+) -> RotorModes:
+    """Return the whirls at a speed, also beyond `highest_frequency`, and motions that do not oscillate."""
     require_flexible(rotor)
     speed = require_number("speed", speed)
     require_range(highest_frequency)
@@ -158,7 +174,7 @@ def motions_at(
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
-def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> Motions:
+def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> RotorModes:
     """Return the same about a rest that is known, with its K and C of the bearings."""
     known_to = usual_frequency(rotor, at.speed)
     found = (_motions(model, at, known_to) for model in models(rotor, known_to))
@@ -171,32 +187,32 @@ def require_range(highest_frequency: float) -> None:
         require_positive("highest_frequency", highest_frequency)
 
 
-def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
+def whirls_of(motions: RotorModes, highest_frequency: float = math.inf) -> RotorModes:
     """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
     whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.highest_frequency)
     whirls &= motions.frequency <= highest_frequency
-    return RotorModes(
-        speed=motions.speed,
+    return replace(
+        motions,
         eigenvalues=motions.eigenvalues[whirls],
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
-        error=motions.error,
         roundoff=np.broadcast_to(motions.roundoff, whirls.shape)[whirls],
         highest_frequency=min(highest_frequency, motions.highest_frequency),
     )
 
 
-def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> Motions:
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorModes:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(at.speed))]
-    shapes = np.hstack([part.shapes for part in parts])
-    return Motions(
+    parts = [_part(model, at, part, known_to) for part in _bands(model.structure, abs(at.speed))]
+    values, vectors, errors, rounded = zip(*parts, strict=True)
+    shapes = np.hstack(vectors)
+    return RotorModes(
         speed=at.speed,
-        eigenvalues=np.concatenate([part.values for part in parts]),
+        eigenvalues=np.concatenate(values),
         shapes=model.lifted(shapes),
         direction=directions(model.structure.mass, shapes, at.speed),
-        error=max(part.error for part in parts),
-        roundoff=np.concatenate([part.roundoff for part in parts]),
+        error=max(errors),
+        roundoff=np.concatenate(rounded),
         highest_frequency=math.inf if model.space is None else known_to,
     )
 
@@ -209,73 +225,65 @@ def directions(mass: Any, shapes: np.ndarray, speed: float) -> Array:
     return np.asarray((-1.0 if speed < 0.0 else 1.0) * (forward - backward) / (forward + backward))
 
 
-class _Band(NamedTuple):
-    """Frequencies low <= Im s < high that have the hysteresis of one frequency [rad/s]."""
+Band = tuple[float, float, float]
+"""Frequencies low <= Im s < high that have the hysteresis of one frequency [rad/s]: that one, low, high."""
 
-    frequency: float
-    low: float
-    high: float
-
-
-class _Part(NamedTuple):
-    """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
-
-    values: NDArray[np.complex128]
-    shapes: NDArray[np.complex128]
-    error: float
-    roundoff: Array
+Part = tuple[NDArray[np.complex128], NDArray[np.complex128], float, Array]
+"""Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
 
 
-def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
+def _bands(structure: Structure, turn: float) -> tuple[Band, ...]:
     if structure.hysteresis is None:
-        return (_Band(0.0, 0.0, math.inf),)
-    return _Band(0.5 * turn, 0.0, turn), _Band(2.0 * turn + 1.0, turn, math.inf)
+        return ((0.0, 0.0, math.inf),)
+    return (0.5 * turn, 0.0, turn), (2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) -> _Part:
+def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -> Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
-    system = small_motion(model.structure, at, band.frequency)
+    frequency, low, high = band
+    system = small_motion(model.structure, at, frequency)
     tally("eigenproblems")
     matrix = system.state_matrix()
     values, left, vectors = eig(matrix, left=True)
     rounded = roundoff(matrix, left, vectors)
     shapes = vectors[: len(system.mass)]
-    whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
-    chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
+    whole, lifted = WholeRotor(model.whole, at, frequency), model.lifted(shapes)
+    chosen = _is_held(whole, values, lifted) & (values.imag >= low) & (values.imag < high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if remembering(at):
-        return _remembered(model, at, band, known_to, (values[order], shapes[:, order], rounded[order]))
+        return _remembered(model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order]))
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
         ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
         error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
-    return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order])
+    return values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order]
 
 
 def _remembered(
     model: Condensed,
     at: RotorEquilibrium,
-    band: _Band,
+    frequency: float,
     known_to: float,
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
-) -> _Part:
+) -> Part:
     """Return the motions on films that remember next to those with K and C of one frequency."""
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
     for start, shape, rounding in zip(starts, shapes.T, rounded, strict=True):
-        one = motion_by_memory(model.structure, at, band.frequency, complex(start), shape)
-        if one is None or any(abs(one.value - other) <= _SAME * abs(other) for other, *_ in found):
+        one = motion_by_memory(model.structure, at, frequency, complex(start), shape)
+        if one is None or any(abs(one[0] - other) <= _SAME * abs(other) for other, *_ in found):
             continue
-        found.append((one.value, one.right, float(rounding)))
-        if model.space is not None and oscillates(np.array(one.value)) and abs(one.value) <= known_to:
-            whole = WholeRotor(model.whole, rest_near(at, one.value), band.frequency)
-            ends = (model.lifted(vector[:, None]) for vector in (one.right, one.left))
-            error = max(error, float(whirl_errors(model, whole, np.array([one.value]), *ends)[0]))
+        s, *vectors = one
+        found.append((s, vectors[0], float(rounding)))
+        if model.space is not None and oscillates(np.array(s)) and abs(s) <= known_to:
+            whole = WholeRotor(model.whole, rest_near(at, s), frequency)
+            ends = (model.lifted(vector[:, None]) for vector in vectors)
+            error = max(error, float(whirl_errors(model, whole, np.array([s]), *ends)[0]))
     found.sort(key=lambda motion: motion[0].imag)
     values = np.array([value for value, *_ in found], dtype=complex)
-    vectors = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
-    return _Part(values, vectors.T, error, np.array([rounding for *_, rounding in found]))
+    right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
+    return values, right.T, error, np.array([rounding for *_, rounding in found])
 
 
 def _is_held(
@@ -301,3 +309,513 @@ def speeds_in_turn(speeds: ArrayLike) -> Array:
     if not grid.size or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
         raise InputError(f"speeds must be a list of rising or of falling numbers, got {speeds!r}")
     return grid
+
+
+# Whirl modes over speed, and critical speeds.
+
+
+PEAK_SPEEDS = 21
+"""Speeds across a resonance, two half-widths to each side."""
+
+LEAST_DECREMENT = 1e-6
+"""Logarithmic decrement below which a resonance counts as undamped."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Campbell(Whirls, Drawable):
+    """Whirl modes over speed.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (n_speeds,) [rad/s]
+    eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
+        By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
+    direction : ndarray, shape (n_modes, n_speeds) [1]
+        As in `RotorModes`; nan likewise.
+    frequency : ndarray, shape (n_modes, n_speeds) [rad/s]
+        Damped frequency, the imaginary part of the eigenvalues.
+    log_decrement : ndarray, shape (n_modes, n_speeds) [1]
+        Negative where the whirl grows.
+    error : float [1]
+        Largest of those of `RotorModes`.
+    roundoff : ndarray, shape (n_modes, n_speeds) [1/s]
+        As in `RotorModes`; nan likewise.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out; inf where none is.
+    work : dict of str to int
+        As `RotorModes.work`, of all speeds.
+    """
+
+    speeds: Array
+    eigenvalues: NDArray[np.complex128]
+    direction: Array
+    error: float = 0.0
+    roundoff: Array | float = 0.0
+    highest_frequency: float = math.inf
+    work: dict[str, int] = field(default_factory=dict, compare=False)
+
+
+_BEYOND = 1.5
+"""How far modes of a rotor of many elements are followed / the highest frequency."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CriticalSpeed(Readable):
+    """A speed at which a whirl has the frequency of the rotation.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+        Of the sign of the speeds searched.
+    log_decrement : float [1]
+        Of that whirl.
+    direction : float [1]
+        As in `RotorModes`; an unbalance excites forward whirl.
+    """
+
+    speed: float
+    log_decrement: float
+    direction: float
+
+
+@arguments
+def campbell(
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, highest_frequency: float = math.inf
+) -> Campbell:
+    """Return the whirl modes of a rotor on its films over a range of speeds.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
+        the next.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out. If infinite, as in `rotor_modes`, so that a shaft of more than
+        19 elements has only its lower modes; `Campbell.highest_frequency` tells it.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid = speeds_in_turn(speeds)
+    require_range(highest_frequency)
+    with counted(*COUNTS) as work:
+        points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
+    tracks = tracked(points, rotor.assembly.mass)
+    values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
+    direction, rounded = np.full((2, len(tracks), len(grid)), math.nan)
+    for row, track in enumerate(tracks):
+        for column, k in track.items():
+            values[row, column] = points[column].eigenvalues[k]
+            direction[row, column] = points[column].direction[k]
+            rounded[row, column] = np.asarray(points[column].roundoff)[k]
+    lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
+    order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
+    return Campbell(
+        speeds=grid,
+        eigenvalues=values[order],
+        direction=direction[order],
+        error=max(point.error for point in points),
+        roundoff=rounded[order],
+        highest_frequency=min(highest_frequency, *(point.highest_frequency for point in points)),
+        work=dict(work),
+    )
+
+
+@arguments
+def critical_speeds(
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
+) -> CountedTuple[CriticalSpeed]:
+    """Return all damped critical speeds, rising: where a whirl has the frequency of the rotation.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign: the range searched, and the steps in which that begins.
+
+    Returns
+    -------
+    CountedTuple
+        A tuple of `CriticalSpeed` with the counters `work`.
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds, or between them.
+    ConvergenceError
+        Of intervals in which the list cannot be proven complete, as where coefficients of a bearing jump and
+        a whirl is slower than the rotation on one side only, or of a search that takes too many equilibria;
+        the message names the likely cause. `partial` has those found in all of the range.
+
+    Notes
+    -----
+    Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and small numbers.
+    They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton 1970), and all other
+    eigenvalues by Gershgorin's circles. A step counts as proven where no other eigenvalue comes to the line
+    Im s = |speed|, and those that may, have a frequency that grows more slowly than the speed all along, or
+    faster all along: each then crosses once at most, and Newton's method tells whether it does. Other steps
+    are halved, up to 14 times.
+
+    The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
+    solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
+    as the parabola through both ends and the middle, and on films that remember, `JFOFilm`, for whirls with
+    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
+    is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
+    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
+    is checked in all coordinates besides, by Sylvester's law of inertia.
+    """
+    grid = speeds_in_turn(speeds)
+    require_flexible(rotor)
+    with counted(*COUNTS) as work:
+        try:
+            found = crossings(rotor, bearings, grid)
+        except ConvergenceError as failure:
+            failure.partial = CountedTuple(_listed(rotor, failure.partial or ()), work)
+            raise
+    return CountedTuple(_listed(rotor, found), work)
+
+
+def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpeed]:
+    return [
+        CriticalSpeed(
+            speed=one.speed,
+            log_decrement=float(log_decrement(one.value)),
+            direction=float(directions(rotor.assembly.mass, one.right[:, None], one.speed)[0]),
+        )
+        for one in found
+    ]
+
+
+@arguments
+def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
+    """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
+
+    Parameters
+    ----------
+    speeds : array_like, shape (n,) [rad/s]
+        Rising.
+    critical : sequence of CriticalSpeed
+        As `critical_speeds` returns them. Those without damping are left out: their peak has no height.
+
+    Returns
+    -------
+    ndarray, shape (m,) [rad/s]
+        Rising, within the range of `speeds`: these, and 21 across each resonance, two half-widths to each
+        side. The half-width of a peak is speed log_decrement / (2 pi).
+    """
+    grid, width = np.asarray(speeds, dtype=float), np.linspace(-2.0, 2.0, PEAK_SPEEDS)
+    damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
+    near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
+    every = np.unique(np.concatenate([grid, *near]))
+    within: Array = every[(every >= grid[0]) & (every <= grid[-1])]
+    return within
+
+
+# Which whirl at one speed is which at another.
+
+
+def matches(before: RotorModes, after: RotorModes, mass: Any) -> dict[int, int]:
+    """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
+    if not (before.eigenvalues.size and after.eigenvalues.size):
+        return {}
+    product = np.abs(before.shapes.conj().T @ (mass @ after.shapes)) ** 2
+    sizes = [np.sum(m.shapes.conj() * (mass @ m.shapes), axis=0).real for m in (before, after)]
+    likeness = product / np.outer(*sizes)
+    scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
+    apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale
+    cost = apart + 0.2 * (1.0 - likeness)
+    rows, columns = linear_sum_assignment(cost)
+    return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
+
+
+def tracked(points: list[RotorModes], mass: Any) -> list[dict[int, int]]:
+    """Return, for each mode, its index among the modes of each speed at which it was found."""
+    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
+    current = list(range(len(tracks)))
+    for column in range(1, len(points)):
+        before, after = points[column - 1], points[column]
+        partner = matches(before, after, mass)
+        following = []
+        for k in range(len(after.eigenvalues)):
+            if k in partner:
+                following.append(current[partner[k]])
+            else:
+                tracks.append({})
+                following.append(len(tracks) - 1)
+            tracks[following[-1]][column] = k
+        current = following
+    return tracks
+
+
+# The speeds at which a rotor on its films loses or gains stability.
+
+
+NEUTRAL = 1e-9
+"""Growth rate / frequency that is roundoff."""
+
+FURTHER = 1e-6
+"""Part of a step by which a motion is seen to grow beyond its threshold."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorThreshold(Readable):
+    """The speed at which small motion of a rotor begins to grow, or the reason why there is none.
+
+    Attributes
+    ----------
+    speed : float or None [rad/s]
+    whirl_frequency : float or None [rad/s]
+        0 where the rotor departs to one side instead of whirling (divergence).
+    whirl_ratio : float or None [1]
+        whirl_frequency / |speed|.
+    direction : float or None [1]
+        As in `RotorModes`.
+    reason : str
+        Empty, or why there is no threshold.
+    speed_error : float or None [rad/s]
+        How far the speed may be off by the shapes that were left out, estimated; 0 where none were.
+    work : dict of str to int
+        As `RotorModes.work`.
+    """
+
+    speed: float | None = None
+    whirl_frequency: float | None = None
+    whirl_ratio: float | None = None
+    direction: float | None = None
+    reason: str = ""
+    speed_error: float | None = None
+    work: dict[str, int] = field(default_factory=dict, compare=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StabilityChange(Readable):
+    """A speed at which a motion of a rotor begins or ceases to grow.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    whirl_frequency : float [rad/s]
+        0 where the rotor departs to one side instead of whirling (divergence).
+    direction : float [1]
+        As in `RotorModes`.
+    growing : int [1]
+        How many eigenvalues grow beyond this speed, in the order searched: two of a whirl, one of a
+        divergence. 0 where the rotor is stable again.
+    speed_error : float [rad/s]
+        As in `RotorThreshold`.
+    """
+
+    speed: float
+    whirl_frequency: float
+    direction: float
+    growing: int
+    speed_error: float = 0.0
+
+
+@arguments
+def rotor_threshold(
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
+) -> RotorThreshold:
+    """Return the first of a range of speeds at which a rotor on its films loses stability.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign, searched in this order; stability lost and regained within one step
+        goes unseen.
+    report : callable, optional
+        Told how far the search is, as the share of the speeds that are done and the next one: on films that
+        remember each takes seconds.
+
+    Notes
+    -----
+    Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
+
+    A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
+    are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
+    estimated. The speed is off by the error of s over the slope of Re s over the speed, `speed_error`.
+
+    On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
+    grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
+
+    Raises
+    ------
+    ConvergenceError
+        If that count is another than that of the exponents found.
+    """
+    search = _Stability(rotor, bearings)
+    grid = speeds_in_turn(speeds)
+    with counted(*COUNTS) as work:
+        unstable = search.growing(float(grid[0])) > 0
+        found = None if unstable else next(search.changes(grid, report), None)
+    report(1.0, "")
+    if found is None:
+        reason = "unstable at the first speed given" if unstable else "stable at every speed given"
+        return RotorThreshold(reason=reason, work=dict(work))
+    return RotorThreshold(
+        speed=found.speed,
+        whirl_frequency=found.whirl_frequency,
+        whirl_ratio=found.whirl_frequency / abs(found.speed),
+        direction=found.direction,
+        speed_error=found.speed_error,
+        work=dict(work),
+    )
+
+
+@arguments
+def stability_changes(
+    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
+) -> CountedTuple[StabilityChange]:
+    """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
+        within one step goes unseen.
+    report : callable, optional
+        As in `rotor_threshold`.
+
+    Returns
+    -------
+    CountedTuple
+        A tuple of `StabilityChange` with the counters `work`.
+
+    Notes
+    -----
+    The eigenvalues with a positive real part are counted at each speed, and where the number changes from m
+    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
+    speeds have the error of `rotor_threshold`.
+    """
+    with counted(*COUNTS) as work:
+        found = list(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
+    report(1.0, "")
+    return CountedTuple(found, work)
+
+
+def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tuple[float, complex] | None:
+    """Return the lowest of rising speeds at which a motion grows, and its eigenvalue; None where none does.
+
+    Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
+    again within the range goes unseen.
+    """
+
+    def growing(speed: float) -> NDArray[np.complex128]:
+        motions = motions_at(rotor, bearings, speed)
+        values = motions.eigenvalues
+        return values[motions.grows & (values.real > NEUTRAL * (np.abs(values) + speed))]
+
+    found = growing(float(speeds[-1]))
+    if not found.size:
+        return None
+    low, high = -1, len(speeds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        one = growing(float(speeds[middle]))
+        low, high, found = (low, middle, one) if one.size else (middle, high, found)
+    return float(speeds[high]), complex(found[np.argmax(found.real)])
+
+
+class _Growth(NamedTuple):
+    """How much each eigenvalue grows, falling, and to which motion it belongs; a whirl has two."""
+
+    rates: Array
+    places: NDArray[np.intp]
+    motions: RotorModes
+
+    @property
+    def growing(self) -> int:
+        """Number of eigenvalues that grow."""
+        return int(np.sum(self.rates > NEUTRAL))
+
+    def rate(self, k: int) -> float:
+        """Return growth number k from the largest."""
+        return float(self.rates[k]) if k < len(self.rates) else -1.0
+
+
+class _Stability(NamedTuple):
+    """The search for changes of stability of a rotor on its films."""
+
+    rotor: FlexibleRotor
+    bearings: Bearings
+
+    def growth(self, speed: float) -> _Growth:
+        """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""
+        motions = motions_at(self.rotor, self.bearings, speed)
+        values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
+        size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
+        rates = values.real / size
+        places = np.repeat(np.argsort(-rates), np.where(whirls, 2, 1)[np.argsort(-rates)])
+        return _Growth(rates[places], places, motions)
+
+    def growing(self, speed: float) -> int:
+        """Return how many eigenvalues grow at a speed."""
+        return self._counted(speed).growing
+
+    def _counted(self, speed: float) -> _Growth:
+        """Return what grows at a speed, with a proof on films that remember that it is all."""
+        found = self.growth(speed)
+        require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
+        return found
+
+    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
+        """Yield the changes of a grid of speeds in its order."""
+
+        def looked_at() -> Iterator[_Growth]:
+            for done, speed in enumerate(speeds.tolist()):
+                report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
+                yield self._counted(speed)
+
+        for low, high in pairwise(looked_at()):
+            yield from self._between(low, high)
+
+    def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:
+        """Yield the changes of a step, in its order."""
+        first, last = sorted((low.growing, high.growing))
+        events, k = [], first
+        while k < last:
+            events.append(self._change(k, low, high))
+            k += 2 if events[-1].whirl_frequency else 1
+        growing = low.growing
+        for event in sorted(events, key=lambda one: abs(one.speed - low.motions.speed)):
+            number = 2 if event.whirl_frequency else 1
+            growing += number if high.growing > low.growing else -number
+            yield replace(event, growing=growing)
+
+    def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
+        """Return where growth number k vanishes between two speeds.
+
+        Whirl that nothing damps or drives has roundoff of either sign, so the search is for a growth above
+        it; from there, and from a speed a little further, the line through 0 is drawn.
+        """
+        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.growing)
+        speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
+        further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
+        place, rise = further.places[k], further.rate(k) - NEUTRAL
+        slope = abs(rise / (further.motions.speed - speed))
+        if rise > 0.0:
+            speed -= NEUTRAL / rise * (further.motions.speed - speed)
+        motions = further.motions
+        whirls, value = oscillates(motions.eigenvalues)[place], complex(motions.eigenvalues[place])
+        change = value_error(self.rotor, self.bearings, motions.speed, value)
+        size = abs(value) + (0.0 if whirls else abs(motions.speed))
+        return StabilityChange(
+            speed=speed,
+            whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
+            direction=float(motions.direction[place]),
+            growing=0,
+            speed_error=change / (size * slope) if change else 0.0,
+        )

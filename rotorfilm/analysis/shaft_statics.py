@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,11 +13,11 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import AbsentError, InputError
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction, carries_load
+from ..core.model import Array, Bearings, carries_load
 from ..core.readable import Drawable
 from ..rotors import ShaftRotor, Station
 from ..rotors.structure import dense_matrix, mean_plane
-from .modal_reduction import BandedCholesky
+from .modal_reduction import BandedCholesky, modes_near
 from .rotor_equilibrium import rotor_equilibrium
 
 
@@ -53,7 +53,7 @@ class ShaftStatics(Drawable):
 @arguments
 def shaft_statics(
     rotor: ShaftRotor,
-    bearings: Mapping[str, Reaction] | None = None,
+    bearings: Bearings | None = None,
     speed: float = 0.0,
     supports: Sequence[str] | None = None,
 ) -> ShaftStatics:
@@ -103,7 +103,7 @@ def shaft_statics(
 
 
 def _on_bearings(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float, supports: Sequence[str] | None
+    rotor: ShaftRotor, bearings: Bearings, speed: float, supports: Sequence[str] | None
 ) -> tuple[Array, dict[str, Array]]:
     """Return the displacement of all coordinates, and the loads on the bearings."""
     if supports is not None:
@@ -244,8 +244,6 @@ def lowest_modes(stiffness: Any, mass: Any, count: int) -> tuple[Array, Array]:
         return squares, shapes
     shift = _SHIFT * abs(stiffness).max() / abs(mass).max()
     solid = BandedCholesky(stiffness + shift * mass)
-    inverse = LinearOperator((n, n), matvec=solid.solve, dtype=float)
-    start = np.random.default_rng(0).normal(size=n)
-    squares, shapes = eigsh(stiffness, count, mass, sigma=-shift, which="LM", OPinv=inverse, v0=start)
+    squares, shapes = modes_near(stiffness, mass, solid, -shift, count)
     order = np.argsort(squares)
     return squares[order], shapes[:, order]

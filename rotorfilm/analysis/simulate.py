@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import accumulate, pairwise
-from typing import Any, NamedTuple, TypeGuard, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +30,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import (
     Array,
+    Bearings,
     Dynamic,
     Force,
     Linearization,
@@ -70,7 +71,7 @@ def simulate(
     """Return the motion of a rotor on a film from t = 0.
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
-    Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
+    Jacobian of both, so no coupling error arises. The integration stops at the `breakpoints` of the rotor.
     The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
     kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as
     `JFOFilm`, with the rotor in one Newton step, by differences of second order.
@@ -122,12 +123,11 @@ def simulate(
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
-    if not _none_steps(reaction):
+    given: Mapping[str, Any] = reaction if isinstance(reaction, Mapping) else {"": reaction}
+    if any(isinstance(film, SteppedReaction) for film in given.values()):
         if method is not None:
             raise InputError(f"method must be None for films that step, got {method!r}")
-        stepped = cast(Mapping[str, Reaction | SteppedReaction], reaction)
-        return simulate_steps(rotor, stepped, grid, duration, initial_state, max_step)
-    given = reaction if isinstance(reaction, Mapping) else {"": reaction}
+        return simulate_steps(rotor, given, grid, duration, initial_state, max_step)
     by_station = given is reaction
     films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
@@ -149,22 +149,12 @@ def simulate(
                 kept.append((float(t), step.path(t)))
                 _require_gap(system, *kept[-1])
             _require_gap(system, step.end, step.state)
-    except ContactError as contact:
-        raise ContactError(str(contact), _trajectory(system, kept)) from contact
-    except ConvergenceError as failure:
-        raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
+    except (ContactError, ConvergenceError) as failure:
+        raise type(failure)(str(failure), _trajectory(system, kept)) from failure
     whole = _trajectory(system, kept)
     for film in films.values():
         require_turned(film, rotor, whole.signals)
     return whole
-
-
-def _none_steps(
-    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
-) -> TypeGuard[Reaction | Mapping[str, Reaction]]:
-    """Return whether no film steps."""
-    films = reaction.values() if isinstance(reaction, Mapping) else (reaction,)
-    return not any(isinstance(film, SteppedReaction) for film in films)
 
 
 def _compiled(
@@ -364,7 +354,7 @@ class Journal(NamedTuple):
         return static_linearization(self.film.jacobian(at[:2], at[2:4], at[4]))
 
 
-def connect(rotor: Dynamic, films: Mapping[str, Reaction]) -> list[Journal]:
+def connect(rotor: Dynamic, films: Bearings) -> list[Journal]:
     """Return the journals of a rotor, wired to their films by the names of the signals.
 
     Raises
@@ -432,7 +422,7 @@ class Coupled:
         Latest time at which `derivative` was asked for; reset it at will.
     """
 
-    def __init__(self, rotor: Dynamic, films: Mapping[str, Reaction]) -> None:
+    def __init__(self, rotor: Dynamic, films: Bearings) -> None:
         self.rotor = rotor
         self.journals = connect(rotor, films)
         self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
-from .campbell import critical_speeds
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
@@ -29,8 +28,7 @@ from .rotor_matrices import (
     second_order,
     whirl_near,
 )
-from .rotor_modes import RotorModes, rotor_modes
-from .rotor_threshold import NEUTRAL, rotor_threshold
+from .rotor_modes import NEUTRAL, RotorModes, critical_speeds, rotor_modes, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
@@ -40,110 +38,98 @@ SHORTEST = 1e-3
 """Change of speed [1] below which a secant is mostly roundoff."""
 
 
-class Sighting(NamedTuple):
-    """A speed [rad/s] and the eigenvalue [1/s] of its whirl."""
-
-    speed: float
-    value: complex
+Sighting = tuple[float, complex]
+"""A speed [rad/s] and the eigenvalue [1/s] of its whirl."""
 
 
-class SpeedEvent(Protocol):
-    """What happens to a whirl s at the speed that is asked for."""
+class SpeedEvent(NamedTuple):
+    """What happens to a whirl s at the speed that is asked for.
 
-    def lead(self, value: complex, speed: float) -> float:
-        """Return what vanishes there [1/s]."""
+    Attributes
+    ----------
+    lead : callable
+        Of s and the speed [rad/s]: what vanishes there [1/s].
+    rate : callable
+        The derivative of that by the speed [1], from that of the eigenvalue.
+    frequency : callable
+        Of s and the speed: the frequency at which hysteresis is taken [rad/s].
+    sightings : callable
+        Of rotor, bearings and speeds: the lowest such speed, and those near it, each with the eigenvalue of
+        its whirl; AbsentError if there is none.
+    missed : callable
+        Of whirls just below the first such speed by two models: why it may be another one; empty if not.
+    """
 
-    def rate(self, value_rate: complex) -> float:
-        """Return its derivative by the speed [1], from that of the eigenvalue."""
-
-    def frequency(self, value: complex, speed: float) -> float:
-        """Return the frequency at which hysteresis is taken [rad/s]."""
-
-    def sightings(
-        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
-    ) -> list[Sighting]:
-        """Return the lowest such speed in a range, and those near it; AbsentError if there is none."""
-
-    def missed(self, own: RotorModes, other: RotorModes) -> str:
-        """Return why the first such speed may be another one, from whirls just below it by two models."""
-
-
-@dataclass(frozen=True)
-class Critical:
-    """A whirl has the frequency of the rotation."""
-
-    def lead(self, value: complex, speed: float) -> float:
-        """Return Im s - speed."""
-        return value.imag - speed
-
-    def rate(self, value_rate: complex) -> float:
-        """Return d(Im s)/d speed - 1."""
-        return value_rate.imag - 1.0
-
-    def frequency(self, value: complex, speed: float) -> float:
-        """Return the speed: the hysteresis of synchronous whirl is the mean of both sides."""
-        return speed
-
-    def sightings(
-        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
-    ) -> list[Sighting]:
-        """Return the first critical speed, and those near it."""
-        found = critical_speeds(rotor, bearings, speeds)
-        if not found:
-            raise AbsentError(
-                f"no critical speed in shaft.speeds, {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s: "
-                "no whirl has the frequency of the rotation there"
-            )
-        return [
-            Sighting(one.speed, one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0))
-            for one in found
-            if one.speed <= NEAR * found[0].speed
-        ]
-
-    def missed(self, own: RotorModes, other: RotorModes) -> str:
-        """Return that more or fewer whirls are slower than the rotation by the other model."""
-        slow, others = (int(np.sum(modes.frequency < modes.speed)) for modes in (own, other))
-        return "" if slow == others else f"{slow} whirls are slower than the speed, with more modes {others}"
+    lead: Callable[[complex, float], float]
+    rate: Callable[[complex], float]
+    frequency: Callable[[complex, float], float]
+    sightings: Callable[[FlexibleRotor, Bearings, Array], list[Sighting]]
+    missed: Callable[[RotorModes, RotorModes], str]
 
 
-@dataclass(frozen=True)
-class Threshold:
-    """A whirl begins to grow; a rotor that departs without whirl before that has no such speed."""
+def _critical_speeds(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Sighting]:
+    """Return the first critical speed, and those near it."""
+    found = critical_speeds(rotor, bearings, speeds)
+    if not found:
+        raise AbsentError(
+            f"no critical speed in shaft.speeds, {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s: "
+            "no whirl has the frequency of the rotation there"
+        )
+    return [
+        (one.speed, one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0))
+        for one in found
+        if one.speed <= NEAR * found[0].speed
+    ]
 
-    def lead(self, value: complex, speed: float) -> float:
-        """Return Re s."""
-        return value.real
 
-    def rate(self, value_rate: complex) -> float:
-        """Return d(Re s)/d speed."""
-        return value_rate.real
+def _missed_critical(own: RotorModes, other: RotorModes) -> str:
+    """Return that more or fewer whirls are slower than the rotation by the other model."""
+    slow, others = (int(np.sum(modes.frequency < modes.speed)) for modes in (own, other))
+    return "" if slow == others else f"{slow} whirls are slower than the speed, with more modes {others}"
 
-    def frequency(self, value: complex, speed: float) -> float:
-        """Return that of the whirl."""
-        return value.imag
 
-    def sightings(
-        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
-    ) -> list[Sighting]:
-        """Return the threshold of stability."""
-        span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
-        found = rotor_threshold(rotor, bearings, speeds)
-        if found.speed is None or found.whirl_frequency is None:
-            values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
-            neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
-            reason = "nothing damps or drives a whirl" if neutral else found.reason
-            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
-        if not found.whirl_frequency:
-            raise AbsentError(
-                f"no whirl threshold in shaft.speeds, {span}: the rotor departs without whirl (divergence) "
-                f"from {found.speed:.6g} rad/s on"
-            )
-        return [Sighting(found.speed, 1j * found.whirl_frequency)]
+CRITICAL = SpeedEvent(
+    # The hysteresis of synchronous whirl is the mean of both sides.
+    lead=lambda value, speed: value.imag - speed,
+    rate=lambda value_rate: value_rate.imag - 1.0,
+    frequency=lambda _, speed: speed,
+    sightings=_critical_speeds,
+    missed=_missed_critical,
+)
+"""A whirl has the frequency of the rotation."""
 
-    def missed(self, own: RotorModes, other: RotorModes) -> str:
-        """Return that a whirl grows already by the other model."""
-        growing = bool(np.any(other.eigenvalues.real > 0.0))
-        return "with more modes another whirl grows first" if growing else ""
+
+def _threshold(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[Sighting]:
+    """Return the threshold of stability."""
+    span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
+    found = rotor_threshold(rotor, bearings, speeds)
+    if found.speed is None or found.whirl_frequency is None:
+        values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
+        neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
+        reason = "nothing damps or drives a whirl" if neutral else found.reason
+        raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
+    if not found.whirl_frequency:
+        raise AbsentError(
+            f"no whirl threshold in shaft.speeds, {span}: the rotor departs without whirl (divergence) "
+            f"from {found.speed:.6g} rad/s on"
+        )
+    return [(found.speed, 1j * found.whirl_frequency)]
+
+
+def _missed_threshold(own: RotorModes, other: RotorModes) -> str:
+    """Return that a whirl grows already by the other model."""
+    growing = bool(np.any(other.eigenvalues.real > 0.0))
+    return "with more modes another whirl grows first" if growing else ""
+
+
+THRESHOLD = SpeedEvent(
+    lead=lambda value, _: value.real,
+    rate=lambda value_rate: value_rate.real,
+    frequency=lambda value, _: value.imag,
+    sightings=_threshold,
+    missed=_missed_threshold,
+)
+"""A whirl begins to grow; a rotor that departs without whirl before that has no such speed."""
 
 
 class FoundSpeed(NamedTuple):
@@ -217,18 +203,6 @@ STEP = 1e-3
 _STEPS = 25
 
 
-class RotorFilms(Protocol):
-    """Bearings of a rotor, some of them films."""
-
-    @property
-    def reaction(self) -> dict[str, Reaction]:
-        """All bearings by station."""
-
-    @property
-    def turning(self) -> dict[str, Reaction]:
-        """Those whose K and C change with the speed."""
-
-
 class Start(NamedTuple):
     """Where a whirl is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
 
@@ -260,11 +234,14 @@ def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquil
     return replace(at, coefficients=found)
 
 
-def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
-    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s)."""
+def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex:
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films at K(s).
+
+    `turning` are the bearings whose K and C change with the speed.
+    """
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
-    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, s, STEP).items():
+    for name, (stiffness, damping) in coefficient_rates(turning, whirl.at, s, STEP).items():
         rows = journal_rows(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
     _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
@@ -272,14 +249,14 @@ def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex
 
 
 def coefficient_rates(
-    films: RotorFilms, at: RotorEquilibrium, s: complex, step: float
+    turning: Bearings, at: RotorEquilibrium, s: complex, step: float
 ) -> dict[str, tuple[Array, Array]]:
     """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart.
 
     Of a film with K(s) they are those of its matrices near the exponent s.
     """
     rates = {}
-    for name, film in films.turning.items():
+    for name, film in turning.items():
         low, high = (
             coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
@@ -289,7 +266,9 @@ def coefficient_rates(
     return rates
 
 
-def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: Start) -> tuple[Whirl, int]:
+def whirl_of(
+    event: SpeedEvent, rotor: FlexibleRotor, bearings: Bearings, turning: Bearings, start: Start
+) -> tuple[Whirl, int]:
     """Return the whirl to which something happens, near another one, and how many speeds that took.
 
     Raises
@@ -297,16 +276,15 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: 
     ConvergenceError
         If Newton's method in the speed does not end.
     """
-    reactions = films.reaction
     speed, value, load = start
     for count in range(1, _STEPS + 1):
-        at = rotor_equilibrium(rotor, reactions, speed)
+        at = rotor_equilibrium(rotor, bearings, speed)
         whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
         lead = event.lead(whirl.value, speed)
         if abs(lead) < CONVERGED * speed:
             return whirl, count
         value, load = whirl.value, whirl.right
-        step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
+        step = -lead / event.rate(value_rate(rotor.structure, whirl, turning))
         if count > PATIENCE and abs(step) < ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))

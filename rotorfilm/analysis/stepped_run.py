@@ -25,7 +25,8 @@ from ..core.errors import (
 )
 from ..core.model import Array, Dynamic, Reaction
 from ..core.results import Trajectory
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, indices, names, units
+from ..core.signals import JOURNAL_INPUTS, indices, names, units
+from ..rotors.structure import prefixed, station_names
 from .compiled_march import highest_speed
 from .compiled_rotor import CONTACT_GAP
 
@@ -41,7 +42,7 @@ HALVINGS = 12
 
 def simulate_steps(
     rotor: Dynamic,
-    films: SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+    films: Mapping[str, Reaction | SteppedReaction],
     times: Array,
     duration: float,
     initial_state: ArrayLike | None,
@@ -143,17 +144,13 @@ class _Record:
         rotor, time = self._loop.rotor, self._times[: len(self._states)]
         none = np.zeros(len(rotor.inputs))
         rows = [rotor.output(t, x, none) for t, x in zip(time, self._states, strict=True)]
-        known = (*rotor.outputs, *self._film_signals())
+        known = [
+            *rotor.outputs,
+            *(prefixed(s.name, one) for s in self._loop.stations for one in s.film.outputs),
+        ]
         values = np.hstack([np.reshape(rows, (len(time), -1)), np.reshape(self._outputs, (len(time), -1))])
         signals = dict(zip(names(known), values.T, strict=True))
         return Trajectory(time=time, signals=signals, work=dict(self._loop.work), units=units(known))
-
-    def _film_signals(self) -> list[Signal]:
-        return [
-            replace(signal, name=f"{station.name}_{signal.name}" if station.name else signal.name)
-            for station in self._loop.stations
-            for signal in station.film.outputs
-        ]
 
 
 def _cubic(last: Moment, now: Moment, s: float) -> Array:
@@ -216,30 +213,20 @@ class Moment(NamedTuple):
     outputs: Array
 
 
-def stations_of(
-    rotor: Dynamic, films: SteppedReaction | Mapping[str, Reaction | SteppedReaction]
-) -> tuple[FilmStation, ...]:
+def stations_of(rotor: Dynamic, films: Mapping[str, Reaction | SteppedReaction]) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
-    named: Mapping[str, Any] = films if isinstance(films, Mapping) else {"": films}
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
-    for name, film in named.items():
+    for name, film in films.items():
         said = f"reaction[{name!r}]" if name else "reaction"
         require_kind(said, film, SteppedReaction, "a film that steps, as a JFOFilm, as all others of it are")
-        front = f"{name}_" if name else ""
-        motion = [*(front + key for key in JOURNAL_INPUTS[:-1]), JOURNAL_INPUTS[-1]]
-        force = [front + key for key in FORCE_OUTPUTS]
-        found.append(
-            FilmStation(
-                name,
-                film,
-                indices("rotor must have the outputs", outputs, motion),
-                indices("rotor must have the inputs", inputs, force),
-            )
-        )
+        motion, force = station_names(name)
+        places = indices("rotor must have the outputs", outputs, [*motion, JOURNAL_INPUTS[-1]])
+        pushed = indices("rotor must have the inputs", inputs, force)
+        found.append(FilmStation(name, film, places, pushed))
     if len(inputs) > 2 * len(found):
         raise InputError(
-            f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}"
+            f"reaction must be films in all stations of the rotor, got {list(films)} for {inputs}"
         )
     return tuple(found)
 
@@ -329,7 +316,7 @@ class SteppedLoop:
         self, t: float, x: Array, newest: float, history: Array, dt: float, trials: list[StepTrial]
     ) -> Array:
         """Return Newton's step of the rotor's state."""
-        u = self._input(trials)
+        u = self._input([trial.output for trial in trials])
         residual = newest * x + history - dt * self.rotor.derivative(t, x, u)
         A, B, C, _ = self.rotor.linearization(t, x, u)
         matrix = newest * np.eye(len(x)) - dt * A
@@ -354,17 +341,15 @@ class SteppedLoop:
         """Return the outputs of the rotor in a state."""
         return self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
 
-    def _input(self, trials: list[StepTrial]) -> Array:
-        u = np.zeros(len(self.rotor.inputs))
-        for station, trial in zip(self.stations, trials, strict=True):
-            u[station.force] = trial.output[:2]
-        return u
-
-    def _moment(self, t: float, x: Array, films: tuple[Any, ...], outputs: list[Array]) -> Moment:
+    def _input(self, outputs: list[Array]) -> Array:
         u = np.zeros(len(self.rotor.inputs))
         for station, output in zip(self.stations, outputs, strict=True):
             u[station.force] = output[:2]
-        return Moment(t, x, self.rotor.derivative(t, x, u), films, np.concatenate(outputs))
+        return u
+
+    def _moment(self, t: float, x: Array, films: tuple[Any, ...], outputs: list[Array]) -> Moment:
+        rate = self.rotor.derivative(t, x, self._input(outputs))
+        return Moment(t, x, rate, films, np.concatenate(outputs))
 
 
 # How far steps of a run on films that remember may be off: nothing controls them, so the run says it.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -17,14 +17,14 @@ from scipy.sparse.linalg import splu
 
 from ..core.errors import InputError, require_count, require_finite, require_positive, warn_user
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction
+from ..core.model import Array, Bearings
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
 from ..rotors.structure import mean_plane
-from .closed_loop import HOUSING, synchronous_response
+from .closed_loop import HOUSING, frequency_response, synchronous_response
 from .rotor_equilibrium import RotorEquilibrium
 from .rotor_matrices import journal_rows
 from .rotor_modes import rotor_modes
@@ -293,7 +293,7 @@ def _verdict(bad: Sequence[ResonancePeak]) -> str:
 
 @arguments
 def bow_response(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, bow: ArrayLike
+    rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, bow: ArrayLike
 ) -> control.FrequencyResponseData:
     """Return the synchronous response of a rotor to a bow of its shaft.
 
@@ -404,15 +404,8 @@ def tracked_response(
     table = np.array([run.signals[name] for name in names])
     phasors = np.array([_fitted(angle, table[:, chosen]) for chosen, angle in windows])
     order = np.argsort(speeds)
-    import control
-
-    return control.FrequencyResponseData(
-        phasors[order].T[:, None],
-        speeds[order],
-        inputs=["unbalance"],
-        outputs=names,
-        name="tracked_response",
-    )
+    columns = [row[:, None] for row in phasors[order]]
+    return frequency_response(columns, speeds[order], ["unbalance"], names, "tracked_response")
 
 
 def _windows(time: Array, speed: SpeedProfile, turns: int) -> tuple[Array, list[tuple[Array, Array]]]:
@@ -609,7 +602,7 @@ class MeshConvergence(Readable):
 
 @arguments
 def mesh_convergence(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float, mode: int, *, meshes: int = 3
+    rotor: ShaftRotor, bearings: Bearings, speed: float, mode: int, *, meshes: int = 3
 ) -> MeshConvergence:
     """Return how the frequency of a mode converges as each element is split in 2, 4 and so on.
 

@@ -32,7 +32,7 @@ from ..core.model import (
     JournalForce,
     Reaction,
     Remembering,
-    Settling,
+    at_rest,
     require_reaction,
     settled,
 )
@@ -97,7 +97,7 @@ def whirl_threshold(
     force = checked_load(load)
     low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
     passed: list[str] = []
-    search = _settling if isinstance(reaction, Settling) else _searched
+    search = _settling if hasattr(reaction, "at_rest") else _searched
     found = search(reaction, force, mass, (low, high), passed)
     if found.speed is None and passed:
         return replace(found, reason=f"{found.reason}; equilibria of the search are in doubt: {passed[0]}")
@@ -154,9 +154,9 @@ def _searched(
         with _passing(passed):
             at = next(rests, None)
         if at is None:
-            return _none(_why_none(stable, *ends))
+            return WhirlThreshold(reason=_why_none(stable, *ends))
         if damping_has_rank_one(at):
-            return _none(critical_mass(at).reason)
+            return WhirlThreshold(reason=critical_mass(at).reason)
         stable.append(is_stable(at, mass))
         if before is not None and stable[-2:] == [True, False]:
             return _refined(reaction, load, mass, (before, at), passed)
@@ -171,8 +171,8 @@ def _settling(
     def least_damped(at: Equilibrium) -> complex:
         if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
             return leading_exponent(reaction, at, mass)
-        film: Settling = settled(reaction, at.position, at.speed)
-        return complex(film.at_rest().modes(at.position, at.speed, mass)[0])
+        film = at_rest(settled(reaction, at.position, at.speed))
+        return complex(film.modes(at.position, at.speed, mass)[0])
 
     def growth(speed: float) -> float:
         with _passing(passed):
@@ -183,17 +183,10 @@ def _settling(
         first = _first_carried(reaction, load, speeds.tolist())
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
-        return _none(_why_none(stable, *ends))
+        return WhirlThreshold(reason=_why_none(stable, *ends))
     with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
-    exponent = least_damped(rest)
-    found = WhirlThreshold(
-        speed=onset,
-        whirl_ratio=abs(exponent.imag) / onset,
-        critical_mass=mass,
-        speed_parameter=speed_parameter(speed=onset, clearance=reaction.clearance, mass=mass, load=load),
-        equilibrium=rest,
-    )
+    found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
     if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
         return counted_threshold(reaction, found)
     return found  # a film with states has no exponents but those that were found
@@ -261,34 +254,28 @@ def _refined(
 
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:
-        return _none(
-            f"static stability is lost (det K <= 0) between {stable.speed:.6g} and {unstable.speed:.6g} rad/s"
+        return WhirlThreshold(
+            reason="static stability is lost (det K <= 0) between "
+            f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s"
         )
     root = brentq(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
-    return _threshold(equilibrium(reaction, load, math.exp(root)), reaction, mass)
-
-
-def _threshold(onset: Equilibrium, reaction: Reaction, mass: float) -> WhirlThreshold:
+    onset = equilibrium(reaction, load, math.exp(root))
     border = critical_mass(coefficients(reaction, onset.position, onset.speed))
+    return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
+
+
+def _threshold(
+    reaction: Any, at: Equilibrium, mass: float, whirl_ratio: float | None, critical: float | None
+) -> WhirlThreshold:
+    """Return the threshold of a rigid rotor of a mass [kg] that begins to whirl in an equilibrium."""
     return WhirlThreshold(
-        speed=onset.speed,
-        whirl_ratio=border.whirl_ratio,
-        critical_mass=border.mass,
+        speed=at.speed,
+        whirl_ratio=whirl_ratio,
+        critical_mass=critical,
         speed_parameter=speed_parameter(
-            speed=onset.speed, clearance=reaction.clearance, mass=mass, load=onset.load
+            speed=at.speed, clearance=reaction.clearance, mass=mass, load=at.load
         ),
-        equilibrium=onset,
-    )
-
-
-def _none(reason: str) -> WhirlThreshold:
-    return WhirlThreshold(
-        speed=None,
-        whirl_ratio=None,
-        critical_mass=None,
-        speed_parameter=None,
-        equilibrium=None,
-        reason=reason,
+        equilibrium=at,
     )
 
 
@@ -325,9 +312,9 @@ class CriticalMass(Readable):
         Empty, or why there is no critical mass.
     """
 
-    mass: float | None
-    whirl_frequency: float | None
-    whirl_ratio: float | None
+    mass: float | None = None
+    whirl_frequency: float | None = None
+    whirl_ratio: float | None = None
     reason: str = ""
 
 
@@ -376,7 +363,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
         )
     reason = _why_no_border(coefficients)
     if reason:
-        return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)
+        return CriticalMass(reason=reason)
     k = effective_stiffness(coefficients)
     squared = _shifted_determinant(coefficients, k) / _determinant(coefficients.damping)
     frequency = math.sqrt(squared)
@@ -394,36 +381,26 @@ def _counted(film: MemoryCoefficients) -> CountedMass:
     if not borders:
         growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
         reason = "unstable whatever the mass" if growing else "stable whatever the mass"
-        return _no_counted(reason, growing, growing)
-    masses = [border.mass for border in borders]
+        return CountedMass(reason=reason, growing_below=growing, growing_above=growing)
+    masses = [mass for mass, _ in borders]
     between = [math.sqrt(one * other) for one, other in pairwise(masses)]
     counts = [rigid_growing(film, mass) for mass in (0.5 * masses[0], *between, 2.0 * masses[-1])]
-    for border, (below, above) in zip(borders, pairwise(counts), strict=True):
+    for (border, frequency), (below, above) in zip(borders, pairwise(counts), strict=True):
         if abs(above - below) != 2:
             raise ConvergenceError(
-                f"one whirl must begin or cease to grow at a mass of {border.mass:.6g} kg, and {below} "
+                f"one whirl must begin or cease to grow at a mass of {border:.6g} kg, and {below} "
                 f"exponents grow below it, {above} above"
             )
         if below == 0:
             return CountedMass(
-                mass=border.mass,
-                whirl_frequency=border.frequency,
-                whirl_ratio=border.frequency / abs(film.speed),
+                mass=border,
+                whirl_frequency=frequency,
+                whirl_ratio=frequency / abs(film.speed),
                 growing_below=below,
                 growing_above=above,
             )
-    return _no_counted(f"no light rotor is stable: {counts[0]} exponents grow", counts[0], counts[-1])
-
-
-def _no_counted(reason: str, below: int, above: int) -> CountedMass:
-    return CountedMass(
-        mass=None,
-        whirl_frequency=None,
-        whirl_ratio=None,
-        reason=reason,
-        growing_below=below,
-        growing_above=above,
-    )
+    reason = f"no light rotor is stable: {counts[0]} exponents grow"
+    return CountedMass(reason=reason, growing_below=counts[0], growing_above=counts[-1])
 
 
 def effective_stiffness(coefficients: Coefficients) -> float:
@@ -516,7 +493,7 @@ def leading_exponent(reaction: Remembering, at: Equilibrium, mass: float) -> com
     Where the count says that nothing grows it is one that is damped, mostly of the half-speed whirl, and not
     always the least damped: its sign counts, not its size.
     """
-    return complex(rigid_exponents(_film(reaction, at), mass).values[0])
+    return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
 
 
 def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedThreshold:
@@ -539,15 +516,7 @@ def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedTh
             f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below it, "
             f"{above} above"
         )
-    return CountedThreshold(
-        speed=speed,
-        whirl_ratio=found.whirl_ratio,
-        critical_mass=mass,
-        speed_parameter=found.speed_parameter,
-        equilibrium=at,
-        growing_below=below,
-        growing_above=above,
-    )
+    return CountedThreshold(**vars(found), growing_below=below, growing_above=above)
 
 
 def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: float) -> CountedThreshold:
@@ -563,8 +532,6 @@ def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: f
     ConvergenceError
         If the whirl is not followed, or the count says that another one was missed.
     """
-    from scipy.optimize import brentq
-
     whole: Any = reaction  # a force at rest, which is what an equilibrium takes
 
     def exponent(speed: float) -> complex:
@@ -576,21 +543,10 @@ def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: f
         last, speed = speed, speed * factor
         if (exponent(speed).real < 0.0) is not (own < 0.0):
             onset = float(brentq(lambda at: exponent(at).real, min(last, speed), max(last, speed), rtol=NEAR))
-            return counted_threshold(reaction, _counted_threshold(whole, load, mass, onset, exponent(onset)))
+            at, ratio = equilibrium(whole, load, onset), abs(exponent(onset).imag) / onset
+            return counted_threshold(reaction, _threshold(whole, at, mass, ratio, mass))
     raise AbsentError(
         f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
-    )
-
-
-def _counted_threshold(
-    whole: Any, load: ArrayLike, mass: float, speed: float, exponent: complex
-) -> WhirlThreshold:
-    return WhirlThreshold(
-        speed=speed,
-        whirl_ratio=abs(exponent.imag) / speed,
-        critical_mass=mass,
-        speed_parameter=speed * math.sqrt(whole.clearance * mass / float(np.linalg.norm(load))),
-        equilibrium=equilibrium(whole, load, speed),
     )
 
 

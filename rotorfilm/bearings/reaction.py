@@ -135,7 +135,7 @@ class JournalReaction(Feedthrough):
 
 
 class _Film(Protocol):
-    """A film of one bearing in SI units, as `films.law.BoundFilm`."""
+    """A film of one bearing in SI units, as `films.law.BoundKernel`."""
 
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]: ...
 
@@ -350,7 +350,7 @@ class KernelReaction(StaticReaction):
         return force
 
     def prepare_tangent(self: _Compiled) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
         call, report = self.kernel.tangent, self.report
 
         def tangent(

@@ -52,8 +52,6 @@ if TYPE_CHECKING:
     )
     from .study_charts import (
         plot_bearing_thresholds as plot_bearing_thresholds,
-        plot_contact_cases as plot_contact_cases,
-        plot_contact_limits as plot_contact_limits,
         plot_coupling_error as plot_coupling_error,
         plot_coupling_limits as plot_coupling_limits,
         plot_limit_summary as plot_limit_summary,

@@ -78,6 +78,12 @@ def add_color_bar(axes: Axes, mesh: Any, label: str) -> None:
     figure.colorbar(mesh, ax=axes, label=label)
 
 
+def draw_circle(axes: Axes, label: str | None = None) -> None:
+    """Draw the clearance circle, in clearances."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label=label)
+
+
 def legend_beside(axes: Axes) -> None:
     """Put the legend to the right of the picture: inside, it would lie on curves that are everywhere."""
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
@@ -205,31 +211,21 @@ def _outside(box: Bbox, frame: Bbox) -> float:
 # Colors of the charts: one for each family of films, the same in every chart.
 
 
-FAMILY_COLORS: dict[str, str] = {
-    FilmFamily.SHORT: "#8c564b",
-    FilmFamily.PUBLISHED: "#e377c2",
-    FilmFamily.FIXED: "#d62728",
-    FilmFamily.ROTATING: "#ff7f0e",
-    FilmFamily.REYNOLDS: "#a08000",
-    FilmFamily.FREE: "#2ca02c",
-    FilmFamily.GRID: "#17a0b8",
-    FilmFamily.EXTRAPOLATED: "#1f4fb4",
-    FilmFamily.MAP: "#000000",
+FAMILIES: dict[str, tuple[str, float]] = {
+    FilmFamily.SHORT: ("#8c564b", 7.0),
+    FilmFamily.PUBLISHED: ("#e377c2", 3.8),
+    FilmFamily.FIXED: ("#d62728", 2.4),
+    FilmFamily.ROTATING: ("#ff7f0e", 1.3),
+    FilmFamily.REYNOLDS: ("#a08000", 3.4),
+    FilmFamily.FREE: ("#2ca02c", 2.8),
+    FilmFamily.GRID: ("#17a0b8", 5.2),
+    FilmFamily.EXTRAPOLATED: ("#1f4fb4", 4.2),
+    FilmFamily.MAP: ("#000000", 1.1),
 }
-"""Colors by the family of a rung."""
+"""Colors and widths of lines [points] by family: of curves that coincide the wider shows beside the other."""
 
-FAMILY_WIDTHS: dict[str, float] = {
-    FilmFamily.SHORT: 7.0,
-    FilmFamily.PUBLISHED: 3.8,
-    FilmFamily.FIXED: 2.4,
-    FilmFamily.ROTATING: 1.3,
-    FilmFamily.REYNOLDS: 3.4,
-    FilmFamily.FREE: 2.8,
-    FilmFamily.GRID: 5.2,
-    FilmFamily.EXTRAPOLATED: 4.2,
-    FilmFamily.MAP: 1.1,
-}
-"""Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
+FAMILY_COLORS = {family: color for family, (color, _) in FAMILIES.items()}
+FAMILY_WIDTHS = {family: width for family, (_, width) in FAMILIES.items()}
 
 DASHES: dict[str | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
 """Dashes of lines by family, in widths; of all others the first is solid."""

@@ -24,10 +24,30 @@ def plot_ball_curves(result: BallCurves) -> list[Axes]:
     result : BallCurves
     """
     shown = new_grid(4, columns=2, size=(6.25, 4.3))
-    _draw_loads(result, shown[0])
-    _draw_angles(result, shown[1])
-    _draw_stiffness(result, shown[2])
-    plot_compliance(result.swing, axes=shown[3])
+    loads, angles, stiffness, swing = shown
+    around = np.degrees(np.mod(result.ball_angle, 2.0 * math.pi))
+    order, last = np.argsort(around), len(result.speeds) - 1
+    for k in sorted({0, last // 2, last}):
+        label = f"inner, {RPM * result.speeds[k]:.5g} rpm"
+        (line,) = loads.plot(around[order], result.inner_load[k][order], "o-", label=label)
+        outer = {"color": line.get_color(), "mfc": "none", "label": "outer"}
+        loads.plot(around[order], result.outer_load[k][order], "s--", **outer)
+    loads.set(xlabel="place of the ball from +x [deg]", ylabel="contact load [N]")
+    loads.set_title(f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y")
+    speeds = RPM * result.speeds
+    angles.plot(speeds, np.degrees(result.inner_angle), label="inner")
+    angles.plot(speeds, np.degrees(result.outer_angle), "--", label="outer")
+    angles.set(xlabel="speed [rpm]", ylabel="contact angle [deg]")
+    angles.set_title(f"Contact angles under {result.thrust:g} N of thrust")
+    for k, preload in enumerate(result.preloads):
+        (line,) = stiffness.plot(speeds, 1e-6 * result.radial_stiffness[k], label=f"radial, {preload:g} N")
+        axial = {"color": line.get_color(), "label": "axial"}
+        stiffness.plot(speeds, 1e-6 * result.axial_stiffness[k], "--", **axial)
+    stiffness.set(xlabel="speed [rpm]", ylabel="stiffness [N/um]")
+    stiffness.set_title("Pairs back to back by their preload as clamped")
+    stiffness.set_ylim(bottom=0.0)
+    with_grids(loads, angles, stiffness)
+    plot_compliance(result.swing, axes=swing)
     return shown
 
 
@@ -44,10 +64,9 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
     orders = np.arange(1, min(SHOWN, result.swing_amplitude.shape[1]) + 1)
     passing = result.ball_pass_frequency / (2.0 * math.pi)
     unit = passing or 1.0
-    for name, row, side in zip("xy", result.swing_amplitude, (-0.1, 0.1), strict=True):
-        axes.vlines(
-            (orders + side) * unit, 1e-12, 1e9 * row[: orders.size], label=name, lw=4.0, color=_color(side)
-        )
+    for k, (name, side, color) in enumerate((("x", -0.1, "#d62728"), ("y", 0.1, "#1f4fb4"))):
+        tops = 1e9 * result.swing_amplitude[k, : orders.size]
+        axes.vlines((orders + side) * unit, 1e-12, tops, label=name, lw=4.0, color=color)
     axes.set(
         yscale="log",
         xlabel="frequency [Hz]" if passing else "multiple of the ball-pass frequency",
@@ -57,56 +76,3 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
     axes.set_ylim(1e-3 * 1e9 * result.swing_amplitude.max(), 3e9 * result.swing_amplitude.max())
     with_grids(axes)
     return axes
-
-
-def _draw_loads(result: BallCurves, axes: Axes) -> None:
-    order = np.argsort(np.mod(result.ball_angle, 2.0 * math.pi))
-    angle = np.degrees(np.mod(result.ball_angle, 2.0 * math.pi))[order]
-    last = len(result.speeds) - 1
-    for k in sorted({0, last // 2, last}):
-        (line,) = axes.plot(
-            angle, result.inner_load[k][order], "o-", label=f"inner, {_rpm(result.speeds[k])}"
-        )
-        axes.plot(
-            angle, result.outer_load[k][order], "s--", color=line.get_color(), mfc="none", label="outer"
-        )
-    axes.set(
-        xlabel="place of the ball from +x [deg]",
-        ylabel="contact load [N]",
-        title=f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y",
-    )
-    with_grids(axes)
-
-
-def _draw_angles(result: BallCurves, axes: Axes) -> None:
-    axes.plot(RPM * result.speeds, np.degrees(result.inner_angle), label="inner")
-    axes.plot(RPM * result.speeds, np.degrees(result.outer_angle), "--", label="outer")
-    axes.set(
-        xlabel="speed [rpm]",
-        ylabel="contact angle [deg]",
-        title=f"Contact angles under {result.thrust:g} N of thrust",
-    )
-    with_grids(axes)
-
-
-def _draw_stiffness(result: BallCurves, axes: Axes) -> None:
-    for preload, radial, axial in zip(
-        result.preloads, result.radial_stiffness, result.axial_stiffness, strict=True
-    ):
-        (line,) = axes.plot(RPM * result.speeds, 1e-6 * radial, label=f"radial, {preload:g} N")
-        axes.plot(RPM * result.speeds, 1e-6 * axial, "--", color=line.get_color(), label="axial")
-    axes.set(
-        xlabel="speed [rpm]",
-        ylabel="stiffness [N/um]",
-        title="Pairs back to back by their preload as clamped",
-    )
-    axes.set_ylim(bottom=0.0)
-    with_grids(axes)
-
-
-def _rpm(speed: float) -> str:
-    return f"{RPM * speed:.5g} rpm"
-
-
-def _color(side: float) -> str:
-    return "#1f4fb4" if side > 0.0 else "#d62728"

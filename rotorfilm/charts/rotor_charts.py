@@ -36,6 +36,7 @@ from .canvas import (
     FAMILY_WIDTHS,
     GOOD,
     WITHIN,
+    draw_circle,
     labeled,
     legend_beside,
     new_axes,
@@ -436,8 +437,7 @@ def plot_periodic_orbit(orbit: PeriodicOrbit, *, axes: Axes | None = None) -> Ax
     paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
     for station, (x, y) in zip(orbit.stations, paths, strict=True):
         axes.plot(x, y, label=station or "journal")
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    draw_circle(axes)
     return labeled(axes, "x / clearance", "y / clearance", aspect="equal")
 
 
@@ -459,8 +459,7 @@ def plot_basin(scan: BasinScan, *, clearance: float, axes: Axes | None = None) -
     for chosen, color, label in ((whirls, BAD, "into whirl"), (~whirls, GOOD, "to rest")):
         here = chosen & inside
         axes.plot(x[here], y[here], "s", color=color, markersize=4.5, label=label)
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    draw_circle(axes)
     axes.plot(*(scan.rest[:2] / clearance), "k+", label="rest")
     axes.set(xlabel="x / clearance (load)", ylabel="y / clearance", aspect="equal")
     axes.legend(fontsize=8, loc="upper right")

@@ -1,4 +1,4 @@
-"""Charts of the atlas of limits, of whirl on types of bearings, of coupling and of published cases."""
+"""Charts of the atlas of limits, of whirl on types of bearings, and of coupling schemes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from ..bearings.contact import ContactState
-from ..core.model import Array
 from ..studies import Panel, StudyResult, StudyRung, failures, limit_curves
 from ..studies.bearing_types import ALWAYS, NEVER, UNCARRIED
-from ..studies.contact_cases import CaseRun, CaseSection, CaseSolution, ContactCases, SolutionKind
-from ..studies.contact_precision import ContactLimits
-from .canvas import BAD, DOUBTFUL, GOOD, labeled, legend_beside, new_axes, new_figure, new_grid
+from .canvas import labeled, new_axes, new_grid
 from .ladder_charts import SCHEME_LINES, TYPE_LINES
 
 # Which bearing to buy.
@@ -78,95 +74,6 @@ def _finish_thresholds(axes: Axes, loads: tuple[float, float], speeds: tuple[flo
         axis.set_major_formatter(StrMethodFormatter("{x:g}"))
         axis.set_minor_formatter(NullFormatter())
     axes.set(xlabel="load of the bearing along -y [N]", ylabel="speed from which the rotor whirls [rpm]")
-
-
-# Figures 2 to 7 of the published cases of a ball on a lubricated plane, redrawn.
-
-
-TITLES = {
-    CaseSection.FREE: "figure 3: approach and pressure 20 % too small",
-    CaseSection.STEPPED: "figure 5: load 1.7 from t = 1 to 20",
-    CaseSection.SLOW: "figure 6: load 1 + 0.2 sin t",
-    CaseSection.FAST: "figure 7: load 1 + 0.5 sin(omega t), W = 1",
-}
-
-SHOWN = {SolutionKind.PUBLISHED: ("--", 1.0), SolutionKind.CONVERGED: ("-", 1.6)}
-"""Solutions drawn: line and its width."""
-
-LATEST = 40.0
-"""End of the time axes."""
-
-
-def plot_contact_cases(cases: ContactCases) -> list[Axes]:
-    """Draw figures 2 to 7: published scheme dashed, converged solid."""
-    figure = new_figure(size=(11.5, 17.0))
-    figure.suptitle("Panovko (2011), figures 2 to 7. Solid: converged; dashed: published scheme, dt = 0.2")
-    rows = iter(figure.subplots(6, 2))
-    axes = [*_draw_rest(next(rows), cases)]
-    for section, curves in cases.curves.items():
-        axes += _draw_series(next(rows), cases, section)
-        if section == CaseSection.FREE:
-            axes += _draw_waves(next(rows), cases, curves[-1])
-    return axes
-
-
-def _draw_rest(row: list[Axes], cases: ContactCases) -> list[Axes]:
-    for solution in cases.solutions:
-        _draw_along(row, solution, solution.rest, "C0", None)
-    return _dressed(row, ("figure 2: at rest, y = 0", ""), ("pressure p", "film H"), "x")
-
-
-def _draw_waves(row: list[Axes], cases: ContactCases, heaviest: CaseRun) -> list[Axes]:
-    for solution, run in zip(cases.solutions, heaviest.runs, strict=True):
-        for number, state in enumerate(run.snapshots):
-            _draw_along(row, solution, state, f"C{number}", f"t = {state.t:g}")
-    legend_beside(row[1])
-    return _dressed(row, ("figure 4: case 4.1, W = 1, y = 0", ""), ("pressure p", "film H"), "x")
-
-
-def _draw_along(
-    row: list[Axes], solution: CaseSolution, state: ContactState, color: str, label: str | None
-) -> None:
-    """Draw pressure and film along y = 0."""
-    x: Array = solution.contact.grid.x
-    _draw_cases(row, solution, x, (state.pressure[:, 0], state.thickness[:, 0]), color, label)
-
-
-def _draw_series(row: list[Axes], cases: ContactCases, section: CaseSection) -> list[Axes]:
-    for number, curve in enumerate(cases.curves[section]):
-        for solution, run in zip(cases.solutions, curve.runs, strict=True):
-            early = run.time <= LATEST
-            values = (run.central_film[early], -run.delta[early])
-            _draw_cases(row, solution, run.time[early], values, f"C{number}", curve.name)
-    legend_beside(row[1])
-    return _dressed(row, (TITLES[section], ""), ("central film H0", "approach -delta"), "time")
-
-
-def _draw_cases(
-    row: list[Axes],
-    solution: CaseSolution,
-    abscissa: Array,
-    pair: tuple[Array, Array],
-    color: str,
-    label: str | None,
-) -> None:
-    """Draw a curve of a solution into each of two Axes if it is shown; converged ones have labels."""
-    if solution.kind not in SHOWN:
-        return
-    style, width = SHOWN[solution.kind]
-    shown = label if solution.kind == SolutionKind.CONVERGED else None
-    for axes, values in zip(row, pair, strict=True):
-        axes.plot(abscissa, values, style, color=color, linewidth=width, label=shown)
-
-
-def _dressed(row: list[Axes], titles: tuple[str, str], labels: tuple[str, str], abscissa: str) -> list[Axes]:
-    for axes, title, label in zip(row, titles, labels, strict=True):
-        axes.set(title=title, ylabel=label, xlabel=abscissa)
-        axes.grid(visible=True, alpha=0.3)
-    # Films behind the contact and balls in the air are off the scale of the figures.
-    if abscissa == "x":
-        row[1].set_ylim(0.0, 1.0)
-    return list(row)
 
 
 # The atlas of limits: where each simplification fails, a figure for each physics and a summary of all.
@@ -330,39 +237,3 @@ def plot_coupling_error(
     axes.set_xticks(degrees, [f"{angle:.3g}" for angle in degrees])
     axes.minorticks_off()
     return labeled(axes, "macro step [deg of shaft rotation]", "largest orbit error / clearance")
-
-
-# Chart of the limits of the published scheme of a rolling ball.
-
-
-def plot_contact_limits(result: ContactLimits) -> list[Axes]:
-    """Draw where the published scheme fails under load steps, and the decay times it shows."""
-    steps, decay = new_figure(size=(12.0, 4.8)).subplots(1, 2)
-    _cells(steps, result.reached, result.steps, result.load_steps, _failure)
-    steps.set(title="load step at W = 1: time of failure", xlabel="amplitude A", ylabel="step dt")
-    ratio = result.shown / result.physical
-    _cells(decay, ratio, result.steps, result.inertias, _decay)
-    decay.set(title="decay time shown / physical", xlabel="inertia W", ylabel="step dt")
-    return [steps, decay]
-
-
-def _cells(
-    axes: Axes, values: np.ndarray, rows: tuple[float, ...], columns: tuple[float, ...], describe: object
-) -> None:
-    assert callable(describe)
-    for (i, j), value in np.ndenumerate(values):
-        text, color = describe(float(value))
-        axes.fill_between([j - 0.5, j + 0.5], i - 0.5, i + 0.5, color=color, edgecolor="white")
-        axes.text(j, i, text, ha="center", va="center", fontsize=9)
-    axes.set_xticks(range(len(columns)), [f"{value:g}" for value in columns])
-    axes.set_yticks(range(len(rows)), [f"{value:g}" for value in rows])
-    axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
-
-
-def _failure(time: float) -> tuple[str, str]:
-    return ("runs", GOOD) if np.isinf(time) else (f"{time:.3g}", BAD)
-
-
-def _decay(ratio: float) -> tuple[str, str]:
-    color = GOOD if ratio > 0.9 else DOUBTFUL if ratio > 0.5 else BAD
-    return f"{ratio:.2g}", color

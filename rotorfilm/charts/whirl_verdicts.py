@@ -2,12 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from ..studies import JournalStability, RungStability
+from ..studies import StudyResult, StudyRung
+from ..studies.journal_accuracy import TENSION
+from ..studies.journal_stability import (
+    ASYMMETRY,
+    AT_REST,
+    DEVIATION,
+    HIGHEST,
+    INVENTED,
+    LENGTH,
+    MISSING,
+    MOVING,
+    OWN_ERROR,
+    PARAMETER,
+    RANK_ONE,
+    RATIO,
+    REFERENCE,
+    TOLERANCE,
+    UNSYMMETRIC,
+    WRONG,
+    by_film,
+    is_judged,
+)
 from .canvas import BAD, DASHES, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, new_axes, new_figure
 
 SMALLEST = 0.03
@@ -26,14 +49,13 @@ REFERENCE_MARKS = 12
 """Dots on the curve of the reference, about; few, so that they do not hide the films."""
 
 
-def plot_journal_stability(
-    result: JournalStability, *, point: tuple[float, float] | None = None
-) -> list[Axes]:
+def plot_journal_stability(result: StudyResult, *, point: tuple[float, float] | None = None) -> list[Axes]:
     """Draw thresholds and deviations over the eccentricity ratio, and a table of verdicts.
 
     Parameters
     ----------
-    result : JournalStability
+    result : StudyResult
+        As `journal_stability` returns it.
     point : (float, float), optional
         Eccentricity ratio and speed parameter of a working point.
     """
@@ -49,7 +71,7 @@ def plot_journal_stability(
 
 
 def plot_thresholds(
-    result: JournalStability, *, point: tuple[float, float] | None = None, axes: Axes | None = None
+    result: StudyResult, *, point: tuple[float, float] | None = None, axes: Axes | None = None
 ) -> Axes:
     """Draw the threshold speed * sqrt(clearance * mass / load) over the eccentricity ratio.
 
@@ -59,7 +81,8 @@ def plot_thresholds(
 
     Parameters
     ----------
-    result : JournalStability
+    result : StudyResult
+        As `journal_stability` returns it.
     point : (float, float), optional
         Eccentricity ratio and speed parameter of a working point.
     axes : Axes, optional
@@ -70,9 +93,9 @@ def plot_thresholds(
     _draw_missing(axes, result)
     if point is not None:
         axes.plot(*point, "k*", markersize=11, label="working point")
-    axes.axhline(result.highest, color="0.5", linewidth=0.8, linestyle="--")
-    axes.text(0.99, result.highest, "judged up to here", fontsize=8, color="0.35", va="bottom", ha="right")
-    axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.3 * result.highest))
+    axes.axhline(HIGHEST, color="0.5", linewidth=0.8, linestyle="--")
+    axes.text(0.99, HIGHEST, "judged up to here", fontsize=8, color="0.35", va="bottom", ha="right")
+    axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.3 * HIGHEST))
     axes.set_ylabel("speed * sqrt(clearance * mass / load)\nat the onset of whirl [1]")
     axes.grid(visible=True, alpha=0.3)
     handles = _legend(result) + [line for line in axes.get_lines() if line.get_marker() == "*"]
@@ -80,102 +103,99 @@ def plot_thresholds(
     return axes
 
 
-def _draw_curves(axes: Axes, result: JournalStability) -> None:
-    ratios, exact = np.array(result.eccentricity_ratio), _numbers(result.speed_parameter)
-    low, high = (1.0 - result.tolerance) * exact, (1.0 + result.tolerance) * exact
+def _draw_curves(axes: Axes, result: StudyResult) -> None:
+    films = by_film(result)
+    ratios, exact = (_column(next(iter(films.values())), heading) for heading in (RATIO, REFERENCE))
+    low, high = (1.0 - TOLERANCE) * exact, (1.0 + TOLERANCE) * exact
     axes.fill_between(ratios, low, high, color="0.8", linewidth=0.0, zorder=0)
-    for rung in sorted(result.rungs, key=lambda rung: FAMILY_WIDTHS[rung.family], reverse=True):
-        values, color, width = _numbers(rung.speed_parameter), color_of(rung), FAMILY_WIDTHS[rung.family]
-        good = ~(np.array(result.wrong(rung)) | np.array(result.invented(rung)))
+    for rows in sorted(films.values(), key=lambda rows: FAMILY_WIDTHS[rows[0].family], reverse=True):
+        family, values = rows[0].family, _column(rows, PARAMETER)
+        color, width, style = FAMILY_COLORS[family], FAMILY_WIDTHS[family], DASHES.get(family, "-")
         axes.plot(ratios, values, ":", color=color, linewidth=max(1.2, 0.5 * width))
-        right = np.where(good, values, np.nan)
-        style = DASHES.get(rung.family, "-")
+        right = np.where([row[WRONG] or row[INVENTED] for row in rows], np.nan, values)
         axes.plot(ratios, right, linestyle=style, color=color, linewidth=width, solid_capstyle="butt")
     marked = slice(None, None, max(1, len(ratios) // REFERENCE_MARKS))
     axes.plot(ratios[marked], exact[marked], "ko", markerfacecolor="w", markersize=4.0, markeredgewidth=0.8)
 
 
-def _draw_missing(axes: Axes, result: JournalStability) -> None:
-    ratios = np.array(result.eccentricity_ratio)
-    without = [rung for rung in result.rungs if any(result.missing(rung))]
-    for row, rung in enumerate(without):
-        where, level = np.array(result.missing(rung)), 0.2 + 0.45 * row
-        axes.plot(ratios[where], np.full(where.sum(), level), "x", color=color_of(rung))
-        text = f"{rung.name}: no threshold exists"
-        end = ratios[where][-1]
-        axes.text(end, level + 0.13, text, ha="right", va="bottom", fontsize=8, color=color_of(rung))
+def _draw_missing(axes: Axes, result: StudyResult) -> None:
+    level = 0.2
+    for name, rows in by_film(result).items():
+        color = FAMILY_COLORS[rows[0].family]
+        where = [row[RATIO] for row in rows if row[MISSING]]
+        if where:
+            axes.plot(where, np.full(len(where), level), "x", color=color)
+            end = {"ha": "right", "va": "bottom", "fontsize": 8, "color": color}
+            axes.text(where[-1], level + 0.13, f"{name}: no threshold exists", **end)
+            level += 0.45
 
 
-def _draw_deviations(axes: Axes, result: JournalStability) -> None:
-    ratios, judged = np.array(result.eccentricity_ratio), np.array(result.judged)
-    axes.axhspan(SMALLEST, 100.0 * result.tolerance, color="0.9", zorder=0)
-    for rung in result.rungs:
-        gap = np.where(judged, 100.0 * np.abs(_numbers(rung.deviation)), np.nan)
-        axes.plot(ratios, np.maximum(gap, SMALLEST), color=color_of(rung), linewidth=1.0)
-    axes.axhline(100.0 * result.reference_error, color="k", linewidth=0.8, linestyle="--")
-    level = 100.0 * result.reference_error
+def _draw_deviations(axes: Axes, result: StudyResult) -> None:
+    axes.axhspan(SMALLEST, 100.0 * TOLERANCE, color="0.9", zorder=0)
+    for rows in by_film(result).values():
+        judged = [is_judged(row[REFERENCE]) for row in rows]
+        gap = np.where(judged, 100.0 * np.abs(_column(rows, DEVIATION)), np.nan)
+        color = FAMILY_COLORS[rows[0].family]
+        axes.plot(_column(rows, RATIO), np.maximum(gap, SMALLEST), color=color, linewidth=1.0)
+    level = 100.0 * result.conditions[OWN_ERROR]
+    axes.axhline(level, color="k", linewidth=0.8, linestyle="--")
     axes.text(0.99, level, "error of the reference", fontsize=8, ha="right", va="bottom")
     axes.set(yscale="log", xlim=(0.0, 1.0), ylim=(SMALLEST, 100.0))
     axes.set(xlabel="eccentricity ratio eps [1]", ylabel="|deviation from the reference| [%]")
     axes.grid(visible=True, alpha=0.3)
 
 
-def _draw_table(axes: Axes, result: JournalStability) -> None:
+def _draw_table(axes: Axes, result: StudyResult) -> None:
     """Write one row of verdicts for each rung; the heading takes two rows."""
-    rows = len(result.rungs)
-    axes.set(xlim=(0.0, 1.0), ylim=(rows + 0.2, -2.0))
+    films = by_film(result)
+    axes.set(xlim=(0.0, 1.0), ylim=(len(films) + 0.2, -2.0))
     axes.axis("off")
     for text, left in zip(HEADINGS, COLUMNS[:-1], strict=True):
         axes.text(left + 0.01, -0.25, text, va="bottom", fontsize=9, weight="bold")
-    for row, rung in enumerate(result.rungs):
-        axes.text(0.01, row + 0.5, rung.name, va="center", fontsize=8.5, color=color_of(rung))
-        for (text, color), left, right in zip(
-            verdicts(result, rung), COLUMNS[1:-1], COLUMNS[2:], strict=True
-        ):
+    for row, (name, points) in enumerate(films.items()):
+        axes.text(0.01, row + 0.5, name, va="center", fontsize=8.5, color=FAMILY_COLORS[points[0].family])
+        for (text, color), left, right in zip(verdicts(points), COLUMNS[1:-1], COLUMNS[2:], strict=True):
             corner, size = (left + 0.003, row + 0.05), (right - left - 0.006, 0.9)
             axes.add_patch(Rectangle(corner, *size, color=color, linewidth=0.0))
             axes.text(left + 0.012, row + 0.5, text, va="center", fontsize=8.5)
 
 
-def verdicts(result: JournalStability, rung: RungStability) -> tuple[Cell, Cell, Cell, Cell]:
-    """Return what the table says of a rung: deviation, where it is wrong, tension, symmetry of damping."""
-    largest, asymmetry = result.largest_deviation(rung), max(rung.asymmetry)
-    masks = zip(result.wrong(rung), result.missing(rung), result.invented(rung), strict=True)
-    wrong = [ratio for ratio, bad in zip(result.eccentricity_ratio, map(any, masks), strict=True) if bad]
-    if largest is None:
-        deviation = "rank-1 damping" if all(rung.rank_one) else "no threshold", BAD
+def verdicts(rows: Sequence[StudyRung]) -> tuple[Cell, Cell, Cell, Cell]:
+    """Return what the table says of a film: deviation, where it is wrong, tension, symmetry of damping."""
+    gaps = [abs(row[DEVIATION]) for row in rows if is_judged(row[REFERENCE]) and row[DEVIATION] is not None]
+    wrong = [row[RATIO] for row in rows if row[WRONG] or row[MISSING] or row[INVENTED]]
+    asymmetry, share = max(row[UNSYMMETRIC] for row in rows), rows[0][MOVING]
+    if gaps:
+        deviation = f"{100.0 * max(gaps):.2g} %", BAD if max(gaps) > TOLERANCE else GOOD
     else:
-        deviation = f"{100.0 * largest:.2g} %", BAD if largest > result.tolerance else GOOD
+        deviation = "rank-1 damping" if all(row[RANK_ONE] for row in rows) else "no threshold", BAD
     where = " to ".join(f"{ratio:.2g}" for ratio in wrong[:: max(1, len(wrong) - 1)])
+    in_tension = share > 0.0 or max(row[AT_REST] for row in rows) > TENSION
     return (
         deviation,
         (where, BAD) if wrong else ("nowhere", GOOD),
-        (f"{100.0 * rung.tension_share:.0f} % of states", BAD) if rung.in_tension else ("none", GOOD),
+        (f"{100.0 * share:.0f} % of states", BAD) if in_tension else ("none", GOOD),
         (
             "0" if asymmetry < 1e-9 else f"{100.0 * asymmetry:.2g} %",
-            DOUBTFUL if asymmetry > result.asymmetry_tolerance else GOOD,
+            DOUBTFUL if asymmetry > ASYMMETRY else GOOD,
         ),
     )
 
 
-def color_of(rung: RungStability) -> str:
-    """Return the color of the rung's family."""
-    return FAMILY_COLORS[rung.family]
+def _column(rows: Sequence[StudyRung], heading: str) -> np.ndarray:
+    return np.array([np.nan if row[heading] is None else row[heading] for row in rows])
 
 
-def _numbers(values: tuple[float | None, ...]) -> np.ndarray:
-    return np.array([np.nan if value is None else value for value in values])
-
-
-def _title(result: JournalStability) -> str:
+def _title(result: StudyResult) -> str:
     return (
-        f"Whirl threshold of a rigid rotor on journal films, L/D = {result.slenderness:g} (unstable above)\n"
-        f"reference: {result.reference}; its error {100.0 * result.reference_error:.2g} %; "
-        f"wrong: more than {100.0 * result.tolerance:g} % off, judged up to {result.highest:g}"
+        f"Whirl threshold of a rigid rotor on journal films, L/D = {result.conditions[LENGTH]:g} "
+        f"(unstable above)\nreference: {result.reference}; "
+        f"its error {100.0 * result.conditions[OWN_ERROR]:.2g} %; "
+        f"wrong: more than {100.0 * TOLERANCE:g} % off, judged up to {HIGHEST:g}"
     )
 
 
-def _legend(result: JournalStability) -> list[Line2D]:
+def _legend(result: StudyResult) -> list[Line2D]:
     families = list(dict.fromkeys(rung.family for rung in result.rungs))
     return [
         *(
@@ -190,6 +210,6 @@ def _legend(result: JournalStability) -> list[Line2D]:
             for family in families
         ),
         Line2D([], [], marker="o", color="k", markerfacecolor="w", linestyle="", label="reference"),
-        Line2D([], [], color="0.8", linewidth=7, label=f"reference +-{100.0 * result.tolerance:g} %"),
+        Line2D([], [], color="0.8", linewidth=7, label=f"reference +-{100.0 * TOLERANCE:g} %"),
         Line2D([], [], color="0.3", linestyle=":", label="wrong"),
     ]

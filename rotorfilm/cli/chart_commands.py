@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from ..core.errors import visible
-from ..core.limits import CHART_STATES, CONTACT_CELLS, TRANSITS
+from ..core.limits import CHART_STATES, CONTACT_CELLS
 from ..core.progress import Report, part_of
 from ..core.results import write_csv
 from ..core.units import parse_quantity
@@ -247,11 +247,12 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
     from .. import charts, studies
     from ..charts.whirl_verdicts import verdicts
+    from ..studies.journal_stability import by_film
 
     result = studies.journal_stability(ld, report=report)
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    rows = [(rung.name, *(text for text, _ in verdicts(result, rung))) for rung in result.rungs]
+    rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
     return Said(result, partial(show_table, headings, rows, [("reference", result.reference), *files]))
 
 
@@ -276,43 +277,6 @@ def limits(
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
         rows += [(f"  {name}", "nowhere" if at is None else f"{at:.3g}") for name, at in found.items()]
     return Said(table, partial(show_table, (), rows, files))
-
-
-def contact_limits(report: Report, out: Folder = OUT) -> Said:
-    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
-    from .. import charts, studies
-
-    result = studies.contact_limits(report=report)
-    table = result.columns()
-    files = write_chart(out, "contact_limits", table, charts.plot_contact_limits(result))
-    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, partial(show_table, tuple(table), rows, files))
-
-
-def contact_cases(
-    report: Report,
-    cells: Annotated[
-        int, Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
-    ] = 40,
-    tolerance: Annotated[float, Option(help="Of the steps of converged runs.")] = 1e-4,
-    settle: Annotated[
-        float, Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
-    ] = 60.0,
-    out: Folder = OUT,
-) -> Said:
-    """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
-    from .. import charts, studies
-
-    result = studies.contact_cases(cells, tolerance, settle, report=report)
-    files = write_chart(out, "contact_cases", result.columns(), charts.plot_contact_cases(result))
-    files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
-    headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
-    rows = [
-        (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
-        for row in result.statements
-    ]
-    data = [row._asdict() for row in result.statements]
-    return Said(data, partial(show_table, headings, rows, files))
 
 
 def bearings(

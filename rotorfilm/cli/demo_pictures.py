@@ -19,7 +19,7 @@ from ..charts import (
     save,
 )
 from ..core.results import Trajectory
-from ..scenes.demo import DemoResult, demo_rungs
+from ..scenes.demo import ECCENTRICITY_RATIOS, DemoResult, demo_rungs
 from ..studies import FilmFamily
 
 OVERVIEW_SIZE, OVERVIEW_DPI = (14.0, 11.2), 100
@@ -76,7 +76,7 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
 
 
 def _draw_locus(result: DemoResult) -> Axes:
-    ratios = np.array(result.stability.eccentricity_ratio)
+    ratios = np.array(ECCENTRICITY_RATIOS)
     families = {rung.name: FilmFamily(rung.family) for rung in demo_rungs()}
     curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
     return plot_locus(curves, families=families)

@@ -33,23 +33,19 @@ def build(
     So is a rotor on a damper whose oil has mass.
     """
     from ..scenes.export_scene import export_scene, export_scene_system
-    from ..scenes.rotor_runs import export_system
-    from ..scenes.solve_damper import export_damped_rotor
 
     loaded = load_scene(scene, changes)
     with inside(scene):
-        whole = loaded.shaft is not None and not loaded.has_film
         if loaded.has_film and loaded.damper is None:
             loaded.film_table.make_map(report)
-        heavy = loaded.damper is not None and loaded.damper.density > 0.0
-        made = (export_damped_rotor if heavy else export_system if whole else export_scene)(
+        made = export_scene(
             loaded,
             out,
             version=fmi,
             backend=backend,
             platforms=platforms,
         )
-        files = {name: str(path) for name, path in made._asdict().items()}
+        files = {name: str(path) for name, path in made.items()}
         if ssp:
             made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)
             files["ssp"] = str(made_system)

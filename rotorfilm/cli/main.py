@@ -21,7 +21,7 @@ COMMANDS = {
     "run_command.run": "run examples/blade_loss.toml --out motion.csv",
     "sweep_command.sweep": 'sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
     '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc',
-    "cosim_command.cosim": "cosim examples/friswell.toml --scheme si-exp3 "
+    "run_command.cosim": "cosim examples/friswell.toml --scheme si-exp3 "
     '--set "cosimulation.macro_angle=5 deg"',
     "solve_command.new": "new tilting_pad --out bearing.toml",
     "solve_command.schema": "schema --out scene.schema.json",
@@ -42,8 +42,6 @@ CHARTS = {
     "chart_commands.pads": "chart pads --ld 0.5 --json",
     "chart_commands.rolling": "chart rolling --speed '30000 rpm'",
     "chart_commands.contact": "chart contact --cells 48 --json",
-    "chart_commands.contact_cases": "chart contact-cases --cells 40",
-    "chart_commands.contact_limits": "chart contact-limits --json",
     "chart_commands.scene": "chart scene examples/question.toml",
     "chart_commands.limits": "chart limits --physics journal --physics damper",
     "chart_commands.page": "chart page --out rotorfilm-charts",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -11,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import visible
-from ..core.units import CELSIUS
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -97,11 +95,6 @@ def progress_display() -> Iterator[Report]:
             bar.stop()
 
 
-def temperature_text(temperature: float) -> str:
-    """Return a temperature [K] with its value in degC."""
-    return f"{temperature - CELSIUS:.6g} degC ({temperature:.6g} K)"
-
-
 def _started_bar() -> Progress:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -111,8 +104,3 @@ def _started_bar() -> Progress:
     bar.add_task("", total=1.0)
     bar.start()
     return bar
-
-
-def speed_text(speed: float) -> str:
-    """Return a speed [rad/s] in both of its units."""
-    return f"{speed:.6g} rad/s = {speed * 30.0 / math.pi:.6g} rpm"

@@ -1,18 +1,20 @@
-"""The command `rotorfilm run`: the rotor or the rolling ball of a scene followed over time."""
+"""The commands `rotorfilm run` and `cosim`: the rotor or the rolling ball of a scene followed over time."""
 
 from __future__ import annotations
 
 import math
 import tempfile
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.results import write_csv
 from . import printing as console
 from .command import (
+    Argument,
     Option,
     Said,
     SceneFile,
@@ -27,6 +29,7 @@ from .command import (
 if TYPE_CHECKING:
     from ..core.results import Trajectory
     from ..scenes import Scene
+    from ..scenes.cosimulate_scene import CosimAnswer
     from ..scenes.rotor_runs import RotorRun
     from ..scenes.solve_contact import ContactResponse
     from ..scenes.solve_damper import DamperRun
@@ -35,27 +38,8 @@ RPM = 30.0 / math.pi
 """Turns per minute in one rad/s."""
 
 
-class FollowedMotion(NamedTuple):
-    """What a run says.
-
-    Attributes
-    ----------
-    data : object
-        As JSON.
-    rows : list of (str, str)
-    signals : mapping of str to sequence
-        Over time.
-    draw : callable
-        Draws the run and returns the axes.
-    failure : str or None
-        Why it ended early.
-    """
-
-    data: Any
-    rows: list[tuple[str, str]]
-    signals: dict[str, Any]
-    draw: Any
-    failure: str | None
+FollowedMotion = tuple[Any, list[tuple[str, str]], dict[str, Any], Callable[[], Any], str | None]
+"""Data as JSON, rows, signals over time, what draws the run and returns the axes, and why it ended early."""
 
 
 def run(
@@ -76,16 +60,15 @@ def run(
     loaded = load_scene(scene, changes)
     make_room(out)
     with inside(scene):
-        found = _followed(loaded, full, fmus, report)
+        data, rows, signals, draw, failure = _followed(loaded, full, fmus, report)
     if out is not None:
-        write_csv(out, found.signals)
+        write_csv(out, signals)
     if chart is not None:
         from ..charts import save
 
-        axes = found.draw()
+        axes = draw()
         save(axes[0] if isinstance(axes, tuple) else axes, chart)
-    rows = found.rows + written_rows(out)
-    return Said(found.data, partial(console.print_rows, loaded.title, rows), found.failure)
+    return Said(data, partial(console.print_rows, loaded.title, rows + written_rows(out)), failure)
 
 
 def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
@@ -117,7 +100,7 @@ def contact_motion(found: ContactResponse) -> FollowedMotion:
     signals = {name: getattr(found, name) for name in names if getattr(found, name) is not None}
     run = Trajectory(time=found.time, signals=signals, work=found.work)
     failure = None if found.complete else "interrupted; what is shown ends there"
-    return FollowedMotion(found, found.to_rows(), {"time": found.time, **signals}, run.plot, failure)
+    return found, found.to_rows(), _signals(run), run.plot, failure
 
 
 def damper_motion(run: DamperRun) -> FollowedMotion:
@@ -149,7 +132,7 @@ def damper_motion(run: DamperRun) -> FollowedMotion:
         *_ending(run.contact_time, run.trajectory),
     ]
     draw = partial(plot_damper_run, time, eps, run.force)
-    return FollowedMotion(data, rows, _signals(run.trajectory), draw, failure)
+    return data, rows, _signals(run.trajectory), draw, failure
 
 
 def rotor_motion(run: RotorRun) -> FollowedMotion:
@@ -186,7 +169,7 @@ def rotor_motion(run: RotorRun) -> FollowedMotion:
         ),
         *_ending(run.contact_time, run.trajectory),
     ]
-    return FollowedMotion(data, rows, _signals(run.trajectory), run.trajectory.plot, failure)
+    return data, rows, _signals(run.trajectory), run.trajectory.plot, failure
 
 
 def _signals(run: Trajectory) -> dict[str, Any]:
@@ -195,5 +178,69 @@ def _signals(run: Trajectory) -> dict[str, Any]:
 
 def _ending(contact_time: float | None, run: Trajectory) -> list[tuple[str, str]]:
     """Return the rows of when a journal touched, and of what the run took."""
-    calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in run.work.items())
-    return [("contact", "none" if contact_time is None else f"at {contact_time:.6g} s"), ("work", calls)]
+    touched = "none" if contact_time is None else f"at {contact_time:.6g} s"
+    return [("contact", touched), ("work", _counted(run.work))]
+
+
+def _counted(work: Mapping[str, int]) -> str:
+    return ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in work.items())
+
+
+# Rotor and film of a scene coupled as separate FMUs.
+
+
+def cosim(
+    scene: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
+    report: Report,
+    changes: Settings = None,
+    scheme: Annotated[
+        str,
+        Option(
+            help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, newton or adaptive.",
+            metavar="NAME",
+        ),
+    ] = "auto",
+    tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
+    out: SignalFile = None,
+) -> Said:
+    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
+    report(0.0, "packages")
+    from ..core.errors import PartialResultError
+    from ..scenes.cosimulate_scene import run_scene, scheme_named
+
+    loaded = load_scene(scene, changes)
+    make_room(out)
+    try:
+        with inside(scene):
+            answer, signals = run_scene(loaded, scheme_named(scheme, tolerance), report)
+    except PartialResultError as error:
+        if out is not None and error.partial is not None:
+            write_csv(out, _signals(error.partial.trajectory))
+        raise
+    if out is not None:
+        write_csv(out, _signals(signals))
+    return Said(answer, partial(_print, loaded.title, answer, out))
+
+
+def _print(title: str, answer: CosimAnswer, out: Path | None) -> None:
+    for trial in answer.trials:
+        console.print_rows("", [(trial.scheme, trial.reason)])
+    console.print_rows(title, cosim_rows(answer) + written_rows(out))
+
+
+def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe a co-simulation."""
+    limit, watch = answer.critical_macro_angle, answer.watch
+    rows = [
+        ("scheme", f"{answer.scheme}, order {answer.order}"),
+        ("macro step", f"{math.degrees(answer.macro_angle):.4g} deg"),
+        ("stable at rest up to", "any" if limit is None else f"{math.degrees(limit):.4g} deg"),
+        ("largest eccentricity ratio", f"{answer.eccentricity_ratio:.4g}"),
+        ("orbit error / clearance", f"{answer.orbit_error:.2e} (beside the monolithic solution)"),
+        ("work", _counted(answer.work)),
+    ]
+    if watch.local_error is not None:
+        rows.append(("local error / rms force", f"{watch.local_error:.2e}"))
+    if watch.explicit_ratio is not None:
+        rows.append(("macro step * damping / mass", f"{watch.explicit_ratio:.3g} (explicit limit .1 to 2)"))
+    return [*rows, *(("warning", text) for text in watch.warnings)]

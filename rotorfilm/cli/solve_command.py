@@ -53,13 +53,11 @@ def solve(
 
 
 def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Said:
-    from .question_printing import print_question
+    from .answer_printing import print_question, write_answer
 
     with inside(path):
         answer = scene.ask()
     if out is not None:
-        from .answer_printing import write_answer
-
         write_answer(answer, out)
     show = partial(print_question, scene.title, answer, explain=explain)
     return Said(answer, show, None if answer.met else answer.message)

@@ -347,67 +347,6 @@ class CandidateRung(BaseRung):
         return self.film.prior
 
 
-@dataclass(frozen=True, kw_only=True)
-class MadeRung:
-    """A rung made of functions, as an effect makes one around another: see `Rung` for each.
-
-    Attributes
-    ----------
-    name : str
-    answer, estimate, expected : callable
-    prior : float [1]
-    refines : tuple
-    shares : object
-    film : object
-        The model that it asks, if it is one.
-    """
-
-    name: str
-    answer: Callable[[Found | None], Found]
-    estimate: Callable[[Found, Found | None, float], ErrorEstimate]
-    expected: Callable[[Work], Work]
-    prior: float = 0.0
-    refines: tuple[object, ...] = ()
-    shares: object = None
-    film: Any = None
-
-
-def counted_rung(
-    name: str,
-    key: Hashable,
-    seconds: float,
-    solve: Callable[[Found | None], tuple[Any, Any]],
-    judge: Callable[[Found, Found | None, float], ErrorEstimate],
-    **known: Any,
-) -> MadeRung:
-    """Return a rung whose units of work are whole answers and whole estimates.
-
-    Parameters
-    ----------
-    name : str
-    key : hashable
-        Of the unit of its answers.
-    seconds : float [s]
-        About what an answer takes.
-    solve : callable
-        Takes the answer of a lower rung or None, and returns the value and what `judge` starts from.
-    judge : callable
-        As `Rung.estimate`.
-    **known
-        `prior`, `refines`, `shares` or `film` of the rung.
-    """
-    unit, done = WorkUnit(f"answers of {name}", key, nominal=seconds), WorkUnit(f"estimates of {name}")
-
-    def answer(before: Found | None) -> Found:
-        value, solution = solve(before)
-        return Found(value, {unit: 1}, solution)
-
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        return judge(found, before, tolerance)._replace(work={done: 1})
-
-    return MadeRung(name=name, answer=answer, estimate=estimate, expected=lambda work: {unit: 1}, **known)
-
-
 def relative_change(value: Any, better: Any) -> float:
     """Return how far a value is from a better one, over the largest entry of that."""
     gap, size = float(np.max(np.abs(np.asarray(better) - value))), float(np.max(np.abs(better)))

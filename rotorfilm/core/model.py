@@ -1,4 +1,4 @@
-"""The protocols that everything pluggable obeys: Model, Dynamic, Kinked, Switched, Stepped, Reaction.
+"""The protocols that everything pluggable obeys: Model, Dynamic, Switched, Stepped, Reaction.
 
 A model maps (t, x, u), that is time [s], state (n_states,) and input (n_inputs,), to its output
 (n_outputs,), all in the SI units of its signals. Linearization, export, co-simulation and charts know
@@ -7,7 +7,7 @@ these protocols and never a particular bearing.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -76,14 +76,6 @@ class Model(Protocol):
 
 
 @runtime_checkable
-class Portable(Protocol):
-    """What would make something large on first use, as a film its table."""
-
-    def portable(self) -> Any:
-        """Return an equal object that has it in its fields, for an FMU that must not make it again."""
-
-
-@runtime_checkable
 class Dynamic(Model, Protocol):
     """A model with states that an ODE solver integrates."""
 
@@ -93,15 +85,6 @@ class Dynamic(Model, Protocol):
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt, shape (n_states,), of the arguments of `output`."""
-
-
-@runtime_checkable
-class Kinked(Protocol):
-    """What a Dynamic may add, if its derivative is smooth in time only piece by piece."""
-
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """The times [s] at which an integrator should stop, in rising order."""
 
 
 @runtime_checkable
@@ -192,7 +175,24 @@ class JournalForce(Protocol):
 
 @runtime_checkable
 class Reaction(JournalForce, Model, Protocol):
-    """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS."""
+    """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS.
+
+    What it may add, each beside the function here that gives the same for every reaction:
+
+    - `prepare()`, its force as a `Force`, for loops that go state by state: `prepared_force`;
+    - `prepare_tangent()`, force and derivatives from one call, a `Tangent`: `prepared_tangent`;
+    - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
+    - `force_noise(speed)`, the force [N] that roundoff may leave, as of balls or pads that press each other;
+    - `rest_place(load, speed)`, x, y [m] where the journal rests under a load [N], None if not found;
+    - `at_rest()`, the force with its own states at rest under a journal at rest;
+    - `rest_state(position, speed)`, the state (n_states,) that rests there;
+    - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
+    - `portable()`, an equal object that holds what it would make on first use, for an FMU.
+    """
+
+
+Bearings = Mapping[str, Reaction]
+"""Reactions by the names of the stations in which they are."""
 
 
 def require_reaction(name: str, value: object, kind: Any = Reaction, *, heavy: bool = False) -> None:
@@ -210,41 +210,18 @@ def require_reactions(name: str, values: object, kind: Any = Reaction, *, heavy:
         require_reaction(f"{name}[{station!r}]", value, kind, heavy=heavy)
 
 
-class Force(Protocol):
-    """A force for plain numbers."""
-
-    def __call__(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-        """Return force_x, force_y [N]."""
+Force = Callable[[float, float, float, float, float], tuple[float, float]]
+"""A force for plain numbers: (x, y, vx, vy, speed) give force_x, force_y [N]."""
 
 
-class Tangent(Protocol):
-    """Force and derivatives for plain numbers."""
-
-    def __call__(
-        self, x: float, y: float, vx: float, vy: float, speed: float
-    ) -> tuple[float, float, Sequence[float]]:
-        """Return force_x, force_y [N] and the ten derivatives of `Reaction.jacobian`, row by row."""
-
-
-@runtime_checkable
-class TangentReaction(Protocol):
-    """What a Reaction may add: force and derivatives from one call, for searches that go state by state."""
-
-    def prepare_tangent(self) -> Tangent:
-        """Return the function of (x, y, vx, vy, speed) [m, m/s, rad/s]; it raises what `jacobian` raises."""
-
-
-@runtime_checkable
-class PreparedReaction(Protocol):
-    """What a Reaction may add: its force as a function of five numbers, for loops that go state by state."""
-
-    def prepare(self) -> Force:
-        """Return the function of (x, y, vx, vy, speed) [m, m/s, rad/s]; it raises what `force` raises."""
+Tangent = Callable[[float, float, float, float, float], tuple[float, float, Sequence[float]]]
+"""Force and derivatives for plain numbers: the force [N] and the ten of `Reaction.jacobian` row by row."""
 
 
 def prepared_force(reaction: Reaction) -> Force:
     """Return the force of any reaction as a function of five numbers."""
-    return reaction.prepare() if isinstance(reaction, PreparedReaction) else force_of(reaction)
+    prepare = getattr(reaction, "prepare", None)
+    return force_of(reaction) if prepare is None else prepare()
 
 
 def force_of(reaction: Reaction) -> Force:
@@ -259,21 +236,13 @@ def force_of(reaction: Reaction) -> Force:
 
 def prepared_tangent(reaction: Reaction) -> Tangent:
     """Return force and derivatives of any reaction as a function of five numbers."""
-    return reaction.prepare_tangent() if isinstance(reaction, TangentReaction) else tangent_of(reaction)
-
-
-@runtime_checkable
-class LimitedReaction(Protocol):
-    """What a Reaction may add: how far from the center its force is meant."""
-
-    @property
-    def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
+    prepare = getattr(reaction, "prepare_tangent", None)
+    return tangent_of(reaction) if prepare is None else prepare()
 
 
 def largest_eccentricity_ratio(reaction: Reaction) -> float:
     """Return the eccentricity ratio to which any reaction is meant; 1 where it does not say."""
-    return reaction.largest_eccentricity_ratio if isinstance(reaction, LimitedReaction) else 1.0
+    return getattr(reaction, "largest_eccentricity_ratio", 1.0)
 
 
 def tangent_of(reaction: Reaction) -> Tangent:
@@ -296,7 +265,7 @@ def stops(model: Model, start: float, end: float) -> list[float]:
 
 def breakpoints(of: object) -> tuple[float, ...]:
     """Return the `breakpoints` of a model, or of a load over time; none where it has none."""
-    return tuple(of.breakpoints) if isinstance(of, Kinked) else ()
+    return tuple(getattr(of, "breakpoints", ()))
 
 
 # Reactions that leave something of theirs to settle: the temperature of the film, or states of their own.
@@ -351,59 +320,15 @@ def settled(reaction: Reaction, position: ArrayLike, speed: float) -> Any:
     return reaction.at_temperature(reaction.balanced_temperature(position, np.zeros(2), speed))
 
 
-@runtime_checkable
-class Settling(Protocol):
-    """A Reaction with states that come to rest where the journal rests, as tilting pads."""
+def at_rest(reaction: object) -> Any:
+    """Return the force of a reaction, as tilting pads, with its states at rest; None without such states.
 
-    def at_rest(self) -> AtRest:
-        """Return its force with the states at rest."""
-
-
-@runtime_checkable
-class RestingStates(Protocol):
-    """A Reaction whose states have a place where they rest under a journal at rest."""
-
-    def rest_state(self, position: ArrayLike, speed: float) -> NDArray[np.float64]:
-        """Return the state (n_states,) that rests.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        """
-
-
-class AtRest(JournalForce, Protocol):
-    """A force on a journal at rest whose own states rest too."""
-
-    def settled(self, found: Any) -> Any:
-        """Return an Equilibrium of the journal with what it says of the states.
-
-        Parameters
-        ----------
-        found : Equilibrium
-        """
-
-    def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:
-        """Return what the journal feels where its states follow, a Coefficients.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        frequency : float or None [rad/s]
-            Of the whirl; None for that of the shaft.
-        """
-
-    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
-        """Return the exponents of a rigid rotor with them [1/s], the least damped first.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        rotor_mass : float [kg]
-        """
+    That force is a `JournalForce` with `coefficients(position, speed, frequency)`, what the journal feels
+    where the states follow; `modes(position, speed, rotor_mass)`, the exponents of a rigid rotor with them
+    [1/s], the least damped first; and `settled(found)`, an Equilibrium with what it says of the states.
+    """
+    force = getattr(reaction, "at_rest", None)
+    return None if force is None else force()
 
 
 @runtime_checkable
@@ -555,30 +480,16 @@ MOST_LEFT = 1e-6
 """Imbalance, over the load, beyond which no place counts as an equilibrium, whatever roundoff leaves."""
 
 
-@runtime_checkable
-class NoisyReaction(Protocol):
-    """What a Reaction may add, as preloaded balls or pads, which press each other."""
-
-    def force_noise(self, speed: float) -> float:
-        """Return what roundoff may leave of its force [N] at a speed [rad/s]."""
-
-
 def force_noise(reaction: object, speed: float) -> float:
     """Return what roundoff may leave of the force of any reaction [N]; 0 where it does not say."""
-    return reaction.force_noise(speed) if isinstance(reaction, NoisyReaction) else 0.0
+    noise = getattr(reaction, "force_noise", None)
+    return 0.0 if noise is None else noise(speed)
 
 
 # Reactions that find by themselves where a journal rests in them.
 
 
-@runtime_checkable
-class Resting(Protocol):
-    """What a Reaction may add, as balls with clearance, among which a journal feels no force at all."""
-
-    def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
-        """Return x, y of the journal [m] under an external load [N], None where no rest was found."""
-
-
 def rest_place(reaction: object, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
     """Return where a reaction says that a journal rests [m]; None where it does not say."""
-    return reaction.rest_place(load, speed) if isinstance(reaction, Resting) else None
+    place = getattr(reaction, "rest_place", None)
+    return None if place is None else place(load, speed)

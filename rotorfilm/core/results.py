@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, runtime_checkable
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,11 +52,6 @@ class BearingLosses(Readable):
 
     def __post_init__(self) -> None:
         require_each(self, require_finite, *(one.name for one in dataclasses.fields(self)))
-
-
-@runtime_checkable
-class _Lossy(Protocol):
-    def losses(self, position: Array, velocity: Array, speed: float) -> BearingLosses | None: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,9 +111,8 @@ class Equilibrium(Readable):
         None for a reaction that is no film, or one whose film law does not know them.
         """
         reaction = vars(self)["_reaction"]
-        if not isinstance(reaction, _Lossy):
-            return None
-        return reaction.losses(self.position, np.zeros(2), self.speed)
+        losses = getattr(reaction, "losses", None)
+        return None if losses is None else losses(self.position, np.zeros(2), self.speed)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,11 +155,11 @@ class WhirlThreshold(Readable):
         Empty, or why there is no threshold.
     """
 
-    speed: float | None
-    whirl_ratio: float | None
-    critical_mass: float | None
-    speed_parameter: float | None
-    equilibrium: Equilibrium | None
+    speed: float | None = None
+    whirl_ratio: float | None = None
+    critical_mass: float | None = None
+    speed_parameter: float | None = None
+    equilibrium: Equilibrium | None = None
     reason: str = ""
 
     @property

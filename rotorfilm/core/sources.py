@@ -23,7 +23,7 @@ from importlib import import_module
 from importlib.util import resolve_name
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 PACKAGE = __name__.partition(".")[0]
 ROOT = Path(__file__).parents[1]
@@ -98,28 +98,13 @@ def module_path(name: str) -> str:
     return folder if (ROOT.parent / folder).is_file() else f"{path}.py"
 
 
-class Home(NamedTuple):
-    """Where a shown name lives.
-
-    Attributes
-    ----------
-    module : str
-        The module that holds it.
-    public : bool
-        Whether the package shows it to everyone.
-    """
-
-    module: str
-    public: bool
-
-
 class LatePackage(ModuleType):
     """A package that imports a name when it is asked for."""
 
     @property
     def __all__(self) -> list[str]:
         """The public names."""
-        return sorted(name for name, home in homes(self.__name__).items() if home.public)
+        return sorted(name for name, (_, public) in homes(self.__name__).items() if public)
 
     def __dir__(self) -> list[str]:
         return self.__all__
@@ -129,7 +114,7 @@ class LatePackage(ModuleType):
             return installed_version()
         if name not in homes(self.__name__):
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
-        found = getattr(import_module(homes(self.__name__)[name].module), name)
+        found = getattr(import_module(homes(self.__name__)[name][0]), name)
         vars(self)[name] = found
         return found
 
@@ -159,14 +144,17 @@ def offered(name: str) -> Any:
 
 
 @cache
-def homes(package: str) -> dict[str, Home]:
-    """Return where each name lives that a package shows, those behind its stars included."""
+def homes(package: str) -> dict[str, tuple[str, bool]]:
+    """Return the module of each name that a package shows, those behind its stars included.
+
+    With it comes whether the package shows the name to everyone.
+    """
     tree = ast.parse(source_of(package))
-    found: dict[str, Home] = {}
+    found: dict[str, tuple[str, bool]] = {}
     listed = [node for top in tree.body if isinstance(top, ast.If) for node in top.body]
     for module, aliases in _relative_imports(package, listed):
         for alias in aliases:
-            one = {alias.name: Home(module, public=alias.name == alias.asname)}
+            one = {alias.name: (module, alias.name == alias.asname)}
             found |= homes(module) if alias.name == "*" else one
     return found
 

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -41,20 +41,14 @@ _POSITIVE = ("clearance", "length", "viscosity")
 _RANGE = {"housing_conductance": (0.0, math.inf), "carry_over": (0.0, 1.0)}
 
 
-class TrialBearing(NamedTuple):
-    """A bearing, and what the sensors show of a centered journal, shape (2,) [m]."""
-
-    bearing: JournalBearing
-    zero: Array
-
-
 class Search(NamedTuple):
-    """Free parameters of a bearing as numbers u of order 1, all 0 at the start.
+    """Free parameters of a bearing as numbers u of order 1, all 0 at the start, and what they are to predict.
 
     Lengths and the viscosity are start exp(u), so that they stay positive; the others start + unit u.
     """
 
     bearing: JournalBearing
+    measured: Measurements
     names: tuple[str, ...]
     start: Array
     unit: Array
@@ -69,37 +63,85 @@ class Search(NamedTuple):
         """Return d values/du."""
         return np.where(self.positive, self.values(u), self.unit)
 
-    def trial(self, u: Array) -> TrialBearing:
-        """Return the bearing of these parameters, and the zeros of its sensors."""
+    def trial(self, u: Array) -> tuple[JournalBearing, Array]:
+        """Return the bearing of these parameters, and what sensors show of a centered journal (2,) [m]."""
         found = dict(zip(self.names, self.values(u).tolist(), strict=True))
         bearing = self.bearing
         cooling = {name: found[name] for name in _COOLING if name in found}
-        changed = {name: found[name] for name in _BEARING if name in found}
+        changed: dict[str, Any] = {name: found[name] for name in _BEARING if name in found}
         if cooling:
             assert bearing.cooling is not None
-            bearing = replace(bearing, cooling=replace(bearing.cooling, **cooling), **changed)
-        elif changed:
-            bearing = replace(bearing, **changed)
-        return TrialBearing(bearing, np.array([found.get(name, 0.0) for name in ZEROS]))
+            changed["cooling"] = replace(bearing.cooling, **cooling)
+        trial = replace(bearing, **changed) if changed else bearing
+        return trial, np.array([found.get(name, 0.0) for name in ZEROS])
 
     @property
-    def bounds(self) -> tuple[list[float], list[float]]:
+    def bounds(self) -> tuple[Array, Array]:
         """Ends of u."""
-        ends = [
-            [(end - start) / unit for end in _RANGE.get(name, (-math.inf, math.inf))]
-            for name, start, unit in zip(self.names, self.start, self.unit, strict=True)
-        ]
-        return [low for low, _ in ends], [high for _, high in ends]
+        ends = np.array([_RANGE.get(name, (-math.inf, math.inf)) for name in self.names])
+        low, high = ((ends - self.start[:, None]) / self.unit[:, None]).T
+        return low, high
+
+    def predicted(self, u: Array) -> Array:
+        """Return what trial parameters predict, shape (n, quantities)."""
+        bearing, zero = self.trial(u)
+        return np.array(
+            [
+                [_quantity(name, bearing, at, zero) for name in self.measured.names]
+                for at in _rests(bearing, self.measured)
+            ]
+        )
+
+    def residual(self, u: Array) -> Array:
+        """Return (predicted - measured)/noise of the numbers that were measured."""
+        return self._kept(self.predicted(u) - self.measured.table)
+
+    def jacobian(self, u: Array) -> Array:
+        """Return d residual/du."""
+        columns = []
+        for k, (name, slope) in enumerate(zip(self.names, self.slopes(u), strict=True)):
+            exact = self._exact(u, name)
+            columns.append(self._difference(u, k) if exact is None else self._kept(exact * slope))
+        return np.stack(columns, axis=-1)
+
+    def _exact(self, u: Array, name: str) -> Array | None:
+        """Return d predicted/d(parameter); None where it needs differences."""
+        names = self.measured.names
+        table = np.zeros(self.measured.table.shape)
+        if name in ZEROS:
+            shown = "xy"[ZEROS.index(name)]
+            return table + np.array([one == shown for one in names])
+        if not set(names) <= {"x", "y", "temperature"}:
+            return None
+        (bearing, _), order = self.trial(u), ("x", "y", "temperature")
+        for row, at in zip(table, _rests(bearing, self.measured), strict=True):
+            slopes = rest_slopes(bearing, at, name)
+            if slopes is None:
+                return None
+            row[:] = [slopes[order.index(one)] for one in names]
+        return table
+
+    def _difference(self, u: Array, k: int) -> Array:
+        step = np.zeros(u.size)
+        low, high = (ends[k] for ends in self.bounds)
+        step[k] = STEP
+        up, down = (step * (low < v < high) for v in (u[k] + STEP, u[k] - STEP))
+        ends = self.residual(u + up), self.residual(u - down)
+        return np.asarray((ends[0] - ends[1]) / float((up + down)[k]))
+
+    def _kept(self, table: Array) -> Array:
+        seen = np.isfinite(self.measured.table)
+        return np.asarray((table / self.measured.scale)[seen])
 
 
-def search_of(bearing: JournalBearing, names: Sequence[str]) -> Search:
+def search_of(bearing: JournalBearing, measured: Measurements, names: Sequence[str]) -> Search:
     """Return the search for free parameters; raise InputError for one that the bearing does not have."""
     if not names or len(set(names)) < len(names):
         raise InputError(f"free must name different parameters, got {tuple(names)!r}")
-    start = [_value(bearing, name) for name in names]
-    unit = [_unit(bearing, name) for name in names]
+    start = np.array([_value(bearing, name) for name in names])
+    unit = np.array([_unit(bearing, name) for name in names])
     positive = np.array([name in _POSITIVE for name in names])
-    return Search(bearing, tuple(names), np.array(start), np.array(unit), positive)
+    return Search(bearing, measured, tuple(names), start, unit, positive)
 
 
 def _value(bearing: JournalBearing, name: str) -> float:
@@ -244,23 +286,22 @@ def fit_bearing(
     require_kind("measured", measured, Measurements, "Measurements")
     if not 0.0 < require_number("confidence", confidence) < 1.0:
         raise InputError(f"confidence must be above 0 and below 1, got {confidence!r}")
-    search = search_of(bearing, free)
+    search = search_of(bearing, measured, free)
     spare = measured.count - len(free)
     if spare < (measured.noise is None):
         raise InputError(
             "free must be fewer parameters than there are measured numbers, "
             f"got {len(free)} for {measured.count}"
         )
-    problem = _Problem(search, measured)
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A trial that the search only passes through is nobody's answer; that of the result is warned of.
         start = np.zeros(len(free))
-        problem.residual(start)  # which tells what the bearing cannot predict
-        _require_apart(search, problem.jacobian(start))
+        search.residual(start)  # which tells what the bearing cannot predict
+        _require_apart(search, search.jacobian(start))
         found = least_squares(
-            problem.residual,
+            search.residual,
             start,
-            problem.jacobian,
+            search.jacobian,
             bounds=search.bounds,
             xtol=TOLERANCE,
             ftol=TOLERANCE,
@@ -268,7 +309,7 @@ def fit_bearing(
         )
         if not found.success:
             raise ConvergenceError(f"the fit must end, and did not: {found.message}", found.x)
-        J = problem.jacobian(found.x)
+        J = search.jacobian(found.x)
         _require_apart(search, J)
     inverse = np.linalg.inv(J.T @ J)
     excess = 1.0 if measured.noise is not None else 2.0 * found.cost / spare
@@ -277,7 +318,7 @@ def fit_bearing(
     error = np.sqrt(excess * np.diag(inverse))
     ends = [search.values(np.clip(found.x + side * quantile * error, *search.bounds)) for side in (-1.0, 1.0)]
     columns = (search.values(found.x), error * search.slopes(found.x), *ends)
-    left = measured.table - problem.predicted(found.x)
+    left = measured.table - search.predicted(found.x)
     return BearingFit(
         parameters={
             name: FittedParameter(value=value, standard_error=sigma, low=low, high=high)
@@ -287,68 +328,9 @@ def fit_bearing(
         correlation=inverse / np.sqrt(np.outer(np.diag(inverse), np.diag(inverse))),
         misfit=math.sqrt(2.0 * found.cost / measured.count),
         residuals=dict(zip(measured.names, left.T, strict=True)),
-        bearing=search.trial(found.x).bearing,
+        bearing=search.trial(found.x)[0],
         evaluations=int(found.nfev),
     )
-
-
-class _Problem(NamedTuple):
-    """Residuals of a fit, and their derivatives, over the numbers of the search."""
-
-    search: Search
-    measured: Measurements
-
-    def predicted(self, u: Array) -> Array:
-        """Return what trial parameters predict, shape (n, quantities)."""
-        return np.array([self._row(at, u) for at in self._rests(u)])
-
-    def residual(self, u: Array) -> Array:
-        """Return (predicted - measured)/noise of the numbers that were measured."""
-        return self._kept(self.predicted(u) - self.measured.table)
-
-    def jacobian(self, u: Array) -> Array:
-        """Return d residual/du."""
-        columns = []
-        for k, (name, slope) in enumerate(zip(self.search.names, self.search.slopes(u), strict=True)):
-            exact = self._exact(u, name)
-            columns.append(self._difference(u, k) if exact is None else self._kept(exact * slope))
-        return np.stack(columns, axis=-1)
-
-    def _exact(self, u: Array, name: str) -> Array | None:
-        """Return d predicted/d(parameter); None where it needs differences."""
-        names = self.measured.names
-        table = np.zeros(self.measured.table.shape)
-        if name in ZEROS:
-            shown = "xy"[ZEROS.index(name)]
-            return table + np.array([one == shown for one in names])
-        if not set(names) <= {"x", "y", "temperature"}:
-            return None
-        trial, order = self.search.trial(u), ("x", "y", "temperature")
-        for row, at in zip(table, self._rests(u), strict=True):
-            slopes = rest_slopes(trial.bearing, at, name)
-            if slopes is None:
-                return None
-            row[:] = [slopes[order.index(one)] for one in names]
-        return table
-
-    def _difference(self, u: Array, k: int) -> Array:
-        step = np.zeros(u.size)
-        low, high = (ends[k] for ends in self.search.bounds)
-        step[k] = STEP
-        up, down = (step * (low < v < high) for v in (u[k] + STEP, u[k] - STEP))
-        ends = self.residual(u + up), self.residual(u - down)
-        return np.asarray((ends[0] - ends[1]) / float((up + down)[k]))
-
-    def _rests(self, u: Array) -> tuple[Equilibrium, ...]:
-        return _rests(self.search.trial(u).bearing, self.measured)
-
-    def _row(self, at: Equilibrium, u: Array) -> list[float]:
-        trial = self.search.trial(u)
-        return [_quantity(name, trial.bearing, at, trial.zero) for name in self.measured.names]
-
-    def _kept(self, table: Array) -> Array:
-        seen = np.isfinite(self.measured.table)
-        return np.asarray((table / self.measured.scale)[seen])
 
 
 @lru_cache(maxsize=4)
@@ -408,15 +390,6 @@ RELATIVE_STEP = 1e-3
 """Step of a central difference of the heat capacity over temperature, which is a parabola."""
 
 
-class _Rest(NamedTuple):
-    """Slopes of a film at rest: of the force by position, and for one that warms of power and flow too."""
-
-    bearing: JournalBearing
-    at: Equilibrium
-    force: Array
-    by_position: Array
-
-
 def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | None:
     """Return d(x, y, temperature)/d(parameter), shape (3,); None where only differences tell.
 
@@ -426,10 +399,10 @@ def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | 
         return None
     film = bearing if at.temperature is None else bearing.at_temperature(at.temperature)
     still = at.position, np.zeros(2), at.speed
-    rest = _Rest(film, at, film.force(*still), film.jacobian(*still)[:, :2])
-    by_name = _force_slope(rest, name)
+    force, by_position = film.force(*still), film.jacobian(*still)[:, :2]
+    by_name = _force_slope(film, force, by_position @ at.position, name)
     if at.temperature is None:
-        return None if by_name is None else np.append(np.linalg.solve(rest.by_position, -by_name), 0.0)
+        return None if by_name is None else np.append(np.linalg.solve(by_position, -by_name), 0.0)
     try:
         power, flow, _ = film.heat_jacobian(*still)[:, :2]
     except InputError:
@@ -451,17 +424,19 @@ def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | 
     if name == "supply_temperature" and cooling.ambient_temperature is None:
         heated[name] += cooling.housing_conductance
     _, cools = heat_surplus(heat, oil, cooling, T)
-    by_temperature = -float(oil.law.thinning(T)) * rest.force
-    slopes = np.block([[rest.by_position, by_temperature[:, None]], [power - carried * flow, cools]])
+    by_temperature = -float(oil.law.thinning(T)) * force
+    slopes = np.block([[by_position, by_temperature[:, None]], [power - carried * flow, cools]])
     known = np.append(np.zeros(2) if by_name is None else by_name, heated[name])
     return np.asarray(np.linalg.solve(slopes, -known))
 
 
-def _force_slope(rest: _Rest, name: str) -> Array | None:
-    """Return the derivative of the force by a parameter at held position and temperature; None for others."""
-    film, force = rest.bearing, rest.force
+def _force_slope(film: JournalBearing, force: Array, moved: Array, name: str) -> Array | None:
+    """Return the derivative of the force by a parameter at held position q and temperature; None for others.
+
+    `moved` is F_q q.
+    """
     if name == "clearance":
-        return np.asarray(-(2.0 * force + rest.by_position @ rest.at.position) / film.clearance)
+        return np.asarray(-(2.0 * force + moved) / film.clearance)
     if name == "viscosity":
         return np.asarray(force / film.film_viscosity)
     if name == "temperature" and film.oil is not None and film.temperature is not None:

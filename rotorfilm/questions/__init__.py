@@ -5,6 +5,6 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .walk import ask as ask, ladder_of as ladder_of
+    from .walk import ask as ask, ladder_of as ladder_of, ladders_of
 else:
     show(__name__)

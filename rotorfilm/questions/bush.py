@@ -34,9 +34,8 @@ from ..bearings.bush import (
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.bush_table import BushTable
 from ..scenes.excitation_table import StepLoadTable
-from ..scenes.families import Family, Remark, said
+from ..scenes.families import Remark, said
 from .variants import VariantRung
 
 if TYPE_CHECKING:
@@ -619,15 +618,7 @@ def bush_remarks(run: BushRun) -> tuple[str, ...]:
     return said(REMARKS, bush_numbers(run))
 
 
-FAMILY = Family(
-    table=BushTable,
-    ladders={
-        "critical_speed": bush_ladder,
-        "wear": wear_ladder,
-    },
-    answer=lambda scene, _: scene.melting(),
-    example={
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
-)
+LADDERS = {
+    "critical_speed": bush_ladder,
+    "wear": wear_ladder,
+}

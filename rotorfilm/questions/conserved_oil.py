@@ -15,17 +15,25 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..analysis import equilibrium
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, MadeRung, Rung, counted_rung
+from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import settled
 from ..core.results import Equilibrium
 from ..scenes.film_heat import HeatSteps, uniform_rest
-from ..scenes.film_rungs import Corrected, FilmCandidate, RestedJournal, any_candidate, tangent
+from ..scenes.film_rungs import (
+    Corrected,
+    FilmCandidate,
+    RestedJournal,
+    any_candidate,
+    maximum_pressure,
+    tangent,
+)
 from .heat_levels import field_rung
+from .variants import VariantRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
+    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.schema import JournalTable
 
 CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
@@ -64,6 +72,11 @@ class RestedFilm(RestedJournal):
         return self.at.temperature
 
     maximum_temperature = temperature
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        return maximum_pressure(self.reaction, self.at.position, self.at.speed)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
@@ -171,20 +184,11 @@ def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
         return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
     token, change = object(), question.conservation(scene.journal_bearing)
 
-    def ruptured(rung: Rung) -> MadeRung:
+    def ruptured(rung: Rung) -> VariantRung:
         def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
             return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
 
-        return MadeRung(
-            name=rung.name,
-            answer=rung.answer,
-            estimate=estimate,
-            expected=rung.expected,
-            prior=rung.prior,
-            refines=rung.refines,
-            shares=rung.shares or token,
-            film=getattr(rung, "film", None),
-        )
+        return with_estimate(rung, estimate, token)
 
     rungs = tuple(ruptured(rung) for rung in ladder.rungs)
     if not question.follows_oil:
@@ -214,7 +218,7 @@ def conserved_ladder(scene: Scene, question: Any) -> Ladder:
     )
 
 
-def conserved_rungs(scene: Scene, question: Any) -> tuple[MadeRung, ...]:
+def conserved_rungs(scene: Scene, question: Any) -> tuple[VariantRung, ...]:
     """Return the rungs that conserve their oil, the coarsest first, on an oil with those of its heat.
 
     They have the cells of the scene, if it names such a film.
@@ -230,7 +234,9 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[MadeRung, ...]:
     return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
 
 
-def conserved_rung(question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None) -> MadeRung:
+def conserved_rung(
+    question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None
+) -> VariantRung:
     """Return the rung of an answer on the film that conserves its oil, of an oil in the balance of its heat.
 
     Its error is the change since half the lines, and since half the cells along: mostly thrice the error.

@@ -3,31 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..bearings.contact import HERTZ_LOAD, ContactLaw, FixedSteps, SineLoad, SmallMotion, reduce_contact, ride
-from ..core.answers import (
-    DISAGREEMENT,
-    ISOTHERMAL,
-    BaseRung,
-    ErrorEstimate,
-    Found,
-    Ladder,
-    Rung,
-    Work,
-    WorkUnit,
-)
+from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array
 from ..scenes.contact_motions import (
     INLETS,
     OUTLET,
-    REACH,
+    QUANTITIES,
     SPACINGS,
     RestingFilms,
     ShakenBall,
@@ -36,9 +26,7 @@ from ..scenes.contact_motions import (
     natural_frequency,
     unknowns,
 )
-from ..scenes.contact_table import ContactTable
-from ..scenes.families import Family
-from ..scenes.solve_contact import answer_contact
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -46,29 +34,14 @@ if TYPE_CHECKING:
 # Film and approach of a rolling ball at rest: a formula, ever finer grids, and the rectangle around them.
 
 
-QUANTITIES = tuple(REACH)
-"""Quantities of a contact, all of them lengths [m]."""
-
 CELLS = (32, 48, 64)
 """Cells along each side of the plain rungs."""
 
 COARSER = {32: 24, 48: 32, 64: 48}
 """Cells of the companion that an order increment takes."""
 
-NOISE = 0.012
-"""Error of a film on 32 x 32 cells below which an order increment says nothing: it may change its sign.
-
-Falls with the square of the cells; that of the approach is ten times smaller. Measured on random balls.
-"""
-
-SMALLEST_NOISE = 0.03
-"""The same of the smallest film, which jumps from cell to cell; falls with their power 3/2."""
-
-FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
-"""Largest error of the formulas in `FORMULA_RANGE`, measured on random balls (docs/contact.md)."""
-
 FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
-"""V and Q0 in which that was measured."""
+"""V and Q0 in which the bounds of the formulas were measured, on random balls (docs/contact.md)."""
 
 HARD = (0.08, 12.0)
 """V and Q0 above both of which Newton's method needs continuation on fine grids: the longest is left out."""
@@ -82,130 +55,123 @@ LEFT = 0.3
 """Share of an extrapolation that may be wrong."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class FormulaRung(BaseRung):
-    """The film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
+def contact_rung(
+    films: RestingFilms,
+    name: str,
+    answer: Callable[[dict[WorkUnit, int]], tuple[float, Any]],
+    judge: Callable[[Any, dict[WorkUnit, int]], ErrorEstimate],
+    expected: Callable[[], Work],
+    *,
+    companion: str = "order increments",
+    failures: tuple[type[Exception], ...] = (ConvergenceError,),
+) -> VariantRung:
+    """Return a rung of a quantity [m].
 
-    Attributes
+    Parameters
     ----------
     films : RestingFilms
+    name : str
+    answer : callable
+        Adds to the work, and returns the quantity [1] and what its estimate starts from.
+    judge : callable
+        Takes that and the work, and returns the error.
+    expected : callable
+        Returns the work of an answer.
+    companion : str
+        What the error is told by.
+    failures : tuple of type
+        Errors of the companion, after which nothing tells the error.
     """
 
-    films: RestingFilms
+    def answered(before: Found | None) -> Found:
+        work: dict[WorkUnit, int] = {}
+        value, solution = answer(work)
+        return Found(value * films.ball.film_scale, work, solution)
 
-    name = "formula of Nijenbanning et al."
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        work: dict[WorkUnit, int] = {}
+        try:
+            return judge(found.solution, work)
+        except failures as error:
+            return ErrorEstimate(1.0, companion, work, doubt=f"no companion: {error}")
 
-    @property
-    def unit(self) -> WorkUnit:
-        """One formula."""
-        return FORMULAS
+    return VariantRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
 
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity [m]; the dry contact has the approach -2, in Hertzian units."""
-        film = self.films.ball.published_films.nijenbanning_venner_moes
-        dry = 2.0 * self.films.ball.film_scale
-        return Found(film if self.films.quantity == "central_film" else film - dry, {self.unit: 1})
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the measured bound, where it was measured."""
-        ball = self.films.ball
+def formula_rung(films: RestingFilms, bound: float) -> VariantRung:
+    """Return the film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
+
+    The dry contact has the approach -2, in Hertzian units. The bound was measured in `FORMULA_RANGE`.
+    """
+    ball = films.ball
+
+    def answer(before: Found | None) -> Found:
+        film, dry = ball.published_films.nijenbanning_venner_moes, 2.0 * ball.film_scale
+        return Found(film if films.quantity == "central_film" else film - dry, {FORMULAS: 1})
+
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         inside = all(
             low <= x <= high for (low, high), x in zip(FORMULA_RANGE, (ball.V, ball.Q0), strict=True)
         )
         doubt = "" if inside else f"V = {ball.V:.3g}, Q0 = {ball.Q0:.3g} are outside of its measured range"
-        bound = FORMULA_BOUNDS[self.films.quantity]
         return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
 
+    name = "formula of Nijenbanning et al."
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
 
-@dataclass(frozen=True, kw_only=True)
-class GridRung(BaseRung):
-    """A stationary contact on one grid of the shortest rectangle.
 
-    Attributes
-    ----------
-    films : RestingFilms
-    cells : int
-        Along each side.
+def grid_rung(films: RestingFilms, cells: int) -> VariantRung:
+    """Return a stationary contact on cells x cells of the shortest rectangle.
+
+    Its error is the order increment from less cells, and that from two rectangles on coarse grids. A film
+    that jumps from cell to cell has the whole increment, which overestimates.
     """
+    bound = films.row.jumps
 
-    films: RestingFilms
-    cells: int
-
-    @property
-    def name(self) -> str:
-        """Cells of the grid."""
-        return f"grid {self.cells} x {self.cells}"
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity [m]."""
-        work: dict[WorkUnit, int] = {}
-        value = self.films.value(self.cells, work)
-        return Found(value * self.films.ball.film_scale, work)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the order increment from less cells, and that from two rectangles on coarse grids.
-
-        The smallest film jumps from cell to cell, so that its increment is overestimated: the whole is taken.
-        """
-        work: dict[WorkUnit, int] = {}
-        bound = self.films.quantity == "minimum_film"
-        try:
-            about = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
-        except ConvergenceError as error:
-            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+    def judge(_: object, work: dict[WorkUnit, int]) -> ErrorEstimate:
+        about = grid_error(films, cells, work) + rectangle_error(films, work)
         doubt = "the grids disagree on the film: it is too thin for them" if bound and about > 0.5 else ""
         how = "overestimated: whole increment of cells, order increment of rectangle"
         method = how if bound else "order increments of cells and rectangle"
         return ErrorEstimate(about, method, work, bound, doubt)
 
-    def expected(self, done: Work) -> Work:
-        """Return the number of unknowns."""
-        return {unknowns(self.cells): self.cells**2}
+    return contact_rung(
+        films,
+        f"grid {cells} x {cells}",
+        lambda work: (films.value(cells, work), None),
+        judge,
+        lambda: {unknowns(cells): cells**2},
+    )
 
 
-@dataclass(frozen=True, kw_only=True)
-class UnboundedRung(BaseRung):
-    """A grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
+def unbounded_rung(films: RestingFilms, place: int, cells: int) -> VariantRung:
+    """Return a grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
-    Attributes
-    ----------
-    films : RestingFilms
-    place : int
-        Of the rectangle in `INLETS`.
-    cells : int
-        Along each side.
+    `place` is that of the rectangle in `INLETS`. The error is a share of both extrapolations, in the length
+    of the rectangle and in the cells, chosen to overestimate what is wrong with them.
     """
 
-    films: RestingFilms
-    place: int
-    cells: int
-
-    @property
-    def name(self) -> str:
-        """Cells of the grid."""
-        return f"grid {self.cells} x {self.cells}, unbounded"
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity [m], extrapolated in the length of the rectangle and in the cells."""
-        work: dict[WorkUnit, int] = {}
-        short, longer = INLETS[self.place - 1 : self.place + 1]
-        wide = self.films.value(self.cells, work, longer)
-        before_it = self.films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
-        reach = (wide - before_it) / ((longer / short) ** REACH[self.films.quantity] - 1.0)
-        fine, coarse = (self.films.value(cells, work) for cells in DENSE)
+    def answer(work: dict[WorkUnit, int]) -> tuple[float, Any]:
+        short, longer = INLETS[place - 1 : place + 1]
+        wide = films.value(cells, work, longer)
+        before_it = films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
+        reach = (wide - before_it) / ((longer / short) ** films.row.reach - 1.0)
+        fine, coarse = (films.value(count, work) for count in DENSE)
         spacing = (fine - coarse) / (1.0 - (DENSE[1] / DENSE[0]) ** 2)
         value = wide + reach + spacing
-        parts = abs(reach / value), abs(spacing / value)
-        return Found(value * self.films.ball.film_scale, work, parts)
+        return value, (abs(reach / value), abs(spacing / value))
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return a share of the two extrapolations, chosen to overestimate what is wrong with them."""
-        error = max(LEFT * sum(found.solution), noise_of(self.films, DENSE[0]))
+    def judge(parts: tuple[float, float], work: dict[WorkUnit, int]) -> ErrorEstimate:
+        error = max(LEFT * sum(parts), noise_of(films, DENSE[0]))
         return ErrorEstimate(error, f"overestimated: {LEFT:.0%} of the extrapolations", bound=True)
 
-    def expected(self, done: Work) -> Work:
-        """Return the number of unknowns."""
-        return {unknowns(self.cells): self.cells**2, unknowns(DENSE[0]): DENSE[0] ** 2}
+    return contact_rung(
+        films,
+        f"grid {cells} x {cells}, unbounded",
+        answer,
+        judge,
+        lambda: {unknowns(cells): cells**2, unknowns(DENSE[0]): DENSE[0] ** 2},
+    )
 
 
 def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> float:
@@ -218,17 +184,13 @@ def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> fl
     """
     coarse = COARSER[cells]
     fine, rough = (films.value(n, work) for n in (cells, coarse))
-    order = films.contact(cells).scheme.order
-    whole = films.quantity == "minimum_film"
-    gain = 1.0 if whole else (cells / coarse) ** order - 1.0
+    gain = 1.0 if films.row.jumps else (cells / coarse) ** films.contact(cells).scheme.order - 1.0
     return max(abs(fine - rough) / gain / abs(fine), noise_of(films, cells))
 
 
 def noise_of(films: RestingFilms, cells: int) -> float:
     """Return the relative error below which an increment says nothing."""
-    if films.quantity == "minimum_film":
-        return SMALLEST_NOISE * (CELLS[0] / cells) ** 1.5
-    return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
+    return films.row.noise * (CELLS[0] / cells) ** (1.5 if films.row.jumps else 2)
 
 
 def rectangle_error(films: RestingFilms, work: dict[WorkUnit, int]) -> float:
@@ -255,37 +217,16 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     )
     if scene.excitation is not None:
         return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)
-    formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
-    grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
-    wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
+    rungs = [] if films.row.formula_bound is None else [formula_rung(films, films.row.formula_bound)]
+    rungs += [grid_rung(films, cells) for cells in CELLS]
     hard = HARD[0] < films.ball.V and HARD[1] < films.ball.Q0
-    rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
-    return Ladder(rungs=rungs, unit="m", remarks=remarks, within=ISOTHERMAL)
+    rungs += [unbounded_rung(films, *wide) for wide in ((1, 96), (2, 160))[: 1 if hard else 2]]
+    return Ladder(rungs=tuple(rungs), unit="m", remarks=remarks, within=ISOTHERMAL)
 
 
-# What rolling balls bring to scenes and questions.
-
-
-FAMILY = Family(
-    table=ContactTable,
-    ladders={
-        **dict.fromkeys(QUANTITIES, contact_ladder),
-    },
-    answer=answer_contact,
-    example={
-        "contact": {
-            "diameter": "20 mm",
-            "modulus": "206 GPa",
-            "poisson_ratio": 0.3,
-            "viscosity": "8 mPa s",
-            "pressure_coefficient": "5 1/GPa",
-            "speed": "0.9 m/s",
-            "load": "10 N",
-            "mass": "33 g",
-            "cells": 24,
-        },
-    },
-)
+LADDERS = {
+    **dict.fromkeys(QUANTITIES, contact_ladder),
+}
 
 
 # The approach of a rolling ball on its reduced law, over time.
@@ -300,87 +241,73 @@ ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class LawRung(BaseRung):
-    """The motion on the law of the contact under its static load.
+def law_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
+    """Return the deepest approach of a motion on the reduced law of the contact under its static load.
 
-    Attributes
-    ----------
-    films : RestingFilms
-        Of the approach.
-    shaken : ShakenBall
-        Load over time, and motion asked for.
+    Its error is that of grid and rectangle at rest, of the fit, and of the law's one load.
     """
+    order = films.table.order
+    least, most = shaken.extremes
+    far = most if most > 1.0 else least
+    elsewhere = 1.0 + ELSEWHERE * (max(far, 0.3) - 1.0)
 
-    films: RestingFilms
-    shaken: ShakenBall
-
-    name = "reduced law over time"
-
-    @property
-    def order(self) -> int:
-        """States of the law."""
-        return self.films.table.order
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the deepest approach [m]."""
-        mass = self.films.table.mass
+    def answer(work: dict[WorkUnit, int]) -> tuple[float, Any]:
+        mass = films.table.mass
         if not mass > 0.0:
             raise InputError(f"contact.mass must be positive for a motion on a reduced law, got {mass!r} kg")
-        law = reduce_contact(self.films.contact(LAW_CELLS), self.order)
-        deepest, carried = self._motion(law)
-        return Found(deepest * self.films.ball.film_scale, {LAW: 1, RIDE: 1}, (law, deepest, carried))
+        law = reduce_contact(films.contact(LAW_CELLS), order)
+        work |= {LAW: 1, RIDE: 1}
+        deepest, carried = ridden(films, shaken, law)
+        return deepest, (law, deepest, carried)
 
-    def _motion(self, law: ContactLaw) -> tuple[float, tuple[float, float]]:
-        """Return the deepest approach and the range of the force, in the units of the contact."""
-        start = float(law.approach(1.0))
-        motion = ride(
-            law,
-            mass=self.films.ball.W / HERTZ_LOAD,
-            load=self.shaken.load,
-            start=start,
-            duration=self.shaken.duration,
-        )
-        force = motion["force_z"]
-        return float(motion["z"].min()), (float(force.min()), float(force.max()))
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the errors of grid and rectangle at rest, of the fit, and of the law's one load."""
-        law, deepest, carried = found.solution
-        work: dict[WorkUnit, int] = {}
+    def judge(solution: Any, work: dict[WorkUnit, int]) -> ErrorEstimate:
+        law, deepest, carried = solution
         load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
-        try:
-            lacking = self.films.lacking(LAW_CELLS, LAW_FINE, work, load)
-            other = reduce_contact(self.films.contact(LAW_CELLS), self.order, load=self._elsewhere())
-            elsewhere = abs(self._motion(other)[0] - deepest) / abs(deepest)
-        except ConvergenceError as error:
-            return ErrorEstimate(1.0, "law about another load", work, doubt=f"no companion: {error}")
+        lacking = films.lacking(LAW_CELLS, LAW_FINE, work, load)
+        other = reduce_contact(films.contact(LAW_CELLS), order, load=elsewhere)
+        moved = abs(ridden(films, shaken, other)[0] - deepest) / abs(deepest)
         fit = law.static_error / law.exponent
         work |= {LAW: 1, RIDE: 1}
         method = "order increments at rest; law about another load"
-        return ErrorEstimate(lacking + fit + elsewhere, method, work, doubt=self._doubt(law, carried))
+        doubt = doubt_of_law(films, shaken, law, carried)
+        return ErrorEstimate(lacking + fit + moved, method, work, doubt=doubt)
 
-    def _elsewhere(self) -> float:
-        least, most = self.shaken.extremes
-        far = most if most > 1.0 else least
-        return 1.0 + ELSEWHERE * (max(far, 0.3) - 1.0)
+    return contact_rung(
+        films,
+        "reduced law over time",
+        answer,
+        judge,
+        lambda: {LAW: 1, RIDE: 1},
+        companion="law about another load",
+    )
 
-    def _doubt(self, law: ContactLaw, carried: tuple[float, float]) -> str:
-        low, high = law.load_range
-        if carried[0] < low or carried[1] > high:
-            return (
-                f"the force, {carried[0]:.2g} to {carried[1]:.2g} static loads, leaves the range of the law"
-            )
-        fastest = natural_frequency(self.films.ball.W)
-        if isinstance(self.shaken.load, SineLoad):
-            fastest = max(fastest, self.shaken.load.frequency)
-        if fastest > law.highest_frequency:
-            return f"the law reaches to the frequency {law.highest_frequency:g}, not to {fastest:.3g}"
-        return ""
 
-    def expected(self, done: Work) -> Work:
-        """Return a law and a motion on it."""
-        return {LAW: 1, RIDE: 1}
+def ridden(films: RestingFilms, shaken: ShakenBall, law: ContactLaw) -> tuple[float, tuple[float, float]]:
+    """Return the deepest approach on a law and the range of the force, in the units of the contact."""
+    motion = ride(
+        law,
+        mass=films.ball.W / HERTZ_LOAD,
+        load=shaken.load,
+        start=float(law.approach(1.0)),
+        duration=shaken.duration,
+    )
+    force = motion["force_z"]
+    return float(motion["z"].min()), (float(force.min()), float(force.max()))
+
+
+def doubt_of_law(
+    films: RestingFilms, shaken: ShakenBall, law: ContactLaw, carried: tuple[float, float]
+) -> str:
+    """Return why a law must not be trusted that has carried loads in this range; empty if it may."""
+    low, high = law.load_range
+    if carried[0] < low or carried[1] > high:
+        return f"the force, {carried[0]:.2g} to {carried[1]:.2g} static loads, leaves the range of the law"
+    fastest = natural_frequency(films.ball.W)
+    if isinstance(shaken.load, SineLoad):
+        fastest = max(fastest, shaken.load.frequency)
+    if fastest > law.highest_frequency:
+        return f"the law reaches to the frequency {law.highest_frequency:g}, not to {fastest:.3g}"
+    return ""
 
 
 # Film and approach of a rolling ball under a load that jumps or swings: at rest, reduced, in full.
@@ -491,7 +418,7 @@ class FollowedFilm:
                 control=FixedSteps(step=self.step(steps), tolerance=NEWTON_TOLERANCE),
             )
             work[newton(cells)] = work.get(newton(cells), 0) + run.work["newton"]
-            smallest = lowest(run.time, getattr(run, self.films.field))
+            smallest = lowest(run.time, getattr(run, self.films.row.field))
             self.runs[key] = smallest, lowest(run.time, run.delta)
         if math.isnan(self.runs[key][0]):
             raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
@@ -531,7 +458,7 @@ class FollowedFilm:
         if change is not None:
             ratio = (cells / MOTION_CELLS[0]) ** SPACE_ORDER - 1.0
             by_cells = max(by_cells, change / ratio, key=abs)
-            resolved, jump = True, abs(change) if self.films.quantity == "minimum_film" else 0.0
+            resolved, jump = True, abs(change) if self.films.row.jumps else 0.0
         return Followed(value, by_steps, by_cells, reach, jump, resolved)
 
     def _change(self, cells: int, work: dict[WorkUnit, int]) -> float | None:
@@ -552,79 +479,50 @@ class FollowedFilm:
         rest = RestingFilms(table=self.films.table, quantity="approach").value(cells, work)
         return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
 
-    @cached_property
-    def too_long(self) -> bool:
-        """Whether the motion takes more than the film can be followed for."""
-        return self.shaken.duration / self.step(FINER) > MOST_STEPS
 
+def film_rung(followed: FollowedFilm, cells: int, *, extrapolated: bool = False) -> VariantRung:
+    """Return the smallest value over the motion of the full film on one grid.
 
-@dataclass(frozen=True, kw_only=True)
-class FilmMotionRung(BaseRung):
-    """The full film over time on one grid.
-
-    Attributes
-    ----------
-    followed : FollowedFilm
-        The film over time.
-    cells : int
-        Along each side.
-    extrapolated : bool
-        Whether the errors that are known are taken off.
+    Its error are the increments of steps, cells and rectangle; where it is `extrapolated`, without the errors
+    that are known, a share of them. That of a film that jumps from cell to cell is overestimated.
     """
+    films, steps = followed.films, steps_on(cells)
 
-    followed: FollowedFilm
-    cells: int
-    extrapolated: bool = False
+    def duration(count: int) -> float:
+        return followed.shaken.duration / followed.step(count)
 
-    @property
-    def name(self) -> str:
-        """Cells of the grid."""
-        return f"film {self.cells} x {self.cells} over time{', extr.' if self.extrapolated else ''}"
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the smallest value over the motion [m]."""
-        if self.followed.too_long:
+    def answer(work: dict[WorkUnit, int]) -> tuple[float, Any]:
+        if duration(FINER) > MOST_STEPS:
             raise InputError(
                 f"excitation must take at most {MOST_STEPS} steps of a film over time, got "
-                f"{self.followed.shaken.duration / self.followed.step(FINER):.4g}"
+                f"{duration(FINER):.4g}"
             )
-        work: dict[WorkUnit, int] = {}
-        scale = self.followed.films.ball.film_scale
-        if not self.extrapolated:
-            value, _ = self.followed.extreme(self.cells, steps_on(self.cells), work)
-            return Found(value * scale, work)
-        parts = self.followed.parts(self.cells, work)
-        value = parts.value * (1.0 + parts.lacking)
-        return Found(value * scale, work, parts)
+        if not extrapolated:
+            return followed.extreme(cells, steps, work)[0], None
+        parts = followed.parts(cells, work)
+        return parts.value * (1.0 + parts.lacking), None
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the increments of steps, cells and rectangle; of an extrapolation a share.
-
-        That of the smallest film, which jumps from cell to cell, is overestimated.
-        """
-        work: dict[WorkUnit, int] = {}
-        try:
-            parts = self.followed.parts(self.cells, work)
-        except ConvergenceError as error:
-            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+    def judge(_: object, work: dict[WorkUnit, int]) -> ErrorEstimate:
+        parts = followed.parts(cells, work)
         method = "order increments of steps; of cells and rectangle at rest"
-        deep = self.followed.extreme(self.cells, steps_on(self.cells), work)[1] < -2.0 * LARGEST_LOAD ** (
-            2.0 / 3.0
-        )
+        deep = followed.extreme(cells, steps, work)[1] < -2.0 * LARGEST_LOAD ** (2.0 / 3.0)
         doubt = "the contact grows beyond the rectangle" if deep else ""
         if not parts.resolved:
-            doubt = f"too thin a film for {self.cells} x {self.cells} cells, and no coarser motion beside it"
-        if self.extrapolated:
+            doubt = f"too thin a film for {cells} x {cells} cells, and no coarser motion beside it"
+        if extrapolated:
             method = f"overestimated: {MOTION_LEFT:.0%} of the {method}"
             return ErrorEstimate(parts.left, method, work, bound=True, doubt=doubt)
-        bound = self.followed.films.quantity == "minimum_film"
+        bound = films.row.jumps
         method = f"overestimated: {method}, whole change of cells" if bound else method
         return ErrorEstimate(parts.error, method, work, bound, doubt)
 
-    def expected(self, done: Work) -> Work:
-        """Return some Newton steps: about three for each step."""
-        steps = self.followed.shaken.duration / self.followed.step(steps_on(self.cells))
-        return {newton(self.cells): 3 * math.ceil(steps)}
+    return contact_rung(
+        films,
+        f"film {cells} x {cells} over time{', extr.' if extrapolated else ''}",
+        answer,
+        judge,
+        lambda: {newton(cells): 3 * math.ceil(duration(steps))},  # about three for each step
+    )
 
 
 def steps_on(cells: int) -> int:
@@ -649,15 +547,14 @@ def newton(cells: int) -> WorkUnit:
     return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
 
 
-def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[Rung, ...]:
+def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[VariantRung, ...]:
     """Return the rungs of a ball whose load jumps or swings."""
     shaken = contact_motion(scene)
     followed = FollowedFilm(films=films, shaken=shaken)
-    slow = SlowRung(films=films, shaken=shaken)
-    law = () if films.quantity != "approach" else (LawRung(films=films, shaken=shaken),)
-    first = 1 if films.quantity == "minimum_film" else 0
-    grids = tuple(FilmMotionRung(followed=followed, cells=cells) for cells in MOTION_CELLS[first:])
-    return (slow, *law, *grids, FilmMotionRung(followed=followed, cells=MOTION_CELLS[-1], extrapolated=True))
+    law = (law_rung(films, shaken),) if films.quantity == "approach" else ()
+    grids = (film_rung(followed, cells) for cells in MOTION_CELLS[1 if films.row.jumps else 0 :])
+    extrapolated = film_rung(followed, MOTION_CELLS[-1], extrapolated=True)
+    return (slow_rung(films, shaken), *law, *grids, extrapolated)
 
 
 # A rolling ball under a load so slow that the film is at rest at each moment.
@@ -676,42 +573,24 @@ SLACKEST = 0.05
 """Load below which there is no contact at rest to speak of."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class SlowRung(BaseRung):
-    """The extreme of a quantity over the loads, as if each had acted for long.
+def slow_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
+    """Return the extreme of a quantity over the loads, as if each had acted for long.
 
-    Attributes
-    ----------
-    films : RestingFilms
-    shaken : ShakenBall
+    Of the approach it is always that of the largest load. The error is that of grid and rectangle, and what
+    the linearized film makes of the motion: overestimated for a small one, since amplitudes are added
+    whatever their phases.
     """
+    least, most = shaken.extremes
 
-    films: RestingFilms
-    shaken: ShakenBall
-
-    name = "at rest under the extreme load"
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the smallest value [m]: of the approach always that of the largest load."""
-        least, most = self.shaken.extremes
-        work: dict[WorkUnit, int] = {}
-        loads = [most] if self.films.quantity == "approach" else [max(least, SLACKEST), most]
-        values = {load: self.films.value(SLOW_CELLS, work, load=load) for load in loads}
+    def answer(work: dict[WorkUnit, int]) -> tuple[float, Any]:
+        loads = [most] if films.quantity == "approach" else [max(least, SLACKEST), most]
+        values = {load: films.value(SLOW_CELLS, work, load=load) for load in loads}
         load = min(values, key=lambda load: values[load])
-        return Found(values[load] * self.films.ball.film_scale, work, load)
+        return values[load], load
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the errors of grid and rectangle, and what the linearized film makes of the motion.
-
-        Overestimated for a small motion: amplitudes are added whatever their phases.
-        """
-        work: dict[WorkUnit, int] = {}
-        least, load = self.shaken.extremes[0], float(found.solution)
-        try:
-            lacking = self.films.lacking(SLOW_CELLS, SLOW_FINE, work, load)
-            moved = abs(self._motion() / self.films.value(SLOW_CELLS, work, load=load))
-        except (ConvergenceError, InputError) as error:
-            return ErrorEstimate(1.0, "linearized film", work, doubt=f"no companion: {error}")
+    def judge(load: float, work: dict[WorkUnit, int]) -> ErrorEstimate:
+        lacking = films.lacking(SLOW_CELLS, SLOW_FINE, work, load)
+        moved = abs(small_motion(films, shaken) / films.value(SLOW_CELLS, work, load=load))
         work[unknowns(SMALL)] = SMALL**2
         doubt = "the ball swings: no small motion about rest" if moved > DISAGREEMENT else ""
         if least < SLACKEST:
@@ -719,38 +598,43 @@ class SlowRung(BaseRung):
         method = "overestimated: order increments; amplitudes of the linearized film, whatever their phases"
         return ErrorEstimate(lacking + moved, method, work, bound=True, doubt=doubt)
 
-    def _motion(self) -> float:
-        """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
-        contact = self.films.contact(SMALL)
-        state = contact.stationary()
-        small = SmallMotion(contact.equations, state.pressure.ravel(), state.delta)
-        thinnest = int(np.argmin(contact.equations.film(state.pressure.ravel(), state.delta)))
-        inertia = self.films.ball.W
+    return contact_rung(
+        films,
+        "at rest under the extreme load",
+        answer,
+        judge,
+        lambda: {unknowns(SLOW_CELLS): 2 * SLOW_CELLS**2},
+        companion="linearized film",
+        failures=(ConvergenceError, InputError),
+    )
 
-        def per_load(w: float) -> tuple[complex, complex]:
-            """Return the changes of quantity and approach per unit of a load as exp(i w t)."""
-            approach = -HERTZ_LOAD / (small.stiffness(1j * w) - inertia * w**2)
-            if self.films.quantity == "approach":
-                return approach, approach
-            central, samples = small.film(1j * w)
-            return approach * (
-                central if self.films.quantity == "central_film" else samples[thinnest]
-            ), approach
 
-        amplitude, natural = abs(self.shaken.load.amplitude), natural_frequency(inertia)
-        still, depth = per_load(REST)
-        rings = 0.0
-        if math.isfinite(natural):
-            ringing, ring_depth = per_load(natural)
-            rings = abs(ringing / ring_depth * depth)
-        if not isinstance(self.shaken.load, SineLoad):
-            return amplitude * rings
-        w = self.shaken.load.frequency
-        forced = abs(per_load(w)[0])
-        ratio = w / natural
-        started = rings * ratio / max(abs(1.0 - ratio**2), 0.1)
-        return amplitude * abs(forced + started - abs(still))
+def small_motion(films: RestingFilms, shaken: ShakenBall) -> float:
+    """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
+    contact = films.contact(SMALL)
+    state = contact.stationary()
+    small = SmallMotion(contact.equations, state.pressure.ravel(), state.delta)
+    thinnest = int(np.argmin(contact.equations.film(state.pressure.ravel(), state.delta)))
+    inertia = films.ball.W
 
-    def expected(self, done: Work) -> Work:
-        """Return the number of unknowns."""
-        return {unknowns(SLOW_CELLS): 2 * SLOW_CELLS**2}
+    def per_load(w: float) -> tuple[complex, complex]:
+        """Return the changes of quantity and approach per unit of a load as exp(i w t)."""
+        approach = -HERTZ_LOAD / (small.stiffness(1j * w) - inertia * w**2)
+        if films.quantity == "approach":
+            return approach, approach
+        central, samples = small.film(1j * w)
+        return approach * (central if films.quantity == "central_film" else samples[thinnest]), approach
+
+    amplitude, natural = abs(shaken.load.amplitude), natural_frequency(inertia)
+    still, depth = per_load(REST)
+    rings = 0.0
+    if math.isfinite(natural):
+        ringing, ring_depth = per_load(natural)
+        rings = abs(ringing / ring_depth * depth)
+    if not isinstance(shaken.load, SineLoad):
+        return amplitude * rings
+    w = shaken.load.frequency
+    forced = abs(per_load(w)[0])
+    ratio = w / natural
+    started = rings * ratio / max(abs(1.0 - ratio**2), 0.1)
+    return amplitude * abs(forced + started - abs(still))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,11 +13,9 @@ from ..analysis import equilibrium
 from ..bearings.journal import ReynoldsFilm, fitted_bearing
 from ..core.answers import ISOTHERMAL, BaseRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import CouplingError, InputError, RotorfilmError
-from ..core.model import Reaction
 from ..core.units import CELSIUS
 from ..cosim import Scheme
-from ..cosim.coupling_error import SCHEMES, CouplingCase, PilotRun
-from ..rotors import RigidRotor
+from ..cosim.coupling_error import SCHEMES, CouplingCase
 from ..scenes.journal_tables import has_map
 
 if TYPE_CHECKING:
@@ -80,20 +77,6 @@ class CouplingRung(BaseRung):
         """Half the predicted error."""
         return 0.5 * self.case.predicted(self.scheme, self.macro_angle)
 
-    @cached_property
-    def rotor(self) -> RigidRotor:
-        """The rotor of the run."""
-        return self.case.rotor
-
-    @cached_property
-    def reaction(self) -> Reaction:
-        """The film, or the damper with its springs."""
-        return self.case.reaction
-
-    def run(self) -> PilotRun:
-        """Return the coupled run; raises CouplingError where it is no answer."""
-        return self.case.run(self.scheme, self.macro_angle)
-
     def answer(self, before: Found | None) -> Found:
         """Return the estimated error of the coupled run [clearances].
 
@@ -112,7 +95,7 @@ class CouplingRung(BaseRung):
         least = self.case.least(self.scheme, self.macro_angle)
         if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
             raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")
-        run = self.run()
+        run = self.case.run(self.scheme, self.macro_angle)
         found, work = self.case.drift(run), run.outcome.trajectory.work
         if not found.doubt:
             self.case.errors[self.scheme, self.macro_angle] = found.error

@@ -44,7 +44,6 @@ from ..core.answers import (
     Rung,
     Work,
     WorkUnit,
-    counted_rung,
 )
 from ..core.errors import (
     AbsentError,
@@ -61,7 +60,6 @@ from ..scenes.damper_films import (
     NO_RICHER,
     DamperFilm,
     built_films,
-    damper_fmus,
     damper_models,
     lands,
     mapped_short,
@@ -73,11 +71,10 @@ from ..scenes.damper_films import (
 )
 from ..scenes.damper_table import DamperTable
 from ..scenes.excitation_table import BladeLossTable, RunUpTable
-from ..scenes.families import Family
 from ..scenes.film_rungs import MAP_MADE, Counted
-from ..scenes.solve_damper import answer_damper
 from .coupling import coupling_ladder
 from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .variants import counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -559,27 +556,11 @@ def _one_peak(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
 # What squeeze-film dampers bring to scenes and questions.
 
 
-FAMILY = Family(
-    table=DamperTable,
-    ladders={
-        **dict.fromkeys(UNITS, damper_ladder),
-        "blade_loss_peak": damper_peak_ladder,
-        "cosimulation_error": coupling_ladder,
-    },
-    models=damper_fmus,
-    answer=answer_damper,
-    example={
-        "damper": {
-            "diameter": "100 mm",
-            "length": "25 mm",
-            "clearance": "0.1 mm",
-            "viscosity": "10 mPa s",
-            "stiffness": "2e6 N/m",
-        },
-        "operation": {"speed": "6000 rpm"},
-        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
-    },
-)
+LADDERS = {
+    **dict.fromkeys(UNITS, damper_ladder),
+    "blade_loss_peak": damper_peak_ladder,
+    "cosimulation_error": coupling_ladder,
+}
 
 
 # A rotor on a damper that conserves its oil, in time: a lost blade, a run-up, an orbit past holes.

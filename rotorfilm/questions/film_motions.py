@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -47,7 +47,8 @@ from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
 from ..scenes.film_rungs import FilmCandidate, any_candidate
-from .film_statics import FilmQuestion, Films, Units, film_ladder
+from .coupling import coupling_ladder
+from .film_statics import FilmQuestion, Films, Units, film_ladder, static_ladder, whirl_ladder
 from .quantities import relative
 
 if TYPE_CHECKING:
@@ -237,6 +238,13 @@ def motion_question(
     )
 
 
+def _turn_films(films: Films, scene: Scene, quantity: str) -> Sequence[FilmCandidate]:
+    """Return films for states all round a turn; InputError for one that conserves its oil."""
+    if scene.journal is not None:
+        scene.journal.require_law(quantity)
+    return films(scene)
+
+
 def orbit_ladder(films: Films, scene: Scene, quantity: str, rung: type[OrbitRung] = OrbitRung) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film.
 
@@ -255,7 +263,7 @@ def orbit_ladder(films: Films, scene: Scene, quantity: str, rung: type[OrbitRung
     InputError
         As `rotor_of`.
     """
-    rotor, known = rotor_of(scene), films(scene)
+    rotor, known = rotor_of(scene), _turn_films(films, scene, quantity)
 
     def effort(one: OrbitRung) -> float:
         """Return a measure of cost: films by place, each twice the one before; maps to be made last."""
@@ -487,7 +495,7 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     excitation, rotor = lost_blade(scene), scene.rotor
     require_one_unbalance(rotor)
     calls = math.ceil(3 * COMMON_STEPS * excitation.revolutions)
-    known = sorted(films(scene), key=lambda film: film.time(calls))
+    known = sorted(_turn_films(films, scene, quantity), key=lambda film: film.time(calls))
 
     def make(film: FilmCandidate, steps: int) -> BladeLossRung:
         return BladeLossRung(
@@ -506,6 +514,27 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     made = any(film.makes_map for film in known[:-1])
     question = motion_question(scene, make, STEPS, "m", relative, effort=effort if made else None)
     return film_ladder(scene, lambda scene: known, question)
+
+
+def film_ladders(
+    points: Films, turns: Films, statics: Iterable[str]
+) -> dict[str, Callable[[Scene, str], Ladder]]:
+    """Return the ladders of a bearing with a film by quantity.
+
+    Parameters
+    ----------
+    points, turns : callable
+        Take a scene and return the candidates for some equilibria, and for states all round a turn.
+    statics : iterable of str
+        Quantities of the journal at rest that its films have.
+    """
+    return {
+        **dict.fromkeys(statics, partial(static_ladder, points)),
+        **dict.fromkeys(ORBIT_UNITS, partial(orbit_ladder, turns)),
+        "whirl_threshold": partial(whirl_ladder, points),
+        "blade_loss_peak": partial(blade_loss_ladder, turns),
+        "cosimulation_error": coupling_ladder,
+    }
 
 
 def lost_blade(scene: Scene) -> BladeLossTable:

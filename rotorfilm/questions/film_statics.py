@@ -31,8 +31,8 @@ from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest, un
 from ..scenes.film_rungs import FilmCandidate, FilmRest, least_stable, whirl_growth, whirl_matrix
 from ..scenes.solve_journal import conserved_threshold
 from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
-from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat, with_losses
-from .quantities import LOSSES, QUANTITIES, TEMPERATURES, FilmQuantity, relative
+from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat
+from .quantities import QUANTITIES, TEMPERATURES, FilmQuantity, relative
 from .walk import NoAnswerError
 
 if TYPE_CHECKING:
@@ -139,7 +139,10 @@ class FilmQuestion:
         return lambda found: known()
 
 
-EFFECTS = (heat, conserved_oil)
+EFFECTS = [
+    heat,
+    conserved_oil,
+]
 """Effects on films of any bearing: each takes scene, question, films and ladder, and returns the ladder."""
 
 
@@ -267,7 +270,7 @@ def static_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
 
     def known(scene: Scene) -> Sequence[FilmCandidate]:
         found = films(scene)
-        return with_losses(found, quantity) if quantity in LOSSES and not bearing.is_warming else found
+        return found if asked.films is None else asked.films(found, quantity)
 
     question = FilmQuestion(
         load=load,

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..bearings.journal import JFOFilm, JournalBearing
-from ..core.answers import HEATED, SAFETY, ErrorEstimate, Found, Ladder, MadeRung, WorkUnit, counted_rung
-from ..core.errors import InputError, RotorfilmError
+from ..core.answers import HEATED, SAFETY, ErrorEstimate, Found, Ladder, WorkUnit
+from ..core.errors import RotorfilmError
 from ..scenes.film_heat import (
     REFERENCE,
     FieldLevel,
@@ -31,7 +31,8 @@ from ..scenes.film_heat import (
     grid_error,
     uniform_rest,
 )
-from ..scenes.film_rungs import FilmCandidate
+from ..scenes.film_rungs import FilmCandidate, with_losses
+from .variants import VariantRung, counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -97,7 +98,7 @@ def answer_below(level: HeatLevel | FieldLevel, before: Found | None) -> Found |
 # Rungs of T0 and T1 on each film of a question.
 
 
-def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: int) -> MadeRung:
+def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: int) -> VariantRung:
     """Return the rung of an answer on a film of one temperature."""
     inner = question.make(film, count)
     name = f"{level.name}, {inner.name}"
@@ -181,7 +182,7 @@ def with_moving(judge: RestJudge, bearing: Any, heat: HeatError, method: str) ->
 # keeps the temperature of the rest.
 
 
-def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> MadeRung:
+def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> VariantRung:
     """Return the rung of T2 or T3, the error of which is what steps towards T3 or coarser grids change."""
     bearing = film.reaction
     name = f"{level.name}, JFO" if isinstance(bearing, JFOFilm) else level.name
@@ -213,7 +214,7 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> MadeRun
     return counted_rung(name, ("answers", name), question.field_rests * level.seconds, solve, judge)
 
 
-def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[MadeRung, ...]:
+def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[VariantRung, ...]:
     """Return the first rungs of a motion on the film of T3 that keeps the temperature of the rest."""
 
     @cache
@@ -226,7 +227,7 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[MadeRung, ...]:
         own = film.frozen(rest(REFERENCE).reaction)
         return replace(own, rich=own.reaction, rich_name="itself")
 
-    def rung(count: int) -> MadeRung:
+    def rung(count: int) -> VariantRung:
         def solve(before: Found | None) -> tuple[Any, WarmSolution]:
             own = question.make(frozen(), count)
             found = own.answer(answer_below(REFERENCE, before))
@@ -247,14 +248,6 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[MadeRung, ...]:
 
 
 # The ladder of a question about a bearing on an oil.
-
-
-def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
-    """Return the films whose losses are known; InputError where there is none, as they are wanted."""
-    known = tuple(film for film in films if film.has_losses)
-    if known:
-        return known
-    raise InputError(f"film must be a law with losses for {wanted}, as map or reynolds, got {films[0].name}")
 
 
 def known_films(films: Sequence[FilmCandidate]) -> tuple[Any, ...]:

@@ -11,40 +11,35 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analysis import coefficients, equilibrium
-from ..analysis.harmonic_balance import basis, first_wave
-from ..analysis.stateful_orbit import StatefulTurn, TurnEquations, resampled
+from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
 from ..bearings.pads import (
     LobedBearing,
-    LobeShare,
     PadFilm,
     PadGridFilm,
     PadMapFilm,
     PadResolution,
     PressureDamBearing,
     TiltingPadBearing,
-    TiltingPads,
     differenced_slopes,
     is_pad_mappable,
+    lobe_share,
 )
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array, settled
 from ..core.results import Equilibrium
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family, SceneModels
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
-from ..scenes.pad_tables import DamTable, LobedTable, TiltingTable, dam_film_name, pad_film_name, quick_pads
-from .coupling import coupling_ladder
+from ..scenes.pad_tables import pad_film_name, settled_scene
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
     OrbitRung,
-    blade_loss_ladder,
+    film_ladders,
     orbit_ladder,
     wave_change,
     wave_value,
 )
-from .film_statics import Films, static_ladder, whirl_ladder
+from .film_statics import static_ladder, whirl_ladder
 from .quantities import QUANTITIES
 
 if TYPE_CHECKING:
@@ -67,51 +62,50 @@ FINE, FINEST = (192, 16), (384, 32)
 
 
 @dataclass(frozen=True, kw_only=True)
-class LobedCandidate(FilmCandidate):
-    """A film of pads that may answer for a bearing of fixed ones.
+class PadCandidate(FilmCandidate):
+    """A film of pads that may answer for a bearing of fixed ones, or so many cells of those with recesses.
 
     Attributes
     ----------
-    reaction : LobedBearing
+    reaction : LobedBearing or PressureDamBearing
         With this film.
-    rich : LobedBearing
+    rich : LobedBearing or PressureDamBearing
         With the richer one.
     """
 
-    reaction: LobedBearing
-    rich: LobedBearing
+    reaction: LobedBearing | PressureDamBearing
+    rich: LobedBearing | PressureDamBearing
 
-    @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        film = self.reaction.film
-        cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
-        return len(self.reaction.lobes) * (CELL_TIME * cells or CALL_TIME)
-
-    def on_grid(self, bearing: LobedBearing) -> bool:
+    def on_grid(self, bearing: LobedBearing | PressureDamBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
-        return isinstance(bearing.film, PadGridFilm)
+        return isinstance(bearing, PressureDamBearing) or isinstance(bearing.film, PadGridFilm)
 
     def wedge(self, position: Array) -> float:
-        """Return the distance [m] from the center of curvature of the pad that has the least film."""
-        c = self.reaction.clearance
-        near = min(self.reaction.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
+        """Return the distance [m] from the center of curvature of the pad that has the least film.
+
+        With recesses from the farthest one.
+        """
+        bearing, c = self.reaction, self.reaction.clearance
+        if isinstance(bearing, PressureDamBearing):
+            return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in bearing.pads))
+        near = min(bearing.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
         return float(np.hypot(*(position - c * np.array(near.center))))
 
     def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
         """Return the bounds of the maps of all pads together in an equilibrium; infinite without maps."""
-        film = self.reaction.film
-        if not isinstance(film, PadMapFilm):
+        bearing = self.reaction
+        if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
             return math.inf
-        shares = [LobeShare(self.reaction, film, lobe, at.position, at.speed) for lobe in self.reaction.lobes]
+        place, film = (at.position, at.speed), bearing.film
+        shares = (lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
+        force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
-            return sum(share.force for share in shares) / math.hypot(*at.load)
-        found = coefficients(self.reaction, at.position, at.speed)
-        stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
-        return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
+            return force / math.hypot(*at.load)
+        found = coefficients(bearing, at.position, at.speed)
+        return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
-def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandidate, ...]:
+def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the films that can answer for a bearing of fixed pads: maps that are there, grids, other maps.
 
     Parameters
@@ -139,12 +133,12 @@ def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandid
     return (*ready, *grids, *(film for film in maps if film.makes_map))
 
 
-def few_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[LobedCandidate, ...]:
+def few_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the candidates for some equilibria: a map that must be made first costs more than any grid."""
     return tuple(film for film in candidates if fixed or not film.makes_map)
 
 
-def many_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[LobedCandidate, ...]:
+def many_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the candidates for states all round a turn: the finest grid costs more than any map."""
     kept = [PadGridFilm(cells=cells) for cells in TURN_GRIDS]
     return tuple(
@@ -154,7 +148,7 @@ def many_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[L
     )
 
 
-def _maps(bearing: LobedBearing) -> list[LobedCandidate]:
+def _maps(bearing: LobedBearing) -> list[PadCandidate]:
     """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
     extents = {lobe.extent for lobe in bearing.lobes}
     if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
@@ -171,12 +165,13 @@ def _lobed_candidate(
     rich: tuple[int, int],
     position_prior: float,
     prior: float,
-) -> LobedCandidate:
+) -> PadCandidate:
     making = 0.0
     if isinstance(film, PadMapFilm):
         extents = {lobe.extent for lobe in bearing.lobes}
         making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
-    return LobedCandidate(
+    cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
+    return PadCandidate(
         name=name,
         reaction=replace(bearing, film=film),
         rich=replace(bearing, film=PadGridFilm(cells=rich)),
@@ -184,6 +179,7 @@ def _lobed_candidate(
         position_prior=position_prior,
         prior=prior,
         making=making,
+        call_time=len(bearing.lobes) * (CELL_TIME * cells or CALL_TIME),
     )
 
 
@@ -197,39 +193,9 @@ DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
 """Cells of richer films."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class DamCandidate(FilmCandidate):
-    """A film on so many cells that may answer for a bearing of pads with recesses.
-
-    Attributes
-    ----------
-    reaction : PressureDamBearing
-        With these cells.
-    rich : PressureDamBearing
-        With more.
-    """
-
-    reaction: PressureDamBearing
-    rich: PressureDamBearing
-
-    @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        return len(self.reaction.pads) * CELL_TIME * math.prod(self.reaction.cells)
-
-    def on_grid(self, bearing: PressureDamBearing) -> bool:
-        """Return that the films of both bearings live on grids in two dimensions."""
-        return True
-
-    def wedge(self, position: Array) -> float:
-        """Return the distance [m] from the farthest center of curvature."""
-        c, pads = self.reaction.clearance, self.reaction.pads
-        return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in pads))
-
-
 def dam_candidates(
     bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
-) -> tuple[DamCandidate, ...]:
+) -> tuple[PadCandidate, ...]:
     """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
 
     Parameters
@@ -251,15 +217,16 @@ def dam_candidates(
 
 def _dam_candidate(
     bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
-) -> DamCandidate:
+) -> PadCandidate:
     rich = replace(bearing, cells=cells)
-    return DamCandidate(
-        name=dam_film_name(bearing),
+    return PadCandidate(
+        name=pad_film_name(bearing),
         reaction=bearing,
         rich=rich,
-        rich_name=dam_film_name(rich),
+        rich_name=pad_film_name(rich),
         position_prior=position_prior,
         prior=prior,
+        call_time=len(bearing.pads) * CELL_TIME * math.prod(bearing.cells),
     )
 
 
@@ -290,14 +257,6 @@ class TiltingCandidate(FilmCandidate):
 
     reaction: TiltingPadBearing
     rich: TiltingPadBearing
-
-    @property
-    def call_time(self) -> float:
-        """About what a force with derivatives of pads at rest takes [s]."""
-        film = self.reaction.film
-        if not isinstance(film, PadGridFilm):
-            return MAP_CALL
-        return LOOKS * len(self.reaction.pivots) * CELL_TIME * math.prod(film.cells)
 
     @property
     def tangents(self) -> WorkUnit:
@@ -363,7 +322,7 @@ class TiltingCandidate(FilmCandidate):
         return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
     return differenced_slopes(bearing, e, w, STEP)
 
@@ -393,9 +352,10 @@ def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[Tilt
 def _tilting_candidate(
     bearing: TiltingPadBearing, film: PadFilm, name: str, position_prior: float, prior: float
 ) -> TiltingCandidate:
-    making, rich = 0.0, (96, 8)
+    making, rich, call_time = 0.0, (96, 8), MAP_CALL
     if isinstance(film, PadGridFilm):
         rich = 2 * film.cells[0], 2 * film.cells[1]
+        call_time = LOOKS * len(bearing.pivots) * CELL_TIME * math.prod(film.cells)
     elif isinstance(film, PadMapFilm):
         making = film.making_time(bearing.extent, bearing.slenderness)
     return TiltingCandidate(
@@ -406,82 +366,37 @@ def _tilting_candidate(
         position_prior=position_prior,
         prior=prior,
         making=making,
+        call_time=call_time,
     )
 
 
-# Ladders of bearings of fixed pads: those of journals, by films of pads.
-
-
-PAD_STATICS = [quantity for quantity in QUANTITIES if quantity != "maximum_temperature"]
-"""Static quantities of pads, whose films have one temperature."""
-
-
-def fixed_ladders(points: Films, turns: Films) -> dict[str, Callable[[Scene, str], Ladder]]:
-    """Return the ladders by quantity, of candidates for some equilibria and for states all round a turn."""
-    return {
-        **dict.fromkeys(PAD_STATICS, partial(static_ladder, points)),
-        **dict.fromkeys(ORBITS, partial(orbit_ladder, turns)),
-        "whirl_threshold": partial(whirl_ladder, points),
-        "blade_loss_peak": partial(blade_loss_ladder, turns),
-        "cosimulation_error": coupling_ladder,
-    }
+PAD_STATICS = [name for name in QUANTITIES if name not in ("maximum_temperature", "maximum_pressure")]
+"""Static quantities of pads: films of one temperature, of which only those with recesses tell a pressure."""
 
 
 # What bearings of fixed pads bring to scenes and questions.
 
 
-def _all(scene: Scene) -> tuple[LobedCandidate, ...]:
+def _all(scene: Scene) -> tuple[PadCandidate, ...]:
     return lobed_candidates(scene.table("lobed_journal").build(), fixed=scene.film_is_given)
 
 
-LOBED = Family(
-    table=LobedTable,
-    ladders=fixed_ladders(
-        lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
-        lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
-    ),
-    models=film_models,
-    example={
-        "lobed_journal": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "preset": "elliptical",
-            "assembled_clearance": "70 um",
-            "preload": 0.5,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
+LOBED = film_ladders(
+    lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
+    lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
+    PAD_STATICS,
 )
 
 
 # What pressure dams bring to scenes and questions.
 
 
-def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]:
+def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]:
     scene = settled_scene(scene) if turns else scene
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-PRESSURE_DAM = Family(
-    table=DamTable,
-    ladders=fixed_ladders(_dam_films, partial(_dam_films, turns=True)),
-    models=film_models,
-    example={
-        "pressure_dam": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "pad_clearance": "80 um",
-            "depth": "140 um",
-            "end": "145 deg",
-            "share": 0.75,
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
+PRESSURE_DAM = film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"])
 
 
 # Questions about tilting pads: K and C are those at the shaft's frequency.
@@ -572,58 +487,10 @@ class StatefulOrbitRung(OrbitRung):
 # What tilting pads bring to scenes and questions.
 
 
-def tilting_models(scene: Scene) -> SceneModels:
-    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
-    scene = settled_scene(scene)
-    models = film_models(scene)
-    bearing = scene.table("tilting_pad").build()
-    rest = np.array([models.start["x"], models.start["y"]])
-    pads = bearing.at_rest().pad_states(rest, scene.speed)
-    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
-    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
-
-
-TILTING = Family(
-    table=TiltingTable,
-    ladders={
-        **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
-        **dict.fromkeys(
-            ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
-        ),
-        "whirl_threshold": partial(whirl_ladder, _films, levels=False),
-    },
-    models=tilting_models,
-    example={
-        "tilting_pad": {
-            "diameter": "100 mm",
-            "length": "50 mm",
-            "viscosity": "20 mPa s",
-            "assembled_clearance": "70 um",
-            "preload": 0.3,
-            "pad_count": 5,
-            "loading": "between_pads",
-            "extent": "60 deg",
-        },
-        "operation": {"speed": "3000 rpm"},
-        "rigid_rotor": {"mass": "200 kg"},
-    },
-)
-
-
-# Pads on an oil: in motion their films keep the temperature that they have at rest.
-
-
-def is_warm(scene: Scene) -> bool:
-    """Return whether the bearing of a scene runs on an oil, as warm as its films get."""
-    return bool(scene.film_table.build().is_warming)
-
-
-def settled_scene(scene: Scene) -> Scene:
-    """Return a scene whose films keep the temperature that they have with the journal at rest."""
-    if not is_warm(scene):
-        return scene
-    bearing: Any = scene.bearing
-    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
-    name = next(name for name, table in scene.others.items() if table is scene.film_table)
-    kept: Any = replace(scene.film_table, temperature=at.temperature)  # type: ignore[type-var]
-    return replace(scene, others={**scene.others, name: kept})
+TILTING = {
+    **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
+    **dict.fromkeys(
+        ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
+    ),
+    "whirl_threshold": partial(whirl_ladder, _films, levels=False),
+}

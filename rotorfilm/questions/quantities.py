@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ..analysis import coefficients
 from ..core.answers import relative_change
 from ..core.results import Equilibrium
-from ..scenes.film_rungs import FilmCandidate
+from ..scenes.film_rungs import FilmCandidate, with_losses, with_pressures
 
 # Distances of a value from a better one, in the unit of the tolerance.
 
@@ -63,6 +63,10 @@ def _of_heat(film: FilmCandidate, at: Equilibrium) -> float:
     return 2.0 * film.loss_bound(at.eccentricity_ratio)  # that of power / flow
 
 
+def _of_none(film: FilmCandidate, at: Equilibrium) -> float:
+    return math.inf
+
+
 class FilmQuantity(NamedTuple):
     """One quantity of a journal at rest.
 
@@ -81,6 +85,8 @@ class FilmQuantity(NamedTuple):
         Whether it is a derivative of the force.
     scaled : bool
         Whether grids change it by about the same share, coarse ones or fine.
+    films : callable or None
+        Takes films and the quantity, and returns those that know it; None where all do.
     """
 
     unit: str
@@ -90,6 +96,7 @@ class FilmQuantity(NamedTuple):
     position: bool = False
     slopes: bool = False
     scaled: bool = False
+    films: Callable[[Sequence[FilmCandidate], str], Sequence[FilmCandidate]] | None = None
 
 
 _way = _of_position(lambda at: float(np.hypot(*at.position)))
@@ -101,15 +108,19 @@ QUANTITIES = {
     "attitude_angle": FilmQuantity("rad", lambda r: r.attitude_angle, _way, absolute, position=True),
     "stiffness": FilmQuantity("N/m", lambda r: r.coefficients.stiffness, _of_slopes, slopes=True),
     "damping": FilmQuantity("N s/m", lambda r: r.coefficients.damping, _of_slopes, slopes=True),
-    "power_loss": FilmQuantity("W", lambda r: float(r.losses.power_loss), _of_losses, scaled=True),
-    "side_flow": FilmQuantity("m^3/s", lambda r: float(r.losses.side_flow), _of_losses, scaled=True),
+    "power_loss": FilmQuantity(
+        "W", lambda r: float(r.losses.power_loss), _of_losses, scaled=True, films=with_losses
+    ),
+    "side_flow": FilmQuantity(
+        "m^3/s", lambda r: float(r.losses.side_flow), _of_losses, scaled=True, films=with_losses
+    ),
+    "maximum_pressure": FilmQuantity(
+        "Pa", lambda r: r.maximum_pressure, _of_none, scaled=True, films=with_pressures
+    ),
     "temperature": FilmQuantity("K", lambda r: r.temperature, _of_heat, relative_rise),
     "maximum_temperature": FilmQuantity("K", lambda r: r.maximum_temperature, _of_heat, relative_rise),
 }
 """Quantities of a journal at rest, by their names."""
-
-LOSSES = ("power_loss", "side_flow")
-"""Those that not every film law has."""
 
 TEMPERATURES = ("temperature", "maximum_temperature")
 """Those of an oil whose heat balances."""

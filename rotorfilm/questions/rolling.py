@@ -22,8 +22,6 @@ from ..bearings.rolling import (
 from ..core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.export_scene import film_models
-from ..scenes.families import Family
 from ..scenes.rolling import (
     Balls,
     BallTable,
@@ -343,21 +341,4 @@ def other_friction(law: RunningBalls | RaceControl) -> list[RunningBalls | RaceC
     ]
 
 
-FAMILY = Family(
-    table=BallTable,
-    ladders=dict.fromkeys(QUANTITIES, ball_ladder),
-    models=film_models,
-    example={
-        "ball_bearing": {
-            "balls": 16,
-            "ball_diameter": "7.938 mm",
-            "pitch_diameter": "46.5 mm",
-            "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride",
-            "arrangement": "back_to_back",
-            "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-)
+LADDERS = dict.fromkeys(QUANTITIES, ball_ladder)

@@ -19,19 +19,19 @@ from ..analysis.rotor_matrices import (
     whirl_near,
 )
 from ..analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     SpeedEvent,
     Start,
-    Threshold,
     Whirl,
     on_films,
+    secant_speed,
     value_rate,
     whirl_of,
 )
 from ..core.answers import (
     DISAGREEMENT,
     SAFETY,
-    BaseRung,
     ErrorEstimate,
     Found,
     Ladder,
@@ -43,24 +43,23 @@ from ..core.errors import AbsentError, InputError
 from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
-from ..scenes.excitation_table import oil_remarks
-from ..scenes.families import Family
-from ..scenes.shaft_table import ShaftTable
-from ..scenes.solve_shaft import shaft_remarks, solve_rotor
+from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, WarmRest
 from .film_motions import ORBIT_UNITS as ORBITS
 from .film_statics import moving_heat
 from .shaft_films import (
     ShaftFilms,
+    ShaftRung,
     at_supply,
     coefficient_bounds,
-    field_speeds,
+    field_error,
+    field_rests,
     film_levels,
     rich_coefficients,
-    shaft_assumptions,
-    warm_physics,
-    warm_rungs,
+    shaft_ladder_on,
+    with_fields,
 )
 from .shaft_orbits import PEAK, shaft_orbit_ladder, shaft_peak_ladder
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -71,7 +70,7 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-EVENTS: dict[str, SpeedEvent] = {"critical_speed": Critical(), "whirl_threshold": Threshold()}
+EVENTS: dict[str, SpeedEvent] = {"critical_speed": CRITICAL, "whirl_threshold": THRESHOLD}
 """What happens at the speeds that may be asked for."""
 
 SHAFT_ROUNDOFF = float(np.finfo(float).eps)
@@ -108,33 +107,19 @@ class CorrectedSpeed(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftRung(BaseRung):
+class ShaftSpeedRung(ShaftRung):
     """The first critical speed, or the threshold, by one model of the shaft and one film for each journal.
 
     Attributes
     ----------
     event : SpeedEvent
         What happens at the speed that is asked for.
-    model : ShaftModel
-    films : ShaftFilms
     speeds : ndarray, shape (n,) [rad/s]
         Where it is looked for.
     """
 
     event: SpeedEvent
-    model: ShaftModel
-    films: ShaftFilms
     speeds: Array
-
-    @property
-    def name(self) -> str:
-        """Name of the model of the shaft, and of the film."""
-        return f"{self.model.name}, {self.films.name}" if self.films.name else self.model.name
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One linear problem."""
-        return WorkUnit(f"problems of {self.name}", ("problems", id(self.model), id(self.films)))
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed [rad/s]: looked for, or followed from that of a lower rung."""
@@ -143,7 +128,8 @@ class ShaftRung(BaseRung):
         # Static shapes may be so far off that another whirl is nearer to theirs.
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
-        found = [whirl_of(self.event, self.model.rotor, self.films, start) for start in starts]
+        bearings = self.films.reaction, self.films.turning
+        found = [whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
@@ -171,8 +157,7 @@ class ShaftRung(BaseRung):
         Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
         solution: ShaftSpeed = found.solution
-        structure, steps = self.model.rotor.structure, {WorkUnit(f"steps for {self.name}"): 3}
-        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
+        steps, rates = {WorkUnit(f"steps for {self.name}"): 3}, [self.rate(one) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
         own, doubt = self._change(found, rates, trusted=True) if math.isfinite(bound) else (0.0, "")
@@ -229,31 +214,25 @@ class ShaftRung(BaseRung):
         at: RotorEquilibrium = found.solution.whirls[0].at
         return at
 
-    def solution(self, whirl: Whirl) -> ShaftSpeed:
-        """Return one whirl as what an answer starts from."""
-        return ShaftSpeed(whirls=(whirl,), model=self.model)
-
     def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
         """Return the speed [rad/s] on these K and C, for small changes."""
         whirl: Whirl = found.solution.whirls[0]
-        rate = self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
-        return self._stepped(whirl, rate, coefficients, "").speed
+        return self._stepped(whirl, self.rate(whirl), coefficients, "").speed
 
-    def distance(self, value: float, better: float) -> float:
-        """Return by which share of it a speed is off."""
-        return abs(better - value) / better
+    def rate(self, whirl: Whirl) -> float:
+        """Return by how much what must vanish changes with the speed [1]."""
+        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
 
     def moving(self, found: Found) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
-        if not isinstance(self.event, Threshold):
+        if self.event is not THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)
 
     def mesh_error(self, found: Found) -> ErrorEstimate:
         """Return the change in elements half as long, on the same K and C."""
-        structure = self.model.rotor.structure
-        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in found.solution.whirls]
+        rates = [self.rate(one) for one in found.solution.whirls]
         error, doubt = self._change(found, rates, trusted=True)
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
         return ErrorEstimate(error, method, doubt=doubt)
@@ -309,54 +288,74 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
-    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
-    speeds, models = scene.shaft.speeds.build(), shaft_models(rotor)
-    levels, event = film_levels(scene.shaft), EVENTS[quantity]
+    rotor, speeds = scene.shaft.build(), scene.shaft.speeds.build()
+    models, levels, event = shaft_models(rotor), film_levels(scene.shaft), EVENTS[quantity]
 
-    def rungs_on(levels: tuple[ShaftFilms, ...]) -> tuple[ShaftRung, ...]:
-        return tuple(
-            ShaftRung(event=event, model=model, films=films, speeds=speeds)
+    def rungs_on(levels: tuple[ShaftFilms, ...]) -> list[ShaftSpeedRung]:
+        return [
+            ShaftSpeedRung(event=event, model=model, films=films, speeds=speeds)
             for films in levels
             for model in (models if films is levels[-1] else models[:3])
-        )
+        ]
 
-    films, rungs, fresh = levels[0], rungs_on(levels), rungs_on(tuple(map(at_supply, levels)))
-    return Ladder(
-        rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
-        unit="rad/s",
-        remarks=oil_remarks(scene.tables, scene.lubricant)
-        + shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
-        within=warm_physics(films, bearings),
-        assumptions=lambda: shaft_assumptions(rungs[0]),
+    rungs = rungs_on(levels)
+    mesh = next((rung for rung in rungs if rung.model.modes is None), rungs[0])
+    return shaft_ladder_on(
+        scene,
+        rotor,
+        float(speeds[-1]),
+        "rad/s",
+        rungs,
+        lambda: (
+            rungs_on(tuple(map(at_supply, levels))),
+            (field_speed(level, mesh) for level in FIELD_LEVELS[:2]),
+        ),
     )
 
 
-# What flexible rotors in their bearings bring to scenes and questions.
+RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
+"""Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
 
 
-JOURNAL = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
-"""The bearings of the example."""
+def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
+    """Return a critical speed, or the threshold, on films with a temperature field.
 
-FAMILY = Family(
-    table=ShaftTable,
-    ladders={
-        **dict.fromkeys(EVENTS, shaft_ladder),
-        **dict.fromkeys(ORBITS, shaft_orbit_ladder),
-        PEAK: shaft_peak_ladder,
-    },
-    answer=solve_rotor,
-    example={
-        "shaft": {
-            "material": {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"},
-            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
-            "bearings": [
-                {"name": "left", "node": 0, "journal": JOURNAL},
-                {"name": "right", "node": 4, "journal": JOURNAL},
-            ],
-            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
-            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
-            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
-            "highest_frequency": "100 Hz",
-        },
-    },
-)
+    It is found by secants from that by T1, of the rung, and its error is that of the model of the shaft, and
+    that of the films.
+    """
+    name = f"{level.level}, {rung.model.name}, {level.grid}"
+    seconds = 4.0 * len(rung.films.on_oil) * level.seconds
+    unit = WorkUnit(f"speeds of {name}", ("speeds", name), nominal=seconds)
+
+    def answer(before: Found | None) -> Found:
+        uniform = before is not None and isinstance(before.solution, ShaftSpeed)
+        whirl = rung.answer(before if uniform else None).solution.whirls[0]
+        structure, event = rung.model.rotor.structure, rung.event
+
+        def lead_at(speed: float) -> tuple[float, tuple[Found, dict[str, WarmRest]]]:
+            nonlocal whirl
+            at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
+            rests = field_rests(rung.films, at, level)
+            warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
+            frequency = event.frequency(whirl.value, speed)
+            whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
+            found = Found(speed, {}, ShaftSpeed(whirls=(whirl,), model=rung.model))
+            return event.lead(whirl.value, speed), (found, rests)
+
+        near = secant_speed(
+            lead_at, whirl.at.speed, rung.rate(whirl), near=NEAR, farthest=FARTHEST, most=RESTS
+        )
+        return Found(near.speed, {unit: 1}, near.solution)
+
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        inner, rests = found.solution
+        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level), name)
+
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+
+
+LADDERS = {
+    **dict.fromkeys(EVENTS, shaft_ladder),
+    **dict.fromkeys(ORBITS, shaft_orbit_ladder),
+    PEAK: shaft_peak_ladder,
+}

@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
-from ..analysis.rotor_matrices import whirl_near
-from ..analysis.speed_events import SpeedEvent, Whirl, on_films, secant_speed, value_rate
+from ..analysis import RotorEquilibrium, equilibrium
 from ..bearings.journal import JournalBearing
-from ..core.answers import HEATED, SAFETY, BaseRung, ErrorEstimate, Found, Rung, Work, WorkUnit
+from ..core.answers import (
+    HEATED,
+    SAFETY,
+    BaseRung,
+    ErrorEstimate,
+    Found,
+    Ladder,
+    Rung,
+    WorkUnit,
+    relative_change,
+)
 from ..core.model import Reaction
 from ..core.results import Coefficients
+from ..rotors import ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel
+from ..scenes.excitation_table import oil_remarks
 from ..scenes.film_heat import (
     FIELD_LEVELS,
     FieldLevel,
@@ -31,11 +41,13 @@ from ..scenes.film_heat import (
 )
 from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
-from ..scenes.solve_shaft import shaft_physics
-from .heat_levels import BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat
+from ..scenes.solve_shaft import shaft_physics, shaft_remarks
+from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
+from .variants import VariantRung
 
 if TYPE_CHECKING:
-    from ..scenes.schema import JournalTable
+    from ..scenes.journal_tables import JournalTable
+    from ..scenes.scene import Scene
     from ..scenes.shaft_table import ShaftTable
 
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
@@ -94,6 +106,10 @@ class ShaftFilms:
     def on_oil(self) -> tuple[str, ...]:
         """Stations whose films are of an oil, with a temperature."""
         return tuple(name for name, film in self.journals.items() if film.reaction.oil is not None)
+
+    def changed(self, films: Mapping[str, FilmRung]) -> ShaftFilms:
+        """Return films of which some, by station, are others."""
+        return replace(self, journals={**self.journals, **films})
 
     def prepare(self) -> dict[WorkUnit, int]:
         """Make the maps that are not there yet, and return the work of that."""
@@ -156,51 +172,114 @@ def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
     return min((bound for reach, bound in REST_BOUNDS if eccentricity_ratio <= reach), default=math.inf)
 
 
+# What rungs of a flexible rotor have in common, and the ladder of them.
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftRung(BaseRung):
+    """An answer by one model of the shaft and one film for each journal; a question adds how it is found.
+
+    Attributes
+    ----------
+    model : ShaftModel
+    films : ShaftFilms
+    """
+
+    model: ShaftModel
+    films: ShaftFilms
+
+    @property
+    def how(self) -> str:
+        """How the model is solved, where that is not the same for all rungs."""
+        return ""
+
+    @property
+    def name(self) -> str:
+        """How it is solved, the model of the shaft, the film."""
+        return ", ".join(part for part in (self.how, self.model.name, self.films.name) if part)
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One problem of its own."""
+        return WorkUnit(f"problems of {self.name}", (self.how, id(self.model), id(self.films)))
+
+    def answer(self, before: Found | None) -> Found:
+        """Return its answer, from that of a lower rung or alone."""
+        raise NotImplementedError
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of its answer without running a richer model."""
+        raise NotImplementedError
+
+    def rest(self, found: Found) -> RotorEquilibrium:
+        """Return the rotor at rest, of an answer."""
+        raise NotImplementedError
+
+    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+        """Return the answer on these K and C of its bearings, for small changes."""
+        raise NotImplementedError
+
+    def distance(self, value: float, better: float) -> float:
+        """Return how far a value is from a better one, in the unit of the tolerance."""
+        return relative_change(value, better)
+
+    def moving(self, found: Found) -> float:
+        """Return the error by heat that moves with the motion."""
+        return 0.0
+
+
+def shaft_ladder_on(
+    scene: Scene,
+    rotor: ShaftRotor,
+    speed: float,
+    unit: str,
+    rungs: Sequence[ShaftRung],
+    heated: Callable[[], tuple[Sequence[ShaftRung], Iterator[Rung]]],
+) -> Ladder:
+    """Return the ladder of a question about the shaft of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    rotor : ShaftRotor
+        Of the remarks.
+    speed : float [rad/s]
+        Of the remarks.
+    unit : str
+    rungs : sequence of ShaftRung
+        On films as warm as the rest makes them, where they are of an oil (T1).
+    heated : callable
+        Returns the rungs on fresh oil (T0), and those on temperature fields (T2, T3).
+    """
+    assert scene.shaft is not None
+    bearings, on_oil, first = scene.shaft.build_bearings(), rungs[0].films.on_oil, rungs[0]
+    ladder: tuple[Rung, ...] = tuple(rungs)
+    if on_oil:
+        fresh, fields = heated()
+        levels = ((RotorHeat(FRESH), fresh), (RotorHeat(BALANCED), rungs))
+        ladder = (*(warm_rung(rung, heat) for heat, each in levels for rung in each), *fields)
+    oil = scene.lubricant.properties
+    return Ladder(
+        rungs=ladder,
+        unit=unit,
+        remarks=oil_remarks(scene.tables, scene.lubricant) + shaft_remarks(rotor, bearings, oil, speed),
+        within=HEATED if on_oil else shaft_physics(bearings),
+        assumptions=lambda: shaft_assumptions(first),
+        distance=first.distance,
+    )
+
+
 # Flexible rotors on films of an oil: the films as fresh oil (T0) or as warm as the rotor's rest (T1).
 
 
 NEAR_HEAT = 0.02
 """Relative change of speed within which rungs of a level have the same error by heat."""
 
-
-class HeatedShaft(Rung, Protocol):
-    """A rung of a rotor that can say what other K and C of its bearings make of its answer."""
-
-    @property
-    def films(self) -> ShaftFilms:
-        """Its films."""
-
-    def rest(self, found: Found) -> RotorEquilibrium:
-        """Return the rotor at rest, of an answer."""
-
-    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
-        """Return the answer on these K and C, for small changes."""
-
-    def distance(self, value: float, better: float) -> float:
-        """Return how far a value is from a better one, in the unit of the tolerance."""
-
-    def moving(self, found: Found) -> float:
-        """Return the error by heat that moves with the motion."""
+HeatFound = tuple[HeatError, str, str]
+"""An error by heat, how it is known, and why it must not be trusted; empty if it may."""
 
 
-class HeatFound(NamedTuple):
-    """What the heat of the films leaves open.
-
-    Attributes
-    ----------
-    error : HeatError
-    how : str
-        By which it is known.
-    doubt : str
-        Why it must not be trusted; empty if it may.
-    """
-
-    error: HeatError
-    how: str
-    doubt: str
-
-
-def rests_of(rung: HeatedShaft, at: RotorEquilibrium) -> dict[str, WarmRest]:
+def rests_of(rung: ShaftRung, at: RotorEquilibrium) -> dict[str, WarmRest]:
     """Return the rest in each film of an oil, at its temperature."""
     found = {}
     for name in rung.films.on_oil:
@@ -210,13 +289,13 @@ def rests_of(rung: HeatedShaft, at: RotorEquilibrium) -> dict[str, WarmRest]:
     return found
 
 
-def value_on(rung: HeatedShaft, found: Found, rests: Mapping[str, WarmRest]) -> float:
+def value_on(rung: ShaftRung, found: Found, rests: Mapping[str, WarmRest]) -> float:
     """Return the answer on the films of other rests."""
     own = rung.rest(found).coefficients
     return rung.on(found, {**own, **{name: one.coefficients for name, one in rests.items()}})
 
 
-def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatFound:
+def steps_error(rung: ShaftRung, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatFound:
     """Return how far a value is off by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
     samples = {name: one.sample for name, one in steps.items()}
@@ -225,16 +304,8 @@ def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str,
         value_on(rung, found, {name: one[k] for name, one in samples.items()}) for k in range(5)
     )
     doubt = next((one.doubt for one in steps.values() if one.doubt), "")
-    return with_moving(
-        rung, found, heat_error(own, start, (last, before, coarse, fine, long), rung.distance), doubt
-    )
-
-
-def with_moving(rung: HeatedShaft, found: Found, heat: HeatError, doubt: str) -> HeatFound:
-    """Return an error with that of heat that moves with the motion."""
-    moving = rung.moving(found)
-    how = f"steps towards T3, moving heat {moving:.2g} lower" if moving else "steps towards T3"
-    return HeatFound(HeatError(heat.error + moving, heat.bound or moving > heat.error), how, doubt)
+    heat = heat_error(own, start, (last, before, coarse, fine, long), rung.distance)
+    return *with_moving(rung, found, heat, "steps towards T3"), doubt
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,7 +323,7 @@ class RotorHeat:
     level: HeatLevel
     known: list[tuple[float, float, HeatFound]] = field(default_factory=list)
 
-    def error(self, rung: HeatedShaft, found: Found, tolerance: float) -> HeatFound:
+    def error(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatFound:
         """Return the error of an answer by heat; that of another rung next to it."""
         speed = rung.rest(found).speed
         for asked, at, heat in self.known:
@@ -262,7 +333,7 @@ class RotorHeat:
         self.known.append((tolerance, speed, heat))
         return heat
 
-    def _found(self, rung: HeatedShaft, found: Found, tolerance: float) -> HeatFound:
+    def _found(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatFound:
         rests = rests_of(rung, rung.rest(found))
         own = value_on(rung, found, rests)
         if self.level is FRESH:
@@ -271,81 +342,41 @@ class RotorHeat:
                 rests[name] = uniform_rest(bearing, one.rest.load, one.rest.speed, balance_at(bearing, one))
             error = rung.distance(own, value_on(rung, found, rests))
             if SAFETY * error >= tolerance:
-                return HeatFound(HeatError(error, False), "its balance", "")
+                return HeatError(error, False), BALANCE, ""
         return steps_error(rung, found, own, rests)
 
 
-@dataclass(frozen=True, kw_only=True)
-class WarmShaftRung(BaseRung):
-    """A rung of a rotor on films of fresh oil (T0), or as warm as its rest makes them (T1).
+def warm_rung(rung: ShaftRung, heat: RotorHeat) -> VariantRung:
+    """Return a rung on films of one temperature, whose error is also that by heat, which a level shares."""
+    name = f"{heat.level.name}, {rung.name}"
 
-    Attributes
-    ----------
-    rung : HeatedShaft
-        Of the rotor.
-    heat : RotorHeat
-    """
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        about = rung.estimate(found, before, tolerance)
+        return with_heat(about, lambda: heat.error(rung, found, tolerance), f"estimates of {name}")
 
-    rung: HeatedShaft
-    heat: RotorHeat
+    return VariantRung(
+        name=name,
+        answer=rung.answer,
+        estimate=estimate,
+        expected=rung.expected,
+        prior=rung.prior,
+        refines=rung.refines,
+        shares=heat,
+    )
 
-    @property
-    def name(self) -> str:
-        """The level, and that of the rung."""
-        return f"{self.heat.level.name}, {self.rung.name}"
 
-    @property
-    def prior(self) -> float:
-        """That of the rung."""
-        return self.rung.prior
-
-    @property
-    def refines(self) -> tuple[object, ...]:
-        """What the rung does."""
-        return self.rung.refines
-
-    @property
-    def shares(self) -> object:
-        """The error by heat."""
-        return self.heat
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the answer of the rung."""
-        return self.rung.answer(before)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the rung, and that by heat."""
-        about = self.rung.estimate(found, before, tolerance)
-        work = f"estimates of {self.name}"
-        return with_heat(about, lambda: self.heat.error(self.rung, found, tolerance), work)
-
-    def expected(self, done: Work) -> Work:
-        """Return that of the rung."""
-        return self.rung.expected(done)
+def at_temperatures(films: ShaftFilms, temperatures: Mapping[str, float]) -> ShaftFilms:
+    """Return films that keep these temperatures [K], by station."""
+    return films.changed({name: films.journals[name].at_temperature(T) for name, T in temperatures.items()})
 
 
 def at_supply(films: ShaftFilms) -> ShaftFilms:
     """Return films of fresh oil."""
-    journals = dict(films.journals)
-    for name in films.on_oil:
-        supply = films.journals[name].reaction.cooled[1].supply_temperature
-        journals[name] = films.journals[name].at_temperature(supply)
-    return replace(films, journals=journals)
+    supply = {name: films.journals[name].reaction.cooled[1].supply_temperature for name in films.on_oil}
+    return at_temperatures(films, supply)
 
 
-def warm_rungs(fresh: tuple[HeatedShaft, ...], balanced: tuple[HeatedShaft, ...]) -> tuple[Rung, ...]:
-    """Return the rungs of T0 and T1."""
-    levels = RotorHeat(FRESH), RotorHeat(BALANCED)
-    pairs = zip(levels, (fresh, balanced), strict=True)
-    return tuple(WarmShaftRung(rung=rung, heat=heat) for heat, rungs in pairs for rung in rungs)
-
-
-def warm_physics(films: ShaftFilms, bearings: Mapping[str, Reaction]) -> str:
-    """Return the physics in which the answers of a shaft are meant."""
-    return HEATED if films.on_oil else shaft_physics(bearings)
-
-
-def shaft_assumptions(rung: HeatedShaft) -> tuple[str, ...]:
+def shaft_assumptions(rung: ShaftRung) -> tuple[str, ...]:
     """Return which figures of the oil and its cooling are assumed, and how much they move the answer.
 
     Each is changed in all films that assume it alike, at the loads and the speed of the answer on T1.
@@ -374,15 +405,6 @@ def shaft_assumptions(rung: HeatedShaft) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def frozen_at(films: ShaftFilms, at: RotorEquilibrium) -> ShaftFilms:
-    """Return films that keep the temperatures of a rest."""
-    journals = {
-        name: film.at_temperature(at.temperatures[name]) if name in at.temperatures else film
-        for name, film in films.journals.items()
-    }
-    return replace(films, journals=journals)
-
-
 # Flexible rotors on films with a temperature field (T2, T3), frozen as at the rotor's rest.
 
 
@@ -391,9 +413,6 @@ NONLINEAR = 3
 
 ROUNDOFF = 1e-9
 """Of loads, relative to them."""
-
-RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
-"""Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
 
 
 def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> dict[str, WarmRest]:
@@ -415,7 +434,7 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
     return rests
 
 
-def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatFound:
+def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatFound:
     """Return the error by heat of an answer on temperature fields.
 
     Of T2 by steps towards T3, of T3 by coarser grids.
@@ -429,196 +448,21 @@ def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], lev
         return value_on(rung, found, field_rests(rung.films, at, one))
 
     grid = grid_error(level, own, value, rung.distance)
-    heat = with_moving(rung, found, HeatError(grid, True), "")
-    return heat._replace(how=heat.how.replace("steps towards T3", "cells twice as long, half the layers"))
+    return *with_moving(rung, found, HeatError(grid, True), "cells twice as long, half the layers"), ""
 
 
 def with_fields(about: ErrorEstimate, heat: HeatFound, name: str) -> ErrorEstimate:
-    """Return the error of a rotor's model with that of the heat in its films."""
-    bound = heat.error.bound if heat.error.error > about.error else about.bound
-    method = f"{about.method}; heat: {heat.how}, {heat.error.error:.2g}"
-    work = {WorkUnit(f"estimates of {name}"): 1}
-    total = about.error + heat.error.error
-    return ErrorEstimate(total, method, work, bound=bound, doubt=about.doubt or heat.doubt)
-
-
-class SpeedRung(HeatedShaft, Protocol):
-    """A rung of a critical speed, or of the threshold, on films of one temperature."""
-
-    @property
-    def model(self) -> ShaftModel:
-        """Its model of the shaft."""
-
-    @property
-    def event(self) -> SpeedEvent:
-        """What happens at the speed."""
-
-    def solution(self, whirl: Whirl) -> Any:
-        """Return one whirl as what an answer starts from."""
-
-    def mesh_error(self, found: Found) -> ErrorEstimate:
-        """Return the error of the model of the shaft on the same K and C."""
-
-
-class FieldSpeed(NamedTuple):
-    """A speed on temperature fields: as an answer of the rung of T1, and the rests in the films."""
-
-    found: Found
-    rests: dict[str, WarmRest]
-
-
-@dataclass(frozen=True, kw_only=True)
-class FieldSpeedRung(BaseRung):
-    """A critical speed, or the threshold, on films with a temperature field.
-
-    Attributes
-    ----------
-    level : FieldLevel
-        T2 or T3.
-    uniform : SpeedRung
-        By T1, where the search starts.
-    """
-
-    level: FieldLevel
-    uniform: SpeedRung
-
-    @property
-    def name(self) -> str:
-        """Level, model of the shaft, cells and layers."""
-        return f"{self.level.level}, {self.uniform.model.name}, {self.level.grid}"
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One answer."""
-        seconds = 4.0 * len(self.uniform.films.on_oil) * self.level.seconds
-        return WorkUnit(f"speeds of {self.name}", ("speeds", self.name), nominal=seconds)
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the speed [rad/s], by secants from that of T1."""
-        rung = self.uniform
-        start = before.solution if before is not None else None
-        lower = before if before is not None and not isinstance(start, FieldSpeed) else None
-        whirl = rung.answer(lower).solution.whirls[0]
-        structure, event = rung.model.rotor.structure, rung.event
-
-        def lead_at(speed: float) -> tuple[float, FieldSpeed]:
-            nonlocal whirl
-            at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
-            rests = field_rests(rung.films, at, self.level)
-            warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
-            frequency = event.frequency(whirl.value, speed)
-            whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
-            found = Found(speed, {}, rung.solution(whirl))
-            return event.lead(whirl.value, speed), FieldSpeed(found, rests)
-
-        rate = event.rate(value_rate(structure, whirl, rung.films))
-        near = secant_speed(lead_at, whirl.at.speed, rate, near=NEAR, farthest=FARTHEST, most=RESTS)
-        return Found(near.speed, {self.unit: 1}, near.solution)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the model of the shaft, and that of the films."""
-        solved: FieldSpeed = found.solution
-        heat = field_error(self.uniform, solved.found, solved.rests, self.level)
-        return with_fields(self.uniform.mesh_error(solved.found), heat, self.name)
-
-
-@dataclass(frozen=True, eq=False)
-class FrozenShaftFilms:
-    """Films with a temperature field that they keep in motion; found once.
-
-    Attributes
-    ----------
-    level : FieldLevel
-    films : ShaftFilms
-        Those of T1.
-    at : RotorEquilibrium
-        By them.
-    """
-
-    level: FieldLevel
-    films: ShaftFilms
-    at: RotorEquilibrium
-
-    @cached_property
-    def rests(self) -> dict[str, WarmRest]:
-        """The rest in each film of an oil."""
-        return field_rests(self.films, self.at, self.level)
-
-    @cached_property
-    def frozen(self) -> ShaftFilms:
-        """The films at rest; there are no richer ones."""
-        journals = dict(self.films.journals)
-        for name, own in self.rests.items():
-            film = journals[name].frozen(own.reaction)
-            journals[name] = replace(film, rich=film.reaction, rich_name="itself")
-        return replace(self.films, journals=journals)
-
-
-class FieldOrbit(NamedTuple):
-    """An orbit on temperature fields: the answer of the rung on its frozen films, and that rung."""
-
-    found: Found
-    rung: HeatedShaft
-
-
-@dataclass(frozen=True, kw_only=True)
-class FieldOrbitRung(BaseRung):
-    """An orbit on films with a temperature field.
-
-    Attributes
-    ----------
-    films : FrozenShaftFilms
-    uniform : HeatedShaft
-        The linear one by T1, which tells what the films change.
-    make : callable
-        Takes films and returns the rung of the orbit on them.
-    """
-
-    films: FrozenShaftFilms
-    uniform: HeatedShaft
-    make: Callable[..., HeatedShaft]
-
-    @property
-    def name(self) -> str:
-        """Level, rung of the orbit on the films, cells and layers."""
-        rung = self.make(replace(self.films.films, journals={}))
-        return f"{self.films.level.level}, {rung.name}, {self.films.level.grid}"
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One answer."""
-        seconds = 2.0 * len(self.films.films.on_oil) * self.films.level.seconds
-        return WorkUnit(f"orbits of {self.name}", ("orbits", self.name), nominal=seconds)
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the quantity of the orbit."""
-        rung = self.make(self.films.frozen)
-        found = rung.answer(None)
-        return Found(found.value, {self.unit: 1}, FieldOrbit(found, rung))
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the orbit on its films, and what theirs changes of the linear one."""
-        solved: FieldOrbit = found.solution
-        about = solved.rung.estimate(solved.found, None, tolerance)
-        linear = self.uniform.answer(None)
-        return with_fields(
-            about, field_error(self.uniform, linear, self.films.rests, self.films.level), self.name
-        )
-
-
-def field_speeds(balanced: Sequence[SpeedRung]) -> tuple[Rung, ...]:
-    """Return the rungs of a speed on T2 and T3, from those of T1, on the mesh of the file."""
-    mesh = next((rung for rung in balanced if rung.model.modes is None), balanced[0])
-    return tuple(FieldSpeedRung(level=level, uniform=mesh) for level in FIELD_LEVELS[:2])
+    """Return the error of a rotor's model with that of the heat in its films, which no other rung shares."""
+    return with_heat(about, lambda: heat, f"estimates of {name}")._replace(shared=0.0)
 
 
 def field_orbits(
     films: ShaftFilms,
     rest: RotorEquilibrium,
-    rung_on: Callable[..., HeatedShaft],
+    rung_on: Callable[..., ShaftRung],
     choices: Sequence[tuple[ShaftModel, int]],
-) -> tuple[Rung, ...]:
-    """Return the rungs of an orbit on T2 and T3: the last linear one, and the first others.
+) -> Iterator[Rung]:
+    """Yield the rungs of an orbit on T2 and T3: the last linear one, and the first others.
 
     Parameters
     ----------
@@ -627,16 +471,46 @@ def field_orbits(
     rest : RotorEquilibrium
         On these.
     rung_on : callable
-        Takes films, `model` of the shaft and `samples` over a turn, and returns the rung.
+        Takes films, model of the shaft and samples over a turn, and returns the rung.
     choices : sequence of (ShaftModel, int)
         Models and samples, 0 of the linear orbit.
     """
-    linear = [choice for choice in choices if not choice[1]]
-    taken = [linear[-1], *[choice for choice in choices if choice[1]][:NONLINEAR]]
-    model, samples = linear[-1]
-    uniform = rung_on(frozen_at(films, rest), model=model, samples=samples)
-    return tuple(
-        FieldOrbitRung(films=warm, uniform=uniform, make=partial(rung_on, model=model, samples=samples))
-        for warm in (FrozenShaftFilms(level, films, rest) for level in FIELD_LEVELS[:2])
-        for model, samples in taken
-    )
+    linear = [choice for choice in choices if not choice[1]][-1]
+    uniform = rung_on(at_temperatures(films, rest.temperatures), *linear)
+    for level in FIELD_LEVELS[:2]:
+        rests = cache(partial(field_rests, films, rest, level))  # found once for the rungs of a level
+        for model, samples in (linear, *[choice for choice in choices if choice[1]][:NONLINEAR]):
+            yield field_orbit(level, uniform, rests, partial(rung_on, model=model, samples=samples), films)
+
+
+def field_orbit(
+    level: FieldLevel,
+    uniform: ShaftRung,
+    rests: Callable[[], dict[str, WarmRest]],
+    make: Callable[[ShaftFilms], ShaftRung],
+    films: ShaftFilms,
+) -> VariantRung:
+    """Return an orbit on films that keep a temperature field.
+
+    Its error is that on these films, and what theirs changes of the linear orbit by T1, `uniform`.
+    """
+    name = f"{level.level}, {make(replace(films, journals={})).name}, {level.grid}"
+    seconds = 2.0 * len(films.on_oil) * level.seconds
+    unit = WorkUnit(f"orbits of {name}", ("orbits", name), nominal=seconds)
+
+    def answer(before: Found | None) -> Found:
+        frozen = {}
+        for station, own in rests().items():
+            film = films.journals[station].frozen(own.reaction)
+            frozen[station] = replace(film, rich=film.reaction, rich_name="itself")  # there is no richer one
+        rung = make(films.changed(frozen))
+        found = rung.answer(None)
+        return Found(found.value, {unit: 1}, (found, rung))
+
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        inner, rung = found.solution
+        about = rung.estimate(inner, None, tolerance)
+        heat = field_error(uniform, uniform.answer(None), rests(), level)
+        return with_fields(about, heat, name)
+
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,32 +15,26 @@ from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized
 from ..analysis.periodic_orbit import RotorAnswers, distance, reach_of, rest_position, rotor_answers
 from ..analysis.speed_events import on_films
 from ..bearings.seal import AnnularSeal
-from ..core.answers import DISAGREEMENT, SAFETY, BaseRung, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Reaction
 from ..core.results import Coefficients, Trajectory
 from ..rotors import BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, ShakenBaseRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
-from ..scenes.excitation_table import (
-    GroundTable,
-    RunUpTable,
-    UnbalanceTable,
-    oil_remarks,
-    require_kind,
-)
+from ..scenes.excitation_table import GroundTable, RunUpTable, UnbalanceTable, require_kind
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
 from .film_motions import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
 from .shaft_films import (
     ShaftFilms,
+    ShaftRung,
     at_supply,
+    at_temperatures,
     field_orbits,
     film_levels,
-    frozen_at,
-    shaft_assumptions,
-    warm_physics,
-    warm_rungs,
+    shaft_ladder_on,
 )
+from .variants import VariantRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -56,30 +50,25 @@ ROUNDOFF = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftOrbitRung(BaseRung):
+class ShaftOrbitRung(ShaftRung):
     """The orbit by one model of the shaft and one film for each journal, linear or nonlinear.
 
     Attributes
     ----------
-    model : ShaftModel
-    films : ShaftFilms
     place : OrbitPlace
     speed : float [rad/s]
     samples : int
         Over a turn; 0 for the linear orbit.
     """
 
-    model: ShaftModel
-    films: ShaftFilms
     place: OrbitPlace
     speed: float
     samples: int
 
     @property
-    def name(self) -> str:
-        """Linear or the number of samples, the model of the shaft, the film."""
-        how = f"{self.samples} samples" if self.samples else "linear"
-        return ", ".join(part for part in (how, self.model.name, self.films.name) if part)
+    def how(self) -> str:
+        """Linear, or the number of samples."""
+        return f"{self.samples} samples" if self.samples else "linear"
 
     @property
     def refines(self) -> tuple[object, ...]:
@@ -89,7 +78,7 @@ class ShaftOrbitRung(BaseRung):
     @property
     def unit(self) -> WorkUnit:
         """One turn."""
-        return WorkUnit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
+        return replace(super().unit, name=f"turns of {self.name}")
 
     @cached_property
     def _reactions(self) -> dict[str, Reaction]:
@@ -157,10 +146,6 @@ class ShaftOrbitRung(BaseRung):
         """Return how far a value is from a better one."""
         return self.place.change(value, better)
 
-    def moving(self, found: Found) -> float:
-        """Return no error: an orbit keeps its heat."""
-        return 0.0
-
     def _by_grid(self, turn: SolvedTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
         answers = rotor_answers(self.model.rotor.structure, turn.at, self.place.probes, LINEAR)
@@ -223,38 +208,26 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     place, shaft = orbit_place(scene, quantity), scene.shaft
     assert shaft is not None  # checked by the above
-    rotor = shaft.build(speed=scene.speed, extra=_extra(scene))
-    models, levels, bearings = shaft_models(rotor), film_levels(shaft), shaft.build_bearings()
-    choices = _choices(models, nonlinear=bool(levels[0].journals))
+    rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), film_levels(shaft)
+    models, films = shaft_models(rotor), levels[0]
+    choices = _choices(models, nonlinear=bool(films.journals))
+    # In vibration films keep the temperatures of the rest.
+    rest = rotor_equilibrium(models[0].rotor, films.reaction, scene.speed) if films.on_oil else None
 
     def rung_on(films: ShaftFilms, model: ShaftModel, samples: int) -> ShaftOrbitRung:
         return ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
 
-    def rungs_on(levels: tuple[ShaftFilms, ...]) -> tuple[ShaftOrbitRung, ...]:
-        return tuple(rung_on(films, *choice) for films in levels for choice in choices)
+    def rungs_on(at: Callable[[ShaftFilms], ShaftFilms]) -> list[ShaftOrbitRung]:
+        return [rung_on(one, *choice) for one in map(at, levels) for choice in choices]
 
-    films = levels[0]
-    fresh: tuple[ShaftOrbitRung, ...] = ()
-    fields: tuple[Rung, ...] = ()
-    if films.on_oil:
-        # In vibration films keep the temperatures of the rest.
-        rest = rotor_equilibrium(models[0].rotor, films.reaction, scene.speed)
-        fresh = rungs_on(tuple(map(at_supply, levels)))
-        levels = tuple(frozen_at(one, rest) for one in levels)
-        fields = field_orbits(films, rest, rung_on, choices)
-    rungs = rungs_on(levels)
-    return Ladder(
-        rungs=(*warm_rungs(fresh, rungs), *fields) if films.on_oil else rungs,
-        unit=ORBIT_UNITS[quantity],
-        remarks=(
-            *oil_remarks(scene.tables, scene.lubricant),
-            *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
-            *stability_remark(rotor, levels[0].reaction, scene.speed),
-        ),
-        within=warm_physics(films, bearings),
-        assumptions=lambda: shaft_assumptions(rungs[0]),
-        distance=place.change,
-    )
+    def heated() -> tuple[list[ShaftOrbitRung], Iterator[Rung]]:
+        assert rest is not None  # on an oil
+        return rungs_on(at_supply), field_orbits(films, rest, rung_on, choices)
+
+    rungs = rungs_on(lambda one: one if rest is None else at_temperatures(one, rest.temperatures))
+    ladder = shaft_ladder_on(scene, rotor, scene.speed, ORBIT_UNITS[quantity], rungs, heated)
+    unstable = stability_remark(rotor, rungs[0].films.reaction, scene.speed)
+    return replace(ladder, remarks=(*ladder.remarks, *unstable))
 
 
 def _choices(models: tuple[ShaftModel, ...], *, nonlinear: bool) -> list[tuple[ShaftModel, int]]:
@@ -323,7 +296,8 @@ LEAST_CHANGE = 1e-4
 """Change of the viscosity, at least, by which the error of a map is told."""
 
 
-class ShakenShaft(NamedTuple):
+@dataclass(frozen=True, kw_only=True)
+class ShakenShaft:
     """What shakes a shaft, for how long, and where it is asked about.
 
     Attributes
@@ -357,74 +331,52 @@ class ShakenShaft(NamedTuple):
         return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShaftPeakRung(BaseRung):
-    """The largest displacement by one model of the shaft and one film for each journal.
+def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShakenShaft) -> VariantRung:
+    """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
-    Attributes
-    ----------
-    model : ShaftModel
-    films : ShaftFilms
-    best : ShaftFilms
-        Those by which it is judged, unless they are these.
-    shaken : ShakenShaft
+    Its error is the distance to the run in elements half as long, on richer films, in finer steps. Of those
+    elements the lowest modes are taken, three times as many as a reduced model has. The `best` films are
+    those by which it is judged, unless they are these. A map with a verified bound is its own richer film: by
+    how much its bound may move the peak is told by a run in so much more viscous oil.
     """
+    name = ShaftRung(model=model, films=films).name
+    unit = WorkUnit(f"runs of {name}", ("runs", id(model), id(films)))
 
-    model: ShaftModel
-    films: ShaftFilms
-    best: ShaftFilms
-    shaken: ShakenShaft
+    def answer(before: Found | None) -> Found:
+        made = films.prepare()
+        return Found(shaken.peak(shaken.run(model.rotor, films.reaction, RTOL)), {unit: 1, **made})
 
-    @property
-    def name(self) -> str:
-        """Model of the shaft, and film."""
-        return ", ".join(part for part in (self.model.name, self.films.name) if part)
-
-    @property
-    def unit(self) -> WorkUnit:
-        """One run."""
-        return WorkUnit(f"runs of {self.name}", ("runs", id(self.model), id(self.films)))
-
-    def answer(self, before: Found | None) -> Found:
-        """Return the largest displacement [m]."""
-        made = self.films.prepare()
-        run = self.shaken.run(self.model.rotor, self.films.reaction, RTOL)
-        return Found(self.shaken.peak(run), {self.unit: 1, **made}, run)
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the distance to the run in elements half as long, on richer films, in finer steps.
-
-        Of those elements the lowest modes are taken, three times as many as a reduced model has. A map with a
-        verified bound is its own richer film: by how much its bound may move the peak is told by a run in so
-        much more viscous oil.
-        """
-        method = f"run in {len(self.model.finer.elements)} elements"
-        work = {WorkUnit(f"runs to judge {self.name}"): 1}
-        rich = self.best.reaction if self.best.bounded else self.films.rich
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        method = f"run in {len(model.finer.elements)} elements"
+        work = {WorkUnit(f"runs to judge {name}"): 1}
         try:
-            fine = self.shaken.run(_lowest(self.model.finer), rich, FINE_RTOL)
+            rich = best.reaction if best.bounded else films.rich
+            fine = shaken.run(_lowest(model.finer), rich, FINE_RTOL)
         except ContactError:
             return ErrorEstimate(math.inf, method, work, doubt="a journal touches in the run that judges it")
-        better = self.shaken.peak(fine)
+        better = shaken.peak(fine)
         error = abs(better - found.value) / better
-        if not self.best.journals or not self.best.bounded:
+        if not best.journals or not best.bounded:
             return ErrorEstimate(error, method, work)
-        bound = self._bound(fine)
+        bound = _largest_bound(best, fine)
         if not math.isfinite(bound):
             doubt = "the journals go beyond where the map has a verified bound"
             return ErrorEstimate(math.inf, method, work, doubt=doubt)
         share = max(bound, LEAST_CHANGE)
-        thick = self.shaken.run(self.model.rotor, _thicker(self.films, 1.0 + share), RTOL)
-        moved = abs(self.shaken.peak(thick) - found.value) / found.value * bound / share
+        thick = shaken.run(model.rotor, _thicker(films, 1.0 + share), RTOL)
+        moved = abs(shaken.peak(thick) - found.value) / found.value * bound / share
         return ErrorEstimate(error + moved, f"{method}, and with the bound of the map", work)
 
-    def _bound(self, run: Trajectory) -> float:
-        """Return the largest verified error of the best films over a motion [1]."""
-        bounds = []
-        for name, film in self.best.journals.items():
-            reach = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
-            bounds.append(film.bound(reach, slopes=True))
-        return max(bounds)
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+
+
+def _largest_bound(films: ShaftFilms, run: Trajectory) -> float:
+    """Return the largest verified error of films over a motion [1]."""
+    bounds = []
+    for name, film in films.journals.items():
+        reach = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
+        bounds.append(film.bound(reach, slopes=True))
+    return max(bounds)
 
 
 def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
@@ -460,26 +412,32 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"shaft is required for {quantity}, got no such table")
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
     given, scene = scene.shaft, after_loss(scene)
-    rotor, levels = _rotor(scene), tuple(map(_massless, film_levels(given)))
+    assert scene.shaft is not None
+    excitation = scene.excitation
+    rotor = scene.shaft.build(scene.speed, (excitation,) if isinstance(excitation, UnbalanceTable) else ())
+    if isinstance(excitation, RunUpTable):
+        rotor = replace(rotor, speed=excitation.profile(scene.speed))
+    levels, bearings = tuple(map(_massless, film_levels(given))), given.build_bearings()
     if levels[0].on_oil:
         raise InputError(
             f"journal of a bearing must have a viscosity for {quantity}, got an oil in {levels[0].on_oil}"
         )
     duration, fastest = run_span(scene)
+    at = scene.question.at if scene.question is not None else ""
     shaken = ShakenShaft(
-        places=_places(scene),
+        places=(at,) if at else scene.shaft.places(forces=False),
         speed=scene.speed,
         times=run_times(duration, fastest),
-        base=scene.excitation.motion(duration) if isinstance(scene.excitation, GroundTable) else None,
+        base=excitation.motion(duration) if isinstance(excitation, GroundTable) else None,
     )
-    seals = [name for name, one in given.build_bearings().items() if isinstance(one, AnnularSeal)]
-    bearings = given.build_bearings()
+    seals = [name for name, one in bearings.items() if isinstance(one, AnnularSeal)]
+    models = [
+        model
+        for model in shaft_models(rotor)  # reduced, and meshes of the element of the file
+        if model.modes or (model.modes is None and model.beam == rotor.beam)
+    ]
     return Ladder(
-        rungs=tuple(
-            ShaftPeakRung(model=model, films=films, best=levels[-1], shaken=shaken)
-            for films in levels
-            for model in _models(rotor)
-        ),
+        rungs=tuple(peak_rung(model, films, levels[-1], shaken) for films in levels for model in models),
         unit="m",
         remarks=(
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest),
@@ -487,33 +445,6 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         ),
         within=shaft_physics(bearings),
     )
-
-
-def _rotor(scene: Scene) -> ShaftRotor:
-    """Return the shaft of a scene at its speed, with the unbalance of its excitation."""
-    assert scene.shaft is not None
-    excitation = scene.excitation
-    extra = (excitation,) if isinstance(excitation, UnbalanceTable) else ()
-    rotor = scene.shaft.build(scene.speed, extra)
-    return (
-        replace(rotor, speed=excitation.profile(scene.speed)) if isinstance(excitation, RunUpTable) else rotor
-    )
-
-
-def _places(scene: Scene) -> tuple[str, ...]:
-    """Return the bearings and probes among which the largest displacement is asked for."""
-    assert scene.shaft is not None
-    assert scene.question is not None
-    return (scene.question.at,) if scene.question.at else scene.shaft.places(forces=False)
-
-
-def _models(rotor: ShaftRotor) -> Sequence[ShaftModel]:
-    """Return reduced models with modes, and meshes of the element of the file."""
-    return [
-        model
-        for model in shaft_models(rotor)
-        if model.modes or (model.modes is None and model.beam == rotor.beam)
-    ]
 
 
 def _massless(films: ShaftFilms) -> ShaftFilms:

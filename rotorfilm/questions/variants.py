@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from typing import Any
 
-from ..core.answers import ErrorEstimate, Found, Work
+from ..core.answers import ErrorEstimate, Found, Work, WorkUnit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +28,8 @@ class VariantRung:
         What its steps refine; empty without steps.
     shares : object
         What its error has a part of; None without.
+    film : object
+        The candidate that it asks, if it is one.
     """
 
     name: str
@@ -36,3 +39,56 @@ class VariantRung:
     prior: float = 0.0
     refines: tuple[object, ...] = ()
     shares: object = None
+    film: Any = None
+
+
+def with_estimate(
+    rung: Any, estimate: Callable[[Found, Found | None, float], ErrorEstimate], shares: object = None
+) -> VariantRung:
+    """Return a rung with another estimate, as an effect makes it; `shares` counts where it has none."""
+    return VariantRung(
+        name=rung.name,
+        answer=rung.answer,
+        estimate=estimate,
+        expected=rung.expected,
+        prior=rung.prior,
+        refines=rung.refines,
+        shares=rung.shares or shares,
+        film=getattr(rung, "film", None),
+    )
+
+
+def counted_rung(
+    name: str,
+    key: Hashable,
+    seconds: float,
+    ask: Callable[[Found | None], tuple[Any, Any]],
+    judge: Callable[[Found, Found | None, float], ErrorEstimate],
+    **known: Any,
+) -> VariantRung:
+    """Return a rung whose units of work are whole answers and whole estimates.
+
+    Parameters
+    ----------
+    name : str
+    key : hashable
+        Of the unit of its answers.
+    seconds : float [s]
+        About what an answer takes.
+    ask : callable
+        Takes the answer of a lower rung or None, and returns the value and what `judge` starts from.
+    judge : callable
+        As `Rung.estimate`.
+    **known
+        `prior`, `refines`, `shares` or `film` of the rung.
+    """
+    unit, done = WorkUnit(f"answers of {name}", key, nominal=seconds), WorkUnit(f"estimates of {name}")
+
+    def answer(before: Found | None) -> Found:
+        value, solution = ask(before)
+        return Found(value, {unit: 1}, solution)
+
+    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        return judge(found, before, tolerance)._replace(work={done: 1})
+
+    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda work: {unit: 1}, **known)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -36,7 +36,7 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.readable import Readable
-from ..scenes.families import FAMILIES, family_of
+from ..scenes.families import FAMILIES, brought
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -294,6 +294,26 @@ def _trusted_error(report: RungReport) -> float:
 # Which family answers which quantity: by the records of the families.
 
 
+LADDERS = {
+    "journal": "questions.journal.LADDERS",
+    "bush": "questions.bush.LADDERS",
+    "contact": "questions.contact.LADDERS",
+    "shaft": "questions.shaft.LADDERS",
+    "damper": "questions.damper.LADDERS",
+    "lobed_journal": "questions.pads.LOBED",
+    "pressure_dam": "questions.pads.PRESSURE_DAM",
+    "tilting_pad": "questions.pads.TILTING",
+    "ball_bearing": "questions.rolling.LADDERS",
+}
+"""Places of the ladders of a family, by the name of its table, where the family itself names none."""
+
+
+def ladders_of(name: str) -> Mapping[str, Callable[[Scene, str], Ladder]]:
+    """Return the ladders of a family by quantity: calls that take a scene and the quantity."""
+    found: Mapping[str, Callable[[Scene, str], Ladder]] = brought(FAMILIES[name].ladders or LADDERS[name])
+    return found
+
+
 def ladder_of(scene: Scene) -> Ladder:
     """Return the ladder of a scene's question.
 
@@ -305,7 +325,7 @@ def ladder_of(scene: Scene) -> Ladder:
     if scene.question is None:
         raise InputError("question is required for a ladder, got no such table")
     quantity = scene.question.quantity
-    present = {name: family_of(name).ladders for name in FAMILIES if scene.table(name) is not None}
+    present = {name: ladders_of(name) for name in scene.tables}
     given = sorted(name for name, ladders in present.items() if quantity in ladders)
     if len(given) > 1:
         raise InputError(
@@ -314,7 +334,7 @@ def ladder_of(scene: Scene) -> Ladder:
     if given:
         return present[given[0]][quantity](scene, quantity)
     known = sorted({name for ladders in present.values() for name in ladders})
-    tables = sorted(name for name in FAMILIES if quantity in family_of(name).ladders)
+    tables = sorted(name for name in FAMILIES if quantity in ladders_of(name))
     needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
     raise InputError(
         f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}{needs}"

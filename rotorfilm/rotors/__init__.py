@@ -17,7 +17,6 @@ if TYPE_CHECKING:
         crack_compliance as crack_compliance,
     )
     from .force_law import ForceLaw, LawRotor
-    from .jeffcott import JeffcottRotor as JeffcottRotor
     from .motor import LinearMotor as LinearMotor, MotorDrivenRotor as MotorDrivenRotor
     from .mounted import MountedRotor as MountedRotor, mount as mount
     from .profile import SpeedProfile as SpeedProfile
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
         Reduction as Reduction,
         reduce_rotor as reduce_rotor,
     )
-    from .rigid import RigidRotor as RigidRotor, RigidShaft as RigidShaft
+    from .rigid import JeffcottRotor as JeffcottRotor, RigidRotor as RigidRotor, RigidShaft as RigidShaft
     from .shaft_elements import (
         Beam,
         ClassicalBeam as ClassicalBeam,

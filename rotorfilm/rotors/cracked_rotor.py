@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -21,8 +21,8 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization
-from .jeffcott import JeffcottRotor
 from .profile import SpeedProfile
+from .rigid import JeffcottRotor
 from .shaft_elements import ShaftElement
 from .shaft_rotor import ShaftRotor
 from .structure import AroundRotor
@@ -30,19 +30,9 @@ from .structure import AroundRotor
 # Cracks of a shaft: which motion they give way to, and how much of the stiffness they take.
 
 
-class Weakness(NamedTuple):
-    """What an open crack takes from a rotor.
-
-    Attributes
-    ----------
-    rows : ndarray, shape (2, N)
-        What it gives way to, in the x-z and in the y-z plane, of the coordinates of the rotor.
-    loss : ndarray, shape (2,)
-        Stiffness against that which it takes in its weak and in its strong direction.
-    """
-
-    rows: Array
-    loss: Array
+Weakness = tuple[Array, Array]
+"""What an open crack takes: what it gives way to, in the x-z and in the y-z plane, of the coordinates of the
+rotor, shape (2, N); and the stiffness against that which it takes in its weak and in its strong direction."""
 
 
 @quantities
@@ -83,7 +73,7 @@ class JeffcottCrack:
         require_kind("rotor", rotor, JeffcottRotor, "a JeffcottRotor for a JeffcottCrack")
         assert isinstance(rotor, JeffcottRotor)
         rows = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
-        return Weakness(rows, rotor.stiffness * np.array([self.reduction, self.cross_reduction]))
+        return rows, rotor.stiffness * np.array([self.reduction, self.cross_reduction])
 
 
 @quantities
@@ -139,7 +129,7 @@ class ShaftCrack:
         for plane in range(2):
             first = plane * size + 2 * self.element + 1
             rows[plane, [first, first + 2]] = -1.0, 1.0
-        return Weakness(rows, np.array(loss))
+        return rows, np.array(loss)
 
     def _piece(self, rotor: ShaftRotor) -> ShaftElement:
         count = len(rotor.elements)
@@ -281,7 +271,7 @@ class CrackedRotor(AroundRotor):
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
         rate = np.array(self.rotor.derivative(t, x, u))
         half = len(rate) // 2
-        rate[half:] += self._lift @ (self.lost(t) @ (self.weakness.rows @ np.asarray(x, dtype=float)[:half]))
+        rate[half:] += self._lift @ (self.lost(t) @ (self.weakness[0] @ np.asarray(x, dtype=float)[:half]))
         return rate
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -293,7 +283,7 @@ class CrackedRotor(AroundRotor):
         A, B, C, D = self.rotor.linearization(t, x, u)
         half = len(A) // 2
         whole = A.copy()
-        whole[half:, :half] += self._lift @ self.lost(t) @ self.weakness.rows
+        whole[half:, :half] += self._lift @ self.lost(t) @ self.weakness[0]
         return Linearization(whole, B, C, D)
 
     def lost(self, t: float) -> Array:
@@ -301,7 +291,7 @@ class CrackedRotor(AroundRotor):
         angle = self.profile.angle(t) + self.crack.crack_angle
         share = self.breathing.share(angle - self._open_at)
         turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-        return np.asarray(share * turn.T @ (self.weakness.loss[:, None] * turn))
+        return np.asarray(share * turn.T @ (self.weakness[1][:, None] * turn))
 
     @cached_property
     def _open_at(self) -> float:
@@ -311,7 +301,7 @@ class CrackedRotor(AroundRotor):
     @cached_property
     def _lift(self) -> Array:
         """Accelerations per what the crack does not hold, shape (N, 2)."""
-        return np.asarray(np.linalg.solve(self.rotor.structure.mass, self.weakness.rows.T))
+        return np.asarray(np.linalg.solve(self.rotor.structure.mass, self.weakness[0].T))
 
 
 # How much a crack lets a round shaft bend: the compliance of its section by fracture mechanics.

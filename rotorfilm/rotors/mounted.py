@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +14,7 @@ from ..core.errors import InputError, require_kind
 from ..core.inputs import arguments, quantities
 from ..core.model import (
     Array,
+    Bearings,
     Dynamic,
     InertialReaction,
     Linearization,
@@ -117,9 +117,7 @@ class MountedRotor(AroundRotor):
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
         own, felt = self._split(t, x)
         forces = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
-        rates = [
-            b.derivative(t, z, m) for b, (_, z, m) in zip(self._moving, felt, strict=True) if b is not None
-        ]
+        rates = [b.derivative(t, z, m) for b, z, m in felt if isinstance(b, Dynamic)]
         return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -137,22 +135,22 @@ class MountedRotor(AroundRotor):
         values = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
         inputs = self._inputs(values, u)
         rotor = self.rotor.linearization(t, own, inputs)
-        slopes = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
+        A, forces, further = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
         taken, free = self._taken, list(self._free)
-        forces, driven = slopes.forces, np.zeros((len(slopes.forces), len(free)))
+        driven = np.zeros((len(forces), len(free)))
         if self._heavy:
             rates, sensed = self.rotor.derivative(t, own, inputs), self.rotor.output(t, own, inputs)
             columns = rotor.B[:, taken], rotor.B[:, free]
             forces, driven = self._heavy.slopes(rotor, *columns, sensed, forces, rates)
-        states = len(slopes.A) - len(rotor.A)
+        states = len(A) - len(rotor.A)
         push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ forces
         seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ forces
         by_input = rotor.B[:, free] + rotor.B[:, taken] @ driven
         return Linearization(
-            np.vstack([push, slopes.A[len(rotor.A) :]]),
+            np.vstack([push, A[len(rotor.A) :]]),
             np.vstack([by_input, np.zeros((states, len(free)))]),
-            np.vstack([seen, forces, slopes.further]),
-            np.vstack([rotor.D[:, free], driven, np.zeros((len(slopes.further), len(free)))]),
+            np.vstack([seen, forces, further]),
+            np.vstack([rotor.D[:, free], driven, np.zeros((len(further), len(free)))]),
         )
 
     def native(self) -> NativeSpec | None:
@@ -171,7 +169,7 @@ class MountedRotor(AroundRotor):
         """Return the state of the rotor; each bearing with its state and what it feels."""
         whole = np.asarray(x, dtype=float)
         own = whole[: self._ends[0]]
-        sensed = self.rotor.output(t, own, np.zeros(self._size))
+        sensed = self.rotor.output(t, own, np.zeros(len(self.rotor.inputs)))
         inner = [whole[a:b] for a, b in pairwise(self._ends)]
         motion = [sensed[rows] for rows in self._motion]
         return own, list(zip(self.bearings, inner, motion, strict=True))
@@ -186,7 +184,7 @@ class MountedRotor(AroundRotor):
         return np.split(self._heavy.forces(rotor, push, sensed, np.concatenate(forces), rates), len(forces))
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
-        whole = np.empty(self._size)
+        whole = np.empty(len(self.rotor.inputs))
         whole[list(self._free)] = np.asarray(u, dtype=float)
         for rows, force in zip(self.force_places, forces, strict=True):
             whole[rows] = force
@@ -198,16 +196,6 @@ class MountedRotor(AroundRotor):
         """Where the states of the rotor end, and those of each bearing."""
         counts = [len(self.rotor.states), *(len(b.states) for b in self.bearings)]
         return list(accumulate(counts))
-
-    @cached_property
-    def _size(self) -> int:
-        """Number of inputs of the rotor."""
-        return len(self.rotor.inputs)
-
-    @cached_property
-    def _moving(self) -> list[Dynamic | None]:
-        """The bearings with a derivative, None for others."""
-        return [b if isinstance(b, Dynamic) else None for b in self.bearings]
 
     @cached_property
     def _motion(self) -> list[list[int]]:
@@ -228,16 +216,8 @@ class MountedRotor(AroundRotor):
         return tuple(k for k in range(len(self.rotor.inputs)) if k not in self._taken)
 
 
-class _Slopes(NamedTuple):
-    """Derivatives by the whole state: of it, where bearings have states; of forces and further outputs."""
-
-    A: Array
-    forces: Array
-    further: Array
-
-
-def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> _Slopes:
-    """Return the derivatives of all bearings by the states of the rotor, `size`, and their own."""
+def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> tuple[Array, Array, Array]:
+    """Return A, forces, further outputs of all bearings by the states of the rotor, `size`, and their own."""
     total = size + sum(len(part.A) for part in parts)
     A, forces, further = np.zeros((total, total)), [np.zeros((0, total))], [np.zeros((0, total))]
     first = size
@@ -249,11 +229,11 @@ def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) 
         forces.append(seen[:2])
         further.append(seen[2:])
         first = inner.stop
-    return _Slopes(A, np.concatenate(forces), np.concatenate(further))
+    return A, np.concatenate(forces), np.concatenate(further)
 
 
 @arguments
-def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
+def mount(rotor: Dynamic, bearings: Bearings) -> MountedRotor:
     """Return a rotor with bearings in some of its stations.
 
     With one station left, the one without a name, `simulate`, `cosimulate` and `closed_loop` take the result
@@ -297,12 +277,7 @@ KINDS = (
 
 
 def system_kernel(
-    rotor: Dynamic,
-    bearings: Mapping[str, Reaction],
-    *,
-    carried: Sequence[int],
-    free: Sequence[int],
-    motion: Sequence[int],
+    rotor: Dynamic, bearings: Bearings, *, carried: Sequence[int], free: Sequence[int], motion: Sequence[int]
 ) -> NativeSpec | None:
     """Return the kernel of a rotor with bearings; None if a part of it has none.
 

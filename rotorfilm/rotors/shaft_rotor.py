@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
@@ -13,7 +13,7 @@ import numpy as np
 from ..core.errors import InputError, require_non_negative
 from ..core.inputs import quantities
 from ..core.model import Array
-from ..core.signals import Signal
+from ..core.signals import signals_of
 from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 from .reduced_rotor import ReducedRotor
@@ -124,16 +124,7 @@ class ShaftRotor(FlexibleRotor):
             raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
         for name in ("internal_damping", "mass_damping", "stiffness_damping", "loss_factor"):
             require_non_negative(name, getattr(self, name))
-        check_nodes(
-            len(self.elements) + 1,
-            {
-                "stations": self.stations,
-                "disks": self.disks,
-                "tilt_springs": self.tilt_springs,
-                "unbalances": self.unbalances,
-                "probes": self.probes,
-            },
-        )
+        _check_nodes(self)
         check_motion(self)
 
     @property
@@ -155,96 +146,69 @@ class ShaftRotor(FlexibleRotor):
         return chain_matrices(self.elements, self.disks, self.beam, len(self.assembly.coordinates))[2]
 
     def assembled(self) -> Structure:
-        """Return the matrices of the rotor."""
-        return assemble(
-            elements=self.elements,
-            disks=self.disks,
-            stations=self.stations,
-            tilt_springs=self.tilt_springs,
-            probes=self.probes,
-            unbalances=self.unbalances,
-            internal_damping=self.internal_damping,
-            mass_damping=self.mass_damping,
-            stiffness_damping=self.stiffness_damping,
-            loss_factor=self.loss_factor,
-            gravity=self.gravity,
-            beam=self.beam,
+        """Return the matrices of the rotor.
+
+        Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
+        displacement of each support.
+        """
+        elements, stations = self.elements, self.stations
+        coordinates = [
+            *_node_coordinates(elements),
+            *_inner_coordinates(elements, self.beam),
+            *((station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
+        ]
+        size, supported = len(coordinates), [s for s in stations if s.support]
+        mass, polar, stiffness, geometric, twist = chain_matrices(elements, self.disks, self.beam, size)
+        bending = both_planes(stiffness)
+        held, damping = _ground(self.tilt_springs, supported, size)
+        if self.mass_damping or self.stiffness_damping:
+            damping = damping + both_planes(self.mass_damping * mass + self.stiffness_damping * stiffness)
+        if any(element.mass_damping or element.stiffness_damping for element in elements):
+            damping = damping + both_planes(_element_damping(elements, self.beam, size))
+        first, housings = size - len(supported), _housings(stations, size)
+        masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
+        mass = both_planes(mass + summed(size, masses))
+        return Structure(
+            mass=mass,
+            damping=damping + self.internal_damping * bending,
+            gyroscopic=across_planes(polar),
+            stiffness=bending + both_planes(geometric) + across_planes(twist) + held,
+            circulation=self.internal_damping * across_planes(stiffness),
+            stations=checked_stations([station.name for station in stations]),
+            journals=_journals(stations, size) - housings,
+            weight=mass @ _translation(elements, len(supported), size, self.gravity),
+            unbalance=_unbalance(self.unbalances, self.disks, size),
+            coordinates=tuple(coordinates),
+            readouts=(
+                *(
+                    r
+                    for p in self.probes
+                    for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)
+                ),
+                *_support_readouts(supported, size),
+            ),
+            supports=tuple(range(size - len(supported), size)),
+            housings=housings if supported else None,
+            hysteresis=self.loss_factor * stiffness if self.loss_factor else None,
+            tilts=_tilts(stations, size) if any(station.feels_tilt for station in stations) else None,
         )
 
 
 # From the parts of a shaft to its matrices.
 
 
-def assemble(
-    *,
-    elements: Sequence[ShaftPiece],
-    disks: Sequence[Disk],
-    stations: Sequence[Station],
-    tilt_springs: Sequence[TiltSpring],
-    probes: Sequence[Probe],
-    unbalances: Sequence[Unbalance],
-    internal_damping: float,
-    mass_damping: float,
-    stiffness_damping: float,
-    loss_factor: float,
-    gravity: tuple[float, float],
-    beam: Beam,
-) -> Structure:
-    """Return the matrices of a shaft; the parameters are those of `ShaftRotor`.
-
-    Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
-    displacement of each support.
-    """
-    coordinates = [
-        *_node_coordinates(elements),
-        *_inner_coordinates(elements, beam),
-        *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
-    ]
-    size, supported = len(coordinates), [s for s in stations if s.support]
-    mass, polar, stiffness, geometric, twist = chain_matrices(elements, disks, beam, size)
-    bending = both_planes(stiffness)
-    held, damping = _ground(tilt_springs, supported, size)
-    if mass_damping or stiffness_damping:
-        damping = damping + both_planes(mass_damping * mass + stiffness_damping * stiffness)
-    if any(element.mass_damping or element.stiffness_damping for element in elements):
-        damping = damping + both_planes(_element_damping(elements, beam, size))
-    first, housings = size - len(supported), _housings(stations, size)
-    masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
-    mass = both_planes(mass + summed(size, masses))
-    return Structure(
-        mass=mass,
-        damping=damping + internal_damping * bending,
-        gyroscopic=across_planes(polar),
-        stiffness=bending + both_planes(geometric) + across_planes(twist) + held,
-        circulation=internal_damping * across_planes(stiffness),
-        stations=checked_stations([station.name for station in stations]),
-        journals=_journals(stations, size) - housings,
-        weight=mass @ _translation(elements, len(supported), size, gravity),
-        unbalance=_unbalance(unbalances, disks, size),
-        coordinates=tuple(coordinates),
-        readouts=(
-            *(r for p in probes for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)),
-            *_support_readouts(supported, size),
-        ),
-        supports=tuple(range(size - len(supported), size)),
-        housings=housings if supported else None,
-        hysteresis=loss_factor * stiffness if loss_factor else None,
-        tilts=_tilts(stations, size) if any(station.feels_tilt for station in stations) else None,
-    )
-
-
 def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for node in range(len(elements) + 1):
-        yield Coordinate(f"{{}}_{node}", "m", NOMINAL_LENGTH)
-        yield Coordinate(f"tilt_{{}}_{node}", "rad", tilt)
+        yield f"{{}}_{node}", "m", NOMINAL_LENGTH
+        yield f"tilt_{{}}_{node}", "rad", tilt
 
 
 def _inner_coordinates(elements: Sequence[ShaftPiece], beam: Beam) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for number, element in enumerate(elements):
         for k in range(_inner(element, beam)):
-            yield Coordinate(f"inner_{{}}_{number}_{k}", "rad", tilt)
+            yield f"inner_{{}}_{number}_{k}", "rad", tilt
 
 
 def _inner(element: ShaftPiece, beam: Beam) -> int:
@@ -367,26 +331,19 @@ def _support_readouts(supported: Sequence[Station], size: int) -> Iterator[Reado
             row[pair] = np.asarray(station.support.stiffness)[axis]
             row[[2 * size + i for i in pair]] = np.asarray(station.support.damping)[axis]
             nominal = float(np.abs(row[pair]).max()) * NOMINAL_LENGTH or 1.0
-            yield Readout(
-                Signal(
-                    name=station_name(station.name, f"ground_force_{letter}"),
-                    unit="N",
-                    nominal=nominal,
-                    description=f"force of the support on the ground along {letter}",
-                ),
-                row,
-            )
+            name, text = f"ground_force_{letter}", f"force of the support on the ground along {letter}"
+            (signal,) = signals_of((station_name(station.name, name), "N", nominal, text))
+            yield signal, row
 
 
-def check_nodes(
-    count: int, parts: Mapping[str, Sequence[Disk | Station | TiltSpring | Probe | Unbalance]]
-) -> None:
-    """Raise InputError unless every part sits on one of `count` nodes."""
-    for name, items in parts.items():
-        for item in items:
+def _check_nodes(rotor: ShaftRotor) -> None:
+    """Raise InputError unless every part sits on one of the nodes."""
+    last = len(rotor.elements)
+    for name in ("stations", "disks", "tilt_springs", "unbalances", "probes"):
+        for item in getattr(rotor, name):
             node = item.node
-            if not isinstance(node, int) or isinstance(node, bool) or not 0 <= node < count:
-                raise InputError(f"{name} must be on a node 0 to {count - 1}, got node {node!r}")
+            if not isinstance(node, int) or isinstance(node, bool) or not 0 <= node <= last:
+                raise InputError(f"{name} must be on a node 0 to {last}, got node {node!r}")
 
 
 # Models of a flexible shaft: from few shapes to fine meshes; one seen in the coordinates of another.

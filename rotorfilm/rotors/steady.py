@@ -15,7 +15,7 @@ from ..core.signals import Signal
 from ..native.spec import NativeSpec
 from .profile import SpeedProfile
 from .rigid import RigidRotor
-from .structure import FlexibleRotor
+from .structure import AroundRotor, FlexibleRotor
 
 TURNING = (
     Signal(name="unbalance_cos", unit="1", nominal=1.0, description="cosine of the angle turned"),
@@ -27,7 +27,7 @@ TURNING = (
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class SteadyRotor:
+class SteadyRotor(AroundRotor):
     """A rotor at constant speed: a Dynamic model with a kernel in the C library.
 
     x' = A x + B u, y = C x with the states of the rotor, the direction of its unbalance and a state that
@@ -51,16 +51,6 @@ class SteadyRotor:
         if isinstance(self.rotor.speed, SpeedProfile):
             raise InputError(f"rotor must have a constant speed, got {self.rotor.speed!r}")
         _ = self.rotor.operators
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """The inputs of the rotor."""
-        return self.rotor.inputs
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """The outputs of the rotor."""
-        return self.rotor.outputs
 
     @property
     def states(self) -> tuple[Signal, ...]:

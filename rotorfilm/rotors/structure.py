@@ -24,7 +24,16 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ..core.errors import InputError, keep_pair, require_finite, require_kind, require_number
 from ..core.model import Array, Dynamic, Linearization, breakpoints
-from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_outputs, indices, journal_inputs, names
+from ..core.signals import (
+    FORCE_OUTPUTS,
+    MOTION_NAMES,
+    Signal,
+    force_outputs,
+    indices,
+    journal_inputs,
+    names,
+    signals_of,
+)
 from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
 
@@ -35,19 +44,12 @@ QUARTER_TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 """-i on x + i y: the plane pattern of gyroscopic and circulatory matrices."""
 
 
-class Coordinate(NamedTuple):
-    """A coordinate of one plane: name with a place for x or y, unit, nominal value."""
-
-    name: str
-    unit: str
-    nominal: float
+Coordinate = tuple[str, str, float]
+"""A coordinate of one plane: its name with {} for x or y, unit (m or rad) and nominal size."""
 
 
-class Readout(NamedTuple):
-    """A further output, linear in (q, q'): its signal and its row, shape (2 N,)."""
-
-    signal: Signal
-    row: Array
+Readout = tuple[Signal, Array]
+"""A further output: its signal and its row (2 N,) over coordinates and their rates."""
 
 
 class Structure(NamedTuple):
@@ -154,27 +156,23 @@ class FlexibleRotor(Turning):
         """Signals x, y, vx, vy of each station, journal less housing; further readouts; speed."""
         *motion, speed = journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
         journals = [prefixed(name, signal) for name in self.assembly.stations for signal in motion]
-        return (*journals, *(readout.signal for readout in self.assembly.readouts), speed)
+        return (*journals, *(signal for signal, _ in self.assembly.readouts), speed)
 
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """The coordinates of the x-z plane, those of the y-z plane, and their rates in the same order."""
-        planes = [(axis, c) for axis in "xy" for c in self.assembly.coordinates]
-        rates = {"m": "m/s", "rad": "rad/s"}
-        still = [
-            Signal(name=c.name.format(axis), unit=c.unit, nominal=c.nominal, description="displacement")
-            for axis, c in planes
-        ]
-        moving = [
-            Signal(
-                name="v" + c.name.format(axis),
-                unit=rates[c.unit],
-                nominal=c.nominal * self.nominal_speed,
-                description="rate of the displacement",
+        kinds: tuple[tuple[str, str, float, str], ...] = (
+            ("", "", 1.0, "displacement"),
+            ("v", "/s", self.nominal_speed, "rate of the displacement"),
+        )
+        return signals_of(
+            *(
+                (head + name.format(axis), unit + per, nominal * scale, text)
+                for head, per, scale, text in kinds
+                for axis in "xy"
+                for name, unit, nominal in self.assembly.coordinates
             )
-            for axis, c in planes
-        ]
-        return (*still, *moving)
+        )
 
     @property
     def initial_state(self) -> Array:
@@ -242,7 +240,7 @@ def output_rows(structure: Structure) -> Array:
     rows = []
     for pair in np.split(structure.journals, len(structure.stations)) if structure.stations else ():
         rows += [np.hstack([pair, np.zeros((2, n))]), np.hstack([np.zeros((2, n)), pair])]
-    rows += [readout.row[None] for readout in structure.readouts]
+    rows += [row[None] for _, row in structure.readouts]
     return np.concatenate(rows) if rows else np.zeros((0, 2 * n))
 
 
@@ -278,18 +276,9 @@ def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readou
     """Return the readouts name_x, name_y of the coordinates at two places among `size`."""
     rows = np.zeros((len(places), 2 * size))
     rows[range(len(places)), places] = 1.0
-    return tuple(
-        Readout(
-            Signal(
-                name=f"{name}_{axis}",
-                unit="m",
-                nominal=NOMINAL_LENGTH,
-                description=f"displacement of {name} along {axis}",
-            ),
-            row,
-        )
-        for axis, row in zip("xy", rows, strict=True)
-    )
+    text = f"displacement of {name} along "
+    signals = signals_of(*((f"{name}_{axis}", "m", NOMINAL_LENGTH, text + axis) for axis in "xy"))
+    return tuple(zip(signals, rows, strict=True))
 
 
 # The equations of a rotor that moves in some of its shapes only.
@@ -324,8 +313,8 @@ def projected(full: Structure, shapes: Array) -> Structure:
         journals=full.journals @ basis,
         weight=basis.T @ full.weight,
         unbalance=basis.T @ full.unbalance,
-        coordinates=tuple(Coordinate(f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
-        readouts=tuple(Readout(readout.signal, readout.row @ twice) for readout in full.readouts),
+        coordinates=tuple((f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
+        readouts=tuple((signal, row @ twice) for signal, row in full.readouts),
         housings=None if full.housings is None else full.housings @ basis,
         hysteresis=None if full.hysteresis is None else shapes.T @ (full.hysteresis @ shapes),
         tilts=None if full.tilts is None else full.tilts @ basis,

@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
+    from .export_scene import export_rotor_fmu as export_rotor_fmu
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
         to_ross as to_ross,
         to_ross_force as to_ross_force,
     )
-    from .rotor_runs import export_rotor_fmu as export_rotor_fmu
     from .scene import Scene as Scene, bundled_scene as bundled_scene, parse_scene, read_scene
     from .solve_journal import Answer as Answer
 else:

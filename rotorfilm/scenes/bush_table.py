@@ -4,27 +4,34 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..bearings.bush import (
     ApproximateShaft,
     BushContact,
+    BushGeometry,
     BushReaction,
     BushWear,
     ContactBalance,
     ExactShaft,
     Friction,
     GlobalBalance,
+    LinerMaterial,
     LocalMelting,
     MeltingBush,
+    ShaftMaterial,
     SharedMelting,
     f4k20_bush,
 )
 from ..core.errors import SceneError, brief
 from ..core.limits import WORN_NODES
+from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.signals import units
-from .reading import Count, Named, Quantity, choose, made_from, takes
+from .reading import Count, Named, Quantity, Taking, fields_of, made_from, one_of, takes
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 MATERIALS = {"f4k20": f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
@@ -34,12 +41,8 @@ SHAFT_HEATS = {"exact": ExactShaft, "approximate": ApproximateShaft}
 BALANCES = {"contact": ContactBalance, "global": GlobalBalance}
 MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
 
-
-@takes(MATERIALS)
-def _read_material(where: str, value: Any) -> str:
-    choose(where, value, MATERIALS)
-    return str(value)
-
+PARTS = ("geometry", "liner", "shaft", "conductivity")
+"""Parameters of a bush that are parts of it, or of several parts."""
 
 FRICTION = (Quantity("1"), Quantity("1/K"), Quantity("1/K2"))
 
@@ -55,7 +58,9 @@ def _read_friction(where: str, value: Any) -> Friction:
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushTable:
+@fields_of(BushReaction, without=("bush", "wear_depth", "temperature"))
+@fields_of(BushGeometry, LinerMaterial, ShaftMaterial, MeltingBush, without=PARTS, optional=True)
+class BushTable(Taking):
     """`[bush]`: a polymer bush; what is left out is that of its material.
 
     Parameters
@@ -64,22 +69,12 @@ class BushTable:
         Heat that melts a unit of volume of the liner; the source does not give it.
     material : str
         A name of `MATERIALS`, which gives all data that the table does not.
-    radius, outer_radius, shaft_radius, length : float or None [m]
-        Inner and outer radius of the liner, radius of the shaft, axial length.
-    shear_modulus : float or None [Pa]
-    poisson_ratio : float or None [1]
-    expansion : float or None [1/K]
-        Coefficient of linear thermal expansion.
     liner_conductivity, shaft_conductivity : float or None [W/(m K)]
         Thermal conductivities of liner and shaft.
     melting_point : float or None [K]
         Above the ambient temperature, as all temperatures here.
-    air_transfer : float or None [W/(m2 K)]
-        Heat transfer from the shaft outside the bush to the air.
     friction : Friction or None
         In a file one number or `[f0, f1, f2]`.
-    outer_mean, outer_swing : float or None [K]
-        Temperature of the liner's outer surface, its mean and by how much it is warmer on the load line.
     shaft_heat : ShaftHeat
         In a file "exact" or "approximate".
     balance : HeatBalance
@@ -88,38 +83,20 @@ class BushTable:
         In a file "shared" or "local".
     nodes : int
         Of the worn profile.
-    center, extent : float [rad]
-        Middle and width of the arc of nodes.
-    retardation : float [s]
     """
 
-    melting_heat: Annotated[float, Quantity("J/m3")]
-    material: Annotated[str, _read_material] = "f4k20"
-    radius: Annotated[float | None, Quantity("m")] = None
-    outer_radius: Annotated[float | None, Quantity("m")] = None
-    shaft_radius: Annotated[float | None, Quantity("m")] = None
-    length: Annotated[float | None, Quantity("m")] = None
-    shear_modulus: Annotated[float | None, Quantity("Pa")] = None
-    poisson_ratio: Annotated[float | None, Quantity("1")] = None
-    expansion: Annotated[float | None, Quantity("1/K")] = None
-    liner_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
-    shaft_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
-    melting_point: Annotated[float | None, Quantity("K")] = None
-    air_transfer: Annotated[float | None, Quantity("W/(m2.K)")] = None
+    material: Annotated[str, one_of(MATERIALS)] = "f4k20"
+    liner_conductivity: float | None = None
+    shaft_conductivity: float | None = None
     friction: Annotated[Friction | None, _read_friction] = None
-    outer_mean: Annotated[float | None, Quantity("K")] = None
-    outer_swing: Annotated[float | None, Quantity("K")] = None
     shaft_heat: Annotated[ExactShaft | ApproximateShaft, Named(SHAFT_HEATS)] = field(
         default_factory=ExactShaft
     )
     balance: Annotated[ContactBalance | GlobalBalance, Named(BALANCES)] = field(
         default_factory=ContactBalance
     )
-    melting: Annotated[SharedMelting | LocalMelting, Named(MELTINGS)] = field(default_factory=SharedMelting)
-    nodes: Annotated[int, Count(WORN_NODES)] = 64
-    center: Annotated[float, Quantity("rad")] = -0.5 * math.pi
-    extent: Annotated[float, Quantity("rad")] = 2.0
-    retardation: Annotated[float, Quantity("s")] = 0.0
+    melting: Annotated[SharedMelting | LocalMelting, Named(MELTINGS)]
+    nodes: Annotated[int, Count(WORN_NODES)]
 
     def __post_init__(self) -> None:
         self.reaction()
@@ -201,3 +178,9 @@ def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: 
         onset_speed=bush.onset_speed(load, settlement),
         operation=operation,
     )
+
+
+def answer_bush(scene: Scene, report: Report = silent) -> BushAnswer:
+    """Return contact and critical speeds of the unworn bush of a scene."""
+    load = math.hypot(*scene.static_load)
+    return solve_bush(scene.bush.build(), load, scene.speed, 0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -132,12 +132,38 @@ INLETS = (2.5, 4.5, 8.5)
 OUTLET = 1.5
 """Length of their outlet."""
 
-REACH = {"approach": 1.0, "central_film": 3.0, "minimum_film": 3.0}
-"""Power of its length with which the rectangle changes a quantity.
 
-Far from the contact the pressure is V (-x)/(5 r^4): it falls with r^-3, and its integral, the load beyond the
-rectangle, with 1/r.
-"""
+class ContactQuantity(NamedTuple):
+    """What may be asked of a contact, a length [m].
+
+    Attributes
+    ----------
+    field : str
+        Its name in a `ContactState` and a `ContactRun`.
+    reach : float
+        Power of its length with which the rectangle changes it. Far from the contact the pressure is
+        V (-x)/(5 r^4): it falls with r^-3, and its integral, the load beyond the rectangle, with 1/r.
+    noise : float [1]
+        Error on 32 x 32 cells below which an order increment says nothing: it may change its sign. It falls
+        with the square of the cells, of what jumps with their power 3/2. Measured on random balls.
+    formula_bound : float or None [1]
+        Largest error of its formula, measured on random balls (docs/contact.md); None without one.
+    jumps : bool
+        Whether it jumps from cell to cell.
+    """
+
+    field: str
+    reach: float
+    noise: float
+    formula_bound: float | None = None
+    jumps: bool = False
+
+
+QUANTITIES = {
+    "approach": ContactQuantity("delta", 1.0, 0.0012, 0.08),
+    "central_film": ContactQuantity("central_film", 3.0, 0.012, 0.16),
+    "minimum_film": ContactQuantity("minimum_film", 3.0, 0.03, jumps=True),
+}
 
 SPACINGS = (8, 12, 16)
 """Cells per Hertzian radius of the two rectangles compared; thin films have no solution on coarse grids."""
@@ -154,7 +180,7 @@ class RestingFilms:
     ----------
     table : ContactTable
     quantity : str
-        One of `REACH`.
+        A key of `QUANTITIES`.
     known : dict
         Values [1] found so far; an entry is nan where there is no solution.
     """
@@ -169,9 +195,9 @@ class RestingFilms:
         return self.table.build()
 
     @property
-    def field(self) -> str:
-        """Name of the quantity in a `ContactState` and a `ContactRun`."""
-        return "delta" if self.quantity == "approach" else self.quantity
+    def row(self) -> ContactQuantity:
+        """The row of the quantity."""
+        return QUANTITIES[self.quantity]
 
     def contact(self, cells: int, inlet: float = INLETS[0]) -> PointContact:
         """Return the contact on cells x cells of a rectangle."""
@@ -196,7 +222,7 @@ class RestingFilms:
             work[unit] = work.get(unit, 0) + cells**2
             self.known[key] = math.nan
             state = self.contact(cells, inlet).stationary(load)
-            self.known[key] = float(getattr(state, self.field))
+            self.known[key] = float(getattr(state, self.row.field))
         if math.isnan(self.known[key]):
             raise ConvergenceError(f"a contact must be solvable on {cells} x {cells} cells, got none before")
         return self.known[key]
@@ -233,7 +259,7 @@ class RestingFilms:
                     raise
                 continue
             break
-        return (longer - short) / (1.0 - (near / wide) ** REACH[self.quantity])
+        return (longer - short) / (1.0 - (near / wide) ** self.row.reach)
 
 
 def unknowns(cells: int) -> WorkUnit:

@@ -2,46 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from ..bearings.contact import BallSupport, ContactGrid, PointContact, RollingBall, reduce_ball
-from ..core.errors import InputError, SceneError, brief, require_non_negative
+from ..core.errors import InputError, require_non_negative
 from ..core.limits import CONTACT_CELLS, LAW_STATES
-from .reading import Count, Quantity, flag, made_from, takes
-
-
-@takes([Quantity("rad"), ...])
-def read_angles(where: str, value: Any) -> tuple[float, ...]:
-    """Read a list of angles [rad]."""
-    if not isinstance(value, list):
-        raise SceneError(f"{where} must be a list of angles, got {brief(value)}")
-    return tuple(Quantity("rad")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+from .reading import Count, Taking, fields_of, made_from
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactTable:
+@fields_of(RollingBall)
+class ContactTable(Taking):
     """`[contact]`: a rolling ball, its lubricant, and where such balls carry a journal.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the ball; a file may give `diameter` instead.
-    modulus, poisson_ratio : float [Pa, 1]
-        Of the ball.
-    viscosity : float [Pa s]
-        At ambient pressure.
-    pressure_coefficient : float [1/Pa]
-        Of the viscosity.
-    speed : float [m/s]
-        Rolling speed.
     load : float [N]
         Of one ball, about which its law is made.
-    mass : float [kg]
-        Moving with the ball against the contact.
-    plane_modulus, plane_poisson_ratio : float [Pa, 1]
-        Of what it rolls on; rigid if the file does not say.
     cells : int
         Cells along each side of the film's rectangle.
     order : int
@@ -54,22 +32,13 @@ class ContactTable:
         Of each of these balls while the journal is in the center.
     """
 
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    modulus: Annotated[float, Quantity("Pa")]
-    poisson_ratio: Annotated[float, Quantity("1")]
-    viscosity: Annotated[float, Quantity("Pa.s")]
-    pressure_coefficient: Annotated[float, Quantity("1/Pa")]
-    speed: Annotated[float, Quantity("m/s")]
-    load: Annotated[float, Quantity("N")]
-    mass: Annotated[float, Quantity("kg")] = 0.0
-    plane_modulus: Annotated[float, Quantity("Pa")] = math.inf
-    plane_poisson_ratio: Annotated[float, Quantity("1")] = 0.3
+    mass: float = 0.0
     cells: Annotated[int, Count(CONTACT_CELLS)] = 40
     order: Annotated[int, Count(LAW_STATES)] = 5
-    roelands: Annotated[bool, flag] = False
-    compressible: Annotated[bool, flag] = False
-    angles: Annotated[tuple[float, ...], read_angles] = ()
-    preload: Annotated[float, Quantity("N")] = 0.0
+    roelands: bool = False
+    compressible: bool = False
+    angles: tuple[float, ...] = ()
+    preload: float = 0.0
 
     def __post_init__(self) -> None:
         self.contact()

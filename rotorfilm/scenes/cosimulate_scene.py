@@ -163,8 +163,8 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
         native = not isinstance(film, Stepped) and isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
         return cosimulate(
-            rotor if fmus is None else fmus.rotor,
-            film if fmus is None else fmus.film,
+            rotor if fmus is None else fmus["rotor"],
+            film if fmus is None else fmus["film"],
             macro_step=scene.macro_step,
             duration=scene.duration,
             scheme=scheme,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from ..bearings.assemblies import Sprung
@@ -16,7 +16,6 @@ from ..bearings.damper import (
     FiniteSqueeze,
     JFODamper,
     MapSqueeze,
-    PorousCage,
     PorousDamper,
     PublishedSqueeze,
     RadialFeed,
@@ -29,8 +28,7 @@ from ..bearings.damper import (
 )
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
 from ..core.errors import InputError, ValidityWarning, require_non_negative
-from .journal_tables import FEED_HOLE
-from .reading import Keyed, Quantity, Table, TableList, Variant, flag, made_from, read_place
+from .reading import Keyed, Taking, Variant, fields_of, made_from
 
 # `[damper.seals]`: seals at both ends of a squeeze film, by leakage, by their gap or by a leak test.
 
@@ -55,12 +53,12 @@ class SealsTable:
         Of the leakage, relative; an answer then says how far it may move.
     """
 
-    leakage: Annotated[float | None, Quantity("m2/(Pa.s)")] = None
-    gap: Annotated[float | None, Quantity("m")] = None
-    gap_length: Annotated[float | None, Quantity("m")] = None
-    flow: Annotated[float | None, Quantity("m3/s")] = None
-    pressure: Annotated[float | None, Quantity("Pa")] = None
-    uncertainty: Annotated[float, Quantity("1")] = 0.0
+    leakage: float | None = None
+    gap: float | None = None
+    gap_length: float | None = None
+    flow: float | None = None
+    pressure: float | None = None
+    uncertainty: float = 0.0
 
     def __post_init__(self) -> None:
         given = tuple(name for way in WAYS for name in way if getattr(self, name) is not None)
@@ -88,43 +86,13 @@ class SealsTable:
 CELLS = (48, 8)
 """Of a film that conserves its oil and is stepped through in time."""
 
-CAGE = Keyed(
-    PorousCage,
-    {
-        "thickness": Quantity("m"),
-        "permeability": Quantity("m2"),
-        "grading": Quantity("1"),
-        "anisotropy": Quantity("1"),
-        "vented": flag,
-        "supply_pressure": Quantity("Pa"),
-        "thin": flag,
-    },
-)
-"""`cage = {thickness, permeability, ...}`: a porous cage."""
-
-FEEDS: dict[str, Keyed] = {
-    "radial": Keyed(RadialFeed, {"inflow": Quantity("m/s"), "cosine": flag, "at_film": flag}),
-    "axial": Keyed(AxialFeed, {"start_pressure": Quantity("Pa"), "end_pressure": Quantity("Pa")}),
-}
+FEEDS = {"radial": RadialFeed, "axial": AxialFeed}
 """`feed = {kind = "radial", ...}`: how lubricant is fed, through the cage or at both ends."""
-
-SUPPLY = Keyed(
-    DamperSupply,
-    {
-        "supply_pressure": Quantity("Pa"),
-        "circumferential_groove": Quantity("m"),
-        "end_groove": flag,
-        "feed_holes": TableList(FEED_HOLE),
-        "cavitation_pressure": Quantity("Pa"),
-        "submerged": flag,
-    },
-)
-"""`supply = {supply_pressure, circumferential_groove, ...}`: what feeds a film that conserves its oil."""
 
 LARGEST_AROUND = 0.2
 """Excess of the damping of a sealed short film, beyond which it is not asked."""
 
-EXTENTS: dict[str, Keyed] = {"half_sommerfeld": Keyed(HalfSommerfeld), "full": Keyed(FullFilm)}
+EXTENTS = {"half_sommerfeld": HalfSommerfeld, "full": FullFilm}
 
 SQUEEZES: dict[str, Keyed[SqueezeLaw]] = {
     "short": Keyed(ShortSqueeze),
@@ -137,23 +105,16 @@ SQUEEZES: dict[str, Keyed[SqueezeLaw]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperTable:
+@fields_of(PorousDamper)
+class DamperTable(Taking):
     """`[damper]`: a squeeze-film damper and its retainer springs.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the film; a file may give `diameter` instead.
-    length, clearance : float [m]
-        Axial length, radial clearance.
-    viscosity : float [Pa s]
-    stiffness : float [N/m]
-        Of the retainer springs, which carry the static load; 0 for none.
-    cage : PorousCage or None
-        None for a solid one.
     extent : FullFilm or HalfSommerfeld
         Whether the film carries tension.
-    feed : RadialFeed, AxialFeed or None
+    stiffness : float [N/m]
+        Of the retainer springs, which carry the static load; 0 for none.
     supply : DamperSupply or None
         Of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is named.
     density : float [kg/m3]
@@ -171,23 +132,15 @@ class DamperTable:
         The film law; if the file does not say, the short film, or what the question of the scene needs.
     """
 
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    length: Annotated[float, Quantity("m")]
-    clearance: Annotated[float, Quantity("m")]
-    viscosity: Annotated[float, Quantity("Pa.s")]
-    stiffness: Annotated[float, Quantity("N/m")] = 0.0
-    cage: Annotated[PorousCage | None, Table(CAGE)] = None
-    extent: Annotated[FullFilm | HalfSommerfeld, Variant("kind", EXTENTS)] = field(
-        default_factory=HalfSommerfeld
-    )
+    extent: Annotated[FullFilm | HalfSommerfeld, Variant("kind", EXTENTS)]
     feed: Annotated[RadialFeed | AxialFeed | None, Variant("kind", FEEDS)] = None
-    supply: Annotated[DamperSupply | None, Table(SUPPLY)] = None
-    density: Annotated[float, Quantity("kg/m3")] = 0.0
-    seals: Annotated[SealsTable | None, Table(SealsTable)] = None
-    offset: Annotated[tuple[float, float], read_place] = (0.0, 0.0)
-    feed_flow: Annotated[float | None, Quantity("m3/s")] = None
-    air_fraction: Annotated[float, Quantity("1")] = 0.0
     film: Annotated[SqueezeLaw | None, Variant("name", SQUEEZES)] = None
+    seals: SealsTable | None = None
+    stiffness: float = 0.0
+    supply: DamperSupply | None = None
+    offset: tuple[float, float] = (0.0, 0.0)
+    feed_flow: float | None = None
+    air_fraction: float = 0.0
 
     def __post_init__(self) -> None:
         require_non_negative("stiffness", self.stiffness)

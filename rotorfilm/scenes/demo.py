@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from ..analysis import speed_parameter
+from ..analysis import equilibrium, speed_parameter
+from ..bearings.journal import JournalBearing, fitted_bearing
+from ..bearings.oil import GRADES, Cooling, Oil
 from ..core.errors import InputError, PartialResultError
 from ..core.files import write_whole
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance, to_plain, write_csv
+from ..core.units import CELSIUS
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly
 from ..studies import (
-    JournalStability,
     StudyModel,
     StudyResult,
     comparison_bearing,
@@ -30,10 +32,106 @@ from ..studies import (
     journal_rungs,
     journal_stability,
 )
+from ..studies.journal_accuracy import SPEED
 from .cosimulate_scene import critical_macro_angle, monolithic_solution
-from .export_scene import ExportedScene, export_scene, resting_rotor
+from .export_scene import export_scene, resting_rotor
 from .scene import Scene
-from .solve_journal import Answer, RunningBearing, attitude_angles, running_bearing
+from .solve_journal import Answer
+
+# A bearing as it runs: its oil warms until its heat balances, whatever viscosity a textbook gives it.
+
+
+COLDEST, HOTTEST = CELSIUS, 120.0 + CELSIUS
+"""Where fresh oil may be [K]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunningBearing:
+    """Where a journal runs once its oil is warm.
+
+    Attributes
+    ----------
+    oil : str
+        What was taken for the oil.
+    supply_temperature : float [K]
+        Of the fresh oil, which is as viscous as the bearing was said to be.
+    temperature : float [K]
+        Of the film, at which its heat balances.
+    eccentricity_ratio : float [1]
+    power_loss : float [W]
+    """
+
+    oil: str
+    supply_temperature: float
+    temperature: float
+    eccentricity_ratio: float
+    power_loss: float
+
+
+def running_bearing(
+    bearing: JournalBearing, load: tuple[float, float], speed: float
+) -> RunningBearing | None:
+    """Return a bearing of one viscosity as it runs; None if there is no such oil, or it is warm already.
+
+    Its viscosity is taken for that of fresh oil, of the ISO grade that has it next to 40 degrees Celsius; all
+    heat leaves with the oil that leaks.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    load : (float, float) [N]
+        On the journal.
+    speed : float [rad/s]
+    """
+    if bearing.viscosity is None:
+        return None
+    wanted = math.log(bearing.viscosity)
+    oils = {grade: Oil.iso_vg(grade) for grade in GRADES}
+    at_40 = {grade: float(np.log(oil.viscosity(CELSIUS + 40.0))) for grade, oil in oils.items()}
+    grade = min(GRADES, key=lambda one: abs(at_40[one] - wanted))
+    grid = np.linspace(COLDEST, HOTTEST, 200)
+    thinner = -np.log(oils[grade].law.viscosity(grid))
+    if not thinner[0] < -wanted < thinner[-1]:
+        return None
+    supply = float(np.interp(-wanted, thinner, grid))
+    cooling = Cooling(supply_temperature=supply)
+    running = replace(bearing, viscosity=None, oil=oils[grade], cooling=cooling)
+    at = equilibrium(running, load, speed)
+    if at.temperature is None or at.losses is None:
+        return None
+    return RunningBearing(
+        oil=f"ISO VG {grade}",
+        supply_temperature=supply,
+        temperature=at.temperature,
+        eccentricity_ratio=at.eccentricity_ratio,
+        power_loss=float(at.losses.power_loss),
+    )
+
+
+# Locus of the journal center by every film of a ladder.
+
+
+def attitude_angle(bearing: JournalBearing, eccentricity_ratio: Array) -> Array:
+    """Return the angle from the load line to the journal center, in the sense of rotation, (n,) [rad].
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    eccentricity_ratio : ndarray, shape (n,) [1]
+    """
+    position = bearing.clearance * np.stack([eccentricity_ratio, np.zeros_like(eccentricity_ratio)])
+    force = bearing.force(position, np.zeros_like(position), np.full(len(eccentricity_ratio), SPEED))
+    return np.asarray(-np.arctan2(-force[1], -force[0]))
+
+
+def attitude_angles(
+    bearing: JournalBearing, rungs: Sequence[StudyModel], eccentricity_ratio: Array
+) -> dict[str, Array]:
+    """Return the attitude angles (n,) [rad] of the bearing with the film of each rung, by its name."""
+    return {
+        rung.name: attitude_angle(fitted_bearing(bearing, rung.law), eccentricity_ratio) for rung in rungs
+    }
+
 
 # Coupled runs of two FMUs at several macro steps, compared with the monolithic solution.
 
@@ -88,7 +186,7 @@ class CouplingStudy(Readable):
 
 
 def study_coupling(
-    scene: Scene, fmus: ExportedScene, macro_angles: Sequence[float], report: Report
+    scene: Scene, fmus: Mapping[str, Path], macro_angles: Sequence[float], report: Report
 ) -> CouplingStudy:
     """Couple the FMUs of a scene at several macro steps and compare with the monolithic solution.
 
@@ -96,7 +194,7 @@ def study_coupling(
     ----------
     scene : Scene
         Gives the models of the monolithic solution, and the length of the runs.
-    fmus : ExportedScene
+    fmus : mapping of str to Path
     macro_angles : sequence of float [rad]
         At least one.
     report : callable
@@ -121,15 +219,15 @@ def _part(scene: Scene, angles: list[float], angle: float, report: Report) -> Ca
 
 
 def _run(
-    scene: Scene, fmus: ExportedScene, angle: float, progress: Callable[[float], None]
+    scene: Scene, fmus: Mapping[str, Path], angle: float, progress: Callable[[float], None]
 ) -> tuple[CoSimulation, float, str]:
     """Return a coupled run, its wall time, and why it is no answer if it is none."""
     begin = perf_counter()
     try:
         with quietly():
             result = cosimulate(
-                fmus.rotor,
-                fmus.film,
+                fmus["rotor"],
+                fmus["film"],
                 macro_step=scene.time_of(angle),
                 duration=scene.duration,
                 progress=progress,
@@ -223,7 +321,7 @@ class DemoResult(Readable):
         at any temperature.
     speed_parameter : float [1]
         speed * sqrt(clearance * mass / load) of the scene.
-    fmus : ExportedScene
+    fmus : mapping of str to Path
         The files that were exported.
     critical_macro_angle : float or None [rad]
         Longest macro step of a stable coupling by linear theory; None where there is no limit.
@@ -231,7 +329,7 @@ class DemoResult(Readable):
         Coupled runs beside the monolithic one.
     attitude_angle : dict of str to ndarray [rad]
         By film, at the eccentricity ratios of `stability`.
-    stability : JournalStability
+    stability : StudyResult
         Whirl threshold by film.
     accuracy : StudyResult
         Error and cost of the force by film.
@@ -241,11 +339,11 @@ class DemoResult(Readable):
     answer: Answer
     running: RunningBearing | None
     speed_parameter: float
-    fmus: ExportedScene
+    fmus: Mapping[str, Path]
     critical_macro_angle: float | None
     coupling: CouplingStudy
     attitude_angle: dict[str, Array]
-    stability: JournalStability
+    stability: StudyResult
     accuracy: StudyResult
 
     @property
@@ -354,7 +452,7 @@ def plain_results(result: DemoResult) -> dict[str, Any]:
     """Return the results as plain data, without the trajectories; files by their names."""
     runs = [_without_trajectory(run) for run in result.coupling.runs]
     kept = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("fmus", "coupling")}
-    kept["fmus"] = {name: path.name for name, path in result.fmus._asdict().items()}
+    kept["fmus"] = {name: path.name for name, path in result.fmus.items()}
     kept["coupling"] = {"observed_order": result.coupling.observed_order, "runs": runs}
     plain: dict[str, Any] = to_plain(kept)
     return plain

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Protocol, Self, runtime_checkable
 
 from ..core.errors import InputError, require_count, require_non_negative, require_number, require_positive
-from ..core.limits import SEEDS, SHAFT_ELEMENTS
+from ..core.limits import SEEDS
 from ..core.progress import Report
 from ..core.readable import Readable
 from ..rotors.base_excitation import BaseMotion
 from ..rotors.motor import LinearMotor
 from ..rotors.profile import SpeedProfile
 from .lubricant_table import Lubricant, LubricantTable
-from .reading import Count, Quantity, Record, flag, made_from, read_load, record_of
+from .reading import Count, Record, made_from, read_load, record_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,9 +32,9 @@ class UnbalanceTable:
         Of a flexible rotor, where it sits; 0 for all others.
     """
 
-    unbalance: Annotated[float, Quantity("kg.m")]
-    unbalance_angle: Annotated[float, Quantity("rad")] = 0.0
-    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)] = 0
+    unbalance: float
+    unbalance_angle: float = 0.0
+    node: int = 0
 
     def __post_init__(self) -> None:
         require_non_negative("unbalance", self.unbalance)
@@ -54,8 +54,8 @@ class BladeLossTable(UnbalanceTable):
         Turns of the shaft that are followed from then on.
     """
 
-    start: Annotated[float, Quantity("s")] = 0.0
-    revolutions: Annotated[float, Quantity("1")] = 10.0
+    start: float = 0.0
+    revolutions: float = 10.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -77,9 +77,9 @@ class RunUpTable(UnbalanceTable):
         Whether the speed returns in the same time.
     """
 
-    end_speed: Annotated[float, Quantity("rad/s")]
-    duration: Annotated[float, Quantity("s")]
-    back: Annotated[bool, flag] = False
+    end_speed: float
+    duration: float
+    back: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -106,8 +106,8 @@ class StepLoadTable:
     """
 
     load: Annotated[tuple[float, float], read_load]
-    start: Annotated[float, Quantity("s")] = 0.0
-    end: Annotated[float, Quantity("s")] = math.inf
+    start: float = 0.0
+    end: float = math.inf
 
     def __post_init__(self) -> None:
         require_non_negative("start", self.start)
@@ -128,7 +128,7 @@ class SineLoadTable:
     """
 
     load: Annotated[tuple[float, float], read_load]
-    frequency: Annotated[float, Quantity("rad/s")]
+    frequency: float
 
     def __post_init__(self) -> None:
         require_positive("frequency", self.frequency)
@@ -151,10 +151,10 @@ class MotorTable(UnbalanceTable):
         Torque per rad/s that resists.
     """
 
-    inertia: Annotated[float, Quantity("kg.m2")]
-    stall_torque: Annotated[float, Quantity("N.m")]
-    idle_speed: Annotated[float, Quantity("rad/s")]
-    resistance: Annotated[float, Quantity("N.m.s/rad")] = 0.0
+    inertia: float
+    stall_torque: float
+    idle_speed: float
+    resistance: float = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -188,7 +188,7 @@ class GroundTable:
     acceleration: Annotated[Record | None, record_of("time [s]", "x [m/s2]", "y [m/s2]")] = None
     displacement: Annotated[Record | None, record_of("time [s]", "x [m]", "y [m]")] = None
     spectrum: Annotated[Record | None, record_of("frequency [rad/s]", "density [m2/s3]")] = None
-    scale: Annotated[float, Quantity("1")] = 1.0
+    scale: float = 1.0
     seed: Annotated[int, Count(SEEDS, 0)] = 0
 
     def __post_init__(self) -> None:

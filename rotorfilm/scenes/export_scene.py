@@ -1,60 +1,119 @@
-"""The bearing and the rotor of a scene as FMUs that fit together."""
+"""The bearing and the rotor of a scene as FMUs that fit together, or as one; a flexible rotor alone."""
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from ..analysis import equilibrium
+import numpy as np
+
+from ..analysis import equilibrium, rotor_equilibrium
 from ..core.files import written_together
+from ..core.inputs import arguments
+from ..core.model import Array, Reaction
 from ..fmu import export_fmu, export_ssp
+from ..rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
 from ..rotors.force_law import LawRotor
 from ..rotors.rigid import RigidRotor
+from ..rotors.structure import station_names
 from .families import SceneModels, models_of
 
 if TYPE_CHECKING:
     from .scene import Scene
 
 
-class ExportedScene(NamedTuple):
-    """Where the two FMUs of a scene are.
+def export_scene(
+    scene: Scene,
+    folder: Path,
+    *,
+    version: str = "2.0",
+    backend: str | None = None,
+    platforms: str = "host",
+    tolerance: float = 1e-3,
+) -> dict[str, Path]:
+    """Write the FMUs of a scene, all or none.
 
-    Attributes
+    These are `film.fmu` and `rotor.fmu`, both starting at the static equilibrium; of a scene with a damper
+    `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center. A flexible rotor is one
+    `system.fmu` with all its bearings, at rest in them; so is a rotor on a damper whose oil has mass.
+
+    Parameters
     ----------
-    film, rotor : Path
-    """
+    scene : Scene
+        With a rotor. A flexible one has `operation.speed`, without an operation the first of `shaft.speeds`.
+    folder : Path
+        Made if absent.
+    version, backend, platforms : str
+        See `export_fmu`.
+    tolerance : float [1]
+        Largest error of the reduction of a flexible rotor, up to the highest frequency of the shaft.
 
-    film: Path
-    rotor: Path
+    Returns
+    -------
+    dict of str to Path
+        The files of `film` and `rotor`, or of the `system`.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, no bearing that a rotor runs in, or a shaft with an excitation other than
+        an unbalance.
+    ConvergenceError
+        If no reduction of a flexible rotor is within the tolerance.
+    EquilibriumError
+        If a film cannot carry its load.
+    FmuError
+        If a model cannot be exported.
+    """
+    heavy = scene.damper is not None and scene.damper.density > 0.0
+    if heavy or (scene.shaft is not None and not scene.has_film):
+        model, step, speed = _damped_rotor(scene) if heavy else _shaft_system(scene, tolerance)
+        end = 2.0 * np.pi / (abs(speed) or 1.0)  # a turn: what Python takes for it is some seconds
+        files, parts = {"system": "system"}, {"system": (model, {})}
+    else:
+        models = models_of(scene)
+        files, parts = models.files, models.parts
+        step, end = models.step, models.duration
+    write_models(parts, folder, version, backend, platforms=platforms, step=step, end=end)
+    return {name: folder / f"{file}.fmu" for name, file in files.items()}
 
 
 def write_models(
-    models: SceneModels,
+    parts: Mapping[str, tuple[Any, Mapping[str, float]]],
     folder: Path,
     version: str = "2.0",
     backend: str | None = None,
     *,
     platforms: str = "host",
-) -> ExportedScene:
-    """Write the FMUs of a bearing and its rotor; see `export_fmu`."""
-    starts: dict[str, Mapping[str, float]] = {models.name: models.start, "rotor": {}}
-    parts = {models.name: models.bearing, "rotor": models.rotor}
-    with written_together(folder) as part:
-        for name, model in parts.items():
+    step: float,
+    end: float,
+) -> None:
+    """Write models with their start values as FMUs, all or none; see `export_fmu`.
+
+    Parameters
+    ----------
+    parts : mapping of str to (model, mapping)
+        By the names of files and components.
+    folder : Path
+    version, backend, platforms : str
+    step, end : float [s]
+        Between two exchanges, and of a run.
+    """
+    with written_together(folder) as place:
+        for name, (model, start) in parts.items():
             export_fmu(
                 model,
-                part / f"{name}.fmu",
+                place / f"{name}.fmu",
                 version,
                 backend,
                 platforms=platforms,
                 component=name,
-                start=starts[name],
-                step_size=models.step,
-                stop_time=models.duration,
+                start=start,
+                step_size=step,
+                stop_time=end,
             )
-    return ExportedScene(film=folder / f"{models.name}.fmu", rotor=folder / "rotor.fmu")
 
 
 def export_scene_system(scene: Scene, path: Path, *, version: str = "2.0", platforms: str = "host") -> Path:
@@ -102,7 +161,7 @@ def resting_rotor(scene: Scene) -> RigidRotor:
         If the film cannot carry the load.
     """
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
-    return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
+    return replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
 
 
 def film_models(scene: Scene) -> SceneModels:
@@ -113,34 +172,108 @@ def film_models(scene: Scene) -> SceneModels:
     return SceneModels("film", scene.bearing, law, start, scene.macro_step, scene.duration)
 
 
-def export_scene(
-    scene: Scene,
-    folder: Path,
-    *,
-    version: str = "2.0",
-    backend: str | None = None,
-    platforms: str = "host",
-) -> ExportedScene:
-    """Write `film.fmu` and `rotor.fmu`, both or none, both starting at the static equilibrium.
+def tilting_models(scene: Scene) -> SceneModels:
+    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
+    from .pad_tables import settled_scene  # another family, whose tables no other scene needs
 
-    Of a scene with a damper these are `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center.
+    scene = settled_scene(scene)
+    models = film_models(scene)
+    bearing = scene.table("tilting_pad").build()
+    rest = np.array([models.start["x"], models.start["y"]])
+    pads = bearing.at_rest().pad_states(rest, scene.speed)
+    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
+    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
+
+
+def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
+    """Return the rotor of a scene on its damper, springs included, a step [s], and its speed.
+
+    A film that the scene does not name is the map of the short film, which runs in C, or between tight seals
+    that of finite length.
+    """
+    from ..bearings.damper import MapSqueeze  # another family, whose models no other scene needs
+    from .damper_films import damper_models
+
+    table = scene.damper
+    if table.film is None and not table.needs_length:
+        scene = scene.with_tables(damper=replace(table, film=MapSqueeze()))
+    models = damper_models(scene)
+    return mount(models.rotor, {"": models.support}), models.step, scene.speed
+
+
+def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
+    """Return the flexible rotor of a scene at rest in its bearings, a step [s], and its speed."""
+    from .solve_shaft import added_unbalance  # as above
+
+    speeds = scene.shaft.speeds
+    speed = speeds.first if scene.operation is None else scene.speed
+    highest = scene.shaft.highest_frequency or 2.0 * speeds.last
+    whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
+    bearings = scene.shaft.build_bearings()
+    rotor, _ = _at_rest(reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor, bearings, speed)
+    return mount(rotor, bearings), scene.cosimulation.macro_angle / (abs(speed) or 1.0), speed
+
+
+@arguments
+def export_rotor_fmu(
+    rotor: FlexibleRotor,
+    path: str | Path,
+    version: str = "2.0",
+    *,
+    frequency: float,
+    tolerance: float = 1e-3,
+    bearings: Mapping[str, Reaction] | None = None,
+    platforms: str = "host",
+    component: str = "rotor",
+) -> Reduction:
+    """Write a rotor at constant speed as a native FMU, reduced as far as a tolerance allows.
 
     Parameters
     ----------
-    scene : Scene
-        With a rotor.
-    folder : Path
-        Made if absent.
-    version, backend, platforms : str
-        See `export_fmu`.
+    rotor : FlexibleRotor
+        With a constant speed; held by its stations, whose signals are those of the FMU.
+    path, version, platforms, component
+        As in `export_fmu`.
+    frequency : float [rad/s]
+        Highest frequency of interest, as in `reduce_rotor`.
+    tolerance : float [1]
+        Largest error of the reduction.
+    bearings : mapping of str to Reaction, optional
+        By station: the FMU begins at rest in them, under their forces; without, straight and without forces.
+
+    Returns
+    -------
+    Reduction
+        The rotor in the FMU, with its error.
 
     Raises
     ------
     InputError
-        If the scene has no rotor, or no bearing that a rotor runs in.
+        If an argument breaks its rule.
+    ConvergenceError
+        If no reduction is within the tolerance.
     EquilibriumError
-        If the film cannot carry the load.
-    FmuError
-        If a model cannot be exported.
+        If there is no equilibrium in the bearings.
     """
-    return write_models(models_of(scene), folder, version, backend, platforms=platforms)
+    reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
+    start = {}
+    if bearings is not None:
+        rotor, loads = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
+        reduction = replace(reduction, rotor=rotor)
+        start = {
+            name: -value
+            for station, load in loads.items()
+            for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
+        }
+    model = SteadyRotor(rotor=reduction.rotor)
+    export_fmu(model, path, version, platforms=platforms, component=component, start=start)
+    return reduction
+
+
+def _at_rest(
+    rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
+) -> tuple[ReducedRotor, Mapping[str, Array]]:
+    """Return the rotor as it rests in its bearings at a speed [rad/s], and its load on each [N]."""
+    at = rotor_equilibrium(rotor, bearings, speed)
+    rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
+    return replace(rotor, initial=tuple(rest.tolist())), at.loads

@@ -1,32 +1,69 @@
-"""The bearing families that a scene may have: one line each, and the record that each brings."""
+"""The bearing families that a scene may have: one row each, with the places of what each brings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from ..core.answers import Ladder, LeftOutRemark
+from ..core.answers import LeftOutRemark
 from ..core.errors import InputError
 from ..core.model import Model, Stepped
-from ..core.progress import Report
+
+
+class Family(NamedTuple):
+    """What a bearing family brings to scenes: places of names below `rotorfilm`, loaded when they are needed.
+
+    Attributes
+    ----------
+    table : str
+        The dataclass that its table is read into; see `rotorfilm.scenes.reading`.
+    models : str
+        Takes a scene and returns what of it becomes FMUs; empty if that is not one bearing under one rotor.
+    answer : str
+        Takes a scene without a question and a Report of its progress, and returns what the scene answers;
+        empty where that is what any bearing with a film answers.
+    ladders : str
+        By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs; empty
+        where `rotorfilm.questions` has them.
+    """
+
+    table: str
+    models: str = ""
+    answer: str = ""
+    ladders: str = ""
+
+
+FILM = "scenes.export_scene.film_models"
 
 FAMILIES = {
-    "journal": "questions.journal.FAMILY",
-    "bush": "questions.bush.FAMILY",
-    "contact": "questions.contact.FAMILY",
-    "shaft": "questions.shaft.FAMILY",
-    "damper": "questions.damper.FAMILY",
-    "lobed_journal": "questions.pads.LOBED",
-    "pressure_dam": "questions.pads.PRESSURE_DAM",
-    "tilting_pad": "questions.pads.TILTING",
-    "ball_bearing": "questions.rolling.FAMILY",
+    "journal": Family("scenes.journal_tables.JournalTable", FILM),
+    "bush": Family("scenes.bush_table.BushTable", answer="scenes.bush_table.answer_bush"),
+    "contact": Family("scenes.contact_table.ContactTable", answer="scenes.solve_contact.answer_contact"),
+    "shaft": Family("scenes.shaft_table.ShaftTable", answer="scenes.solve_shaft.solve_rotor"),
+    "damper": Family(
+        "scenes.damper_table.DamperTable",
+        "scenes.damper_films.damper_fmus",
+        "scenes.solve_damper.answer_damper",
+    ),
+    "lobed_journal": Family("scenes.pad_tables.LobedTable", FILM),
+    "pressure_dam": Family("scenes.pad_tables.DamTable", FILM),
+    "tilting_pad": Family("scenes.pad_tables.TiltingTable", "scenes.export_scene.tilting_models"),
+    "ball_bearing": Family("scenes.rolling.BallTable", FILM),
 }
-"""By the name of its table in a scene, the module of a family and the name of its record there.
+"""By the name of its table in a scene."""
 
-Found late: answers to questions stand above scenes.
-"""
+
+def brought(place: str) -> Any:
+    """Return what stands at a place that a family names."""
+    module, _, name = place.rpartition(".")
+    return getattr(import_module(f"{__package__.rpartition('.')[0]}.{module}"), name)
+
+
+def table_of(name: str) -> type:
+    """Return the dataclass of a family's table."""
+    found: type = brought(FAMILIES[name].table)
+    return found
 
 
 class SceneModels(NamedTuple):
@@ -52,44 +89,15 @@ class SceneModels(NamedTuple):
     step: float
     duration: float
 
+    @property
+    def files(self) -> dict[str, str]:
+        """Names of the files of film and rotor."""
+        return {"film": self.name, "rotor": "rotor"}
 
-@dataclass(frozen=True, kw_only=True)
-class Family:
-    """What a bearing family brings to scenes and questions.
-
-    Attributes
-    ----------
-    table : type
-        The dataclass that its table is read into; see `rotorfilm.scenes.reading`.
-    ladders : mapping of str to callable
-        By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs.
-    models : callable or None
-        Takes a scene and returns what of it becomes FMUs; None if that is not one bearing under one rotor.
-    answer : callable or None
-        Takes a scene without a question and a Report of its progress, and returns what the scene answers;
-        None where that is what any bearing with a film answers.
-    example : mapping of str to mapping
-        Tables of a scene that has an answer, with values as a file has them, for `rotorfilm new`.
-    """
-
-    table: type
-    ladders: Mapping[str, Callable[[Any, str], Ladder]]
-    models: Callable[[Any], SceneModels] | None = None
-    answer: Callable[[Any, Report], Any] | None = None
-    example: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-
-
-def family_of(name: str) -> Family:
-    """Return the record of a family, by the name of its table."""
-    home = __package__.rpartition(".")[0]
-    module, _, record = FAMILIES[name].rpartition(".")
-    found: Family = getattr(import_module(f"{home}.{module}"), record)
-    return found
-
-
-def table_of(name: str) -> type:
-    """Return the dataclass of a family's table."""
-    return family_of(name).table
+    @property
+    def parts(self) -> dict[str, tuple[Any, Mapping[str, float]]]:
+        """Models and start values, by the names of their files."""
+        return {self.name: (self.bearing, self.start), "rotor": (self.rotor, {})}
 
 
 def models_of(scene: Any) -> SceneModels:
@@ -100,12 +108,12 @@ def models_of(scene: Any) -> SceneModels:
     InputError
         If no family of the scene has a bearing under a rotor.
     """
-    given = [name for name in reversed(FAMILIES) if scene.table(name) is not None]
-    makers = [family_of(name).models for name in given]
-    make = next((maker for maker in makers if maker is not None), None)
-    if make is None:
+    given = [name for name in reversed(FAMILIES) if name in scene.tables]
+    place = next((FAMILIES[name].models for name in given if FAMILIES[name].models), None)
+    if place is None:
         raise InputError(f"{' or '.join(FAMILIES)} must be a bearing under a rotor for FMUs, got {given}")
-    return make(scene)
+    found: SceneModels = brought(place)(scene)
+    return found
 
 
 # Remarks on what a physics leaves out: a number, its limit, and what is said beyond it.

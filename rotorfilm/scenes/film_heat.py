@@ -34,7 +34,7 @@ from ..core.errors import RotorfilmError
 from ..core.model import Reaction
 from ..core.results import Coefficients, Equilibrium
 from ..core.units import CELSIUS
-from .film_rungs import RestedJournal
+from .film_rungs import RestedJournal, maximum_pressure
 
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
@@ -57,6 +57,8 @@ class WarmRest(RestedJournal):
     supply_temperature : float [K]
     field : ndarray or None [K]
         Temperature of the oil, cell by cell; None of one temperature.
+    pressure : callable or None
+        Returns the largest pressure in a film with a field [Pa].
     """
 
     rest: Equilibrium
@@ -67,11 +69,19 @@ class WarmRest(RestedJournal):
     maximum_temperature: float
     supply_temperature: float
     field: ArrayLike | None = None
+    pressure: Callable[[], float] | None = None
 
     @property
     def at(self) -> Equilibrium:  # type: ignore[override]
         """The rest."""
         return self.rest
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        if self.pressure is not None:
+            return self.pressure()
+        return maximum_pressure(self.reaction, self.rest.position, self.rest.speed)
 
     @property
     def losses(self) -> WarmRest:
@@ -171,6 +181,7 @@ def rest_of_state(
         maximum_temperature=state.maximum_temperature,
         supply_temperature=supply,
         field=state.oil_temperature,
+        pressure=lambda: float(np.max(state.pressure)),
     )
 
 
@@ -295,13 +306,19 @@ class HeatSteps:
         return np.asarray(self.own.field)[..., None]
 
     def _moved(self, found: WarmRest, here: Equilibrium) -> WarmRest:
-        """Return a step with power and flow, which are those before its move, changed as T1's by the move."""
+        """Return a step with what is known before its move, changed as T1's by the move."""
         own = self.bearing.at_temperature(self.own.temperature)
         before, after = (own.losses(q, np.zeros(2), here.speed) for q in (here.position, found.rest.position))
         assert before is not None  # a balance has them
         assert after is not None
+
+        def pressure() -> float:
+            before, after = (maximum_pressure(own, one.position, here.speed) for one in (here, found.rest))
+            return found.maximum_pressure * after / before
+
         return replace(
             found,
+            pressure=pressure,
             power_loss=found.power_loss * float(after.power_loss) / float(before.power_loss),
             side_flow=found.side_flow * float(after.side_flow) / float(before.side_flow),
         )

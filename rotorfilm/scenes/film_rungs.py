@@ -17,6 +17,7 @@ from ..bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
     GroovedMapFilm,
+    JFOFilm,
     JournalBearing,
     MapFilm,
     ReynoldsFilm,
@@ -24,13 +25,14 @@ from ..bearings.journal import (
     ShortFilm,
     SplittingFilm,
     film_name,
+    film_state,
     fitted_bearing,
     has_losses,
     is_mappable,
 )
 from ..bearings.reaction import InertialModel, WalledReaction, minimum_film, relative_film
 from ..core.answers import DISAGREEMENT, WorkUnit
-from ..core.errors import require_vector
+from ..core.errors import InputError, require_vector
 from ..core.model import (
     Array,
     JournalForce,
@@ -216,6 +218,7 @@ def _rung(
     bounded: bool = False,
 ) -> FilmRung:
     cells, rich_name = rich
+    grid = grid_of(film)
     return FilmRung(
         name=name,
         reaction=fitted_bearing(bearing, film),
@@ -224,7 +227,14 @@ def _rung(
         position_prior=position_prior,
         prior=slope_prior,
         bounded=bounded,
+        call_time=CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells),
     )
+
+
+def grid_of(film: FilmLaw) -> ReynoldsFilm | None:
+    """Return the film in two dimensions that a law is, or is extrapolated from; None of any other."""
+    own = film.film if isinstance(film, ExtrapolatedFilm) else film
+    return own if isinstance(own, ReynoldsFilm) else None
 
 
 # A candidate of films: one that may answer, and the richer one that its defect is sampled with.
@@ -258,6 +268,8 @@ class FilmCandidate:
         Whether the error has one verified bound in any motion.
     making : float [s]
         About how long the map takes that its first force makes; 0 where there is none to make.
+    call_time : float [s]
+        About what a force with derivatives takes.
     """
 
     name: str
@@ -268,6 +280,7 @@ class FilmCandidate:
     prior: float
     bounded: bool = False
     making: float = 0.0
+    call_time: float = CALL_TIME
 
     @property
     def makes_map(self) -> bool:
@@ -291,11 +304,6 @@ class FilmCandidate:
     def time(self, tangents: int) -> float:
         """Return about how long so many forces with derivatives take, with the map that is to be made [s]."""
         return self.making + tangents * self.call_time
-
-    @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        return CALL_TIME
 
     def prepare(self) -> dict[WorkUnit, int]:
         """Make what the first force would make, and return the work of that."""
@@ -323,6 +331,10 @@ class FilmCandidate:
     def has_losses(self) -> bool:
         """Whether power loss and flow of oil are known."""
         return True
+
+    def with_pressure(self) -> Self | None:
+        """Return the candidate if both films know their pressure, else None."""
+        return self if has_pressure(self.reaction) and has_pressure(self.rich) else None
 
     def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
         """Return calls that do one unit of its work, at half the clearance."""
@@ -421,6 +433,45 @@ class FilmCandidate:
 def any_candidate(film: Any) -> FilmCandidate:
     """Return a film as a candidate of which nothing is known beforehand."""
     return FilmCandidate(name="", reaction=film, rich=film, rich_name="", position_prior=0.0, prior=0.0)
+
+
+def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
+    """Return the films whose losses are known; InputError where there is none, as they are wanted."""
+    known = tuple(film for film in films if film.has_losses)
+    if known:
+        return known
+    raise InputError(f"film must be a law with losses for {wanted}, as map or reynolds, got {films[0].name}")
+
+
+def with_pressures(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
+    """Return the films whose pressure is known, as their richer ones'; InputError where there is none."""
+    known = tuple(film for one in films if (film := one.with_pressure()) is not None)
+    if known:
+        return known
+    raise InputError(f"film must be a law with a pressure for {wanted}, as reynolds, got {films[0].name}")
+
+
+def has_pressure(bearing: Any) -> bool:
+    """Return whether the film of a bearing knows its pressure, place by place."""
+    if isinstance(bearing, JournalBearing):
+        return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm | SplittingFilm)
+    return isinstance(bearing, JFOFilm) or hasattr(bearing, "pressure")
+
+
+def maximum_pressure(bearing: Any, position: Array, speed: float) -> float:
+    """Return the largest pressure [Pa] in the film of a bearing, its journal at rest at a position (2,) [m].
+
+    That at a node of its grid, the finer one of an extrapolated film; of pads the largest on any of them.
+    """
+    if isinstance(bearing, JFOFilm):
+        return float(np.max(bearing.solve(position, speed).pressure))
+    if not isinstance(bearing, JournalBearing):
+        pressures = (bearing.pressure(k, position, np.zeros(2), speed) for k in range(len(bearing.pads)))
+        return max(float(np.max(one.pressure)) for one in pressures)
+    law = replace(bearing, film=grid_of(bearing.film) or bearing.film)
+    found = film_state(law, position, np.zeros(2), speed).maximum_pressure
+    assert found is not None  # see `has_pressure`
+    return found
 
 
 # The whirl of a rigid rotor on K and C.
@@ -539,6 +590,11 @@ class FilmRest(RestedJournal):
         """That of a film of one temperature [K]."""
         return self.temperature
 
+    @property
+    def maximum_pressure(self) -> float:
+        """Largest pressure in the film [Pa]."""
+        return maximum_pressure(self.bearing, self.position, self.at.speed)
+
 
 def attitude(position: Array, load: Array, speed: float) -> float:
     """Return the angle [rad] from a load [N] to a position (2,) [m], in the sense of rotation."""
@@ -580,16 +636,19 @@ class FilmRung(FilmCandidate):
     rich: JournalBearing
 
     @property
-    def call_time(self) -> float:
-        """About what a force with derivatives takes [s]."""
-        law = self.reaction.film
-        grid = law.film if isinstance(law, ExtrapolatedFilm) else law
-        return CELL_TIME * math.prod(grid.cells) if isinstance(grid, ReynoldsFilm) else CALL_TIME
-
-    @property
     def has_losses(self) -> bool:
         """Whether its law knows power loss and flow of oil."""
         return has_losses(self.reaction)
+
+    def with_pressure(self) -> FilmRung | None:
+        """Return the candidate beside a richer film on a grid, as a map knows no pressure."""
+        if not has_pressure(self.reaction):
+            return None
+        grid = grid_of(self.reaction.film)
+        fine = grid is not None and math.prod(grid.cells) >= math.prod(MEDIUM)
+        cells = FINEST if fine else FINE
+        rich_name = f"2-D {cells[0]} x {cells[1]} extr."
+        return replace(self, rich=extrapolated(self.reaction, cells), rich_name=rich_name)
 
     def on_grid(self, bearing: JournalBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""

@@ -1,4 +1,4 @@
-"""The film, its rupture, and openings of the bearing in scene files: schema 1."""
+"""`[journal]`: the bearing with its openings, its films and their rupture; what its physics leaves out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 from ..analysis import equilibrium
 from ..bearings import journal
@@ -24,14 +24,14 @@ from ..bearings.films.geometry import (
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
-from ..bearings.oil.laminar import TAYLOR, TURBULENT, film_reynolds
-from ..bearings.oil.oil import compression
-from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
-from ..core.limits import FILM_CELLS, FUNCTIONS, MAP_NODES
+from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
+from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
+from ..core.limits import FUNCTIONS, MAP_NODES
+from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, said
-from .lubricant_table import Lubricant
-from .reading import Count, Counts, Keyed, Quantity, Variant, flag, made_from, takes
+from .lubricant_table import Lubricant, OiledTable
+from .reading import COUNTS, Count, Counts, Keyed, Variant, fields_of, keys_of, made_from, takes
 
 ORDER = Count(FUNCTIONS)
 
@@ -45,32 +45,21 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
     return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
 
 
-CELLS = Counts(("around", "along"), FILM_CELLS)
-"""Reader of the cells of a two-dimensional film, around it and along half its length."""
-
 NODES = Counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
 RUPTURES: dict[str, Callable[[], Keyed]] = {
-    "fixed": lambda: Keyed(journal.FixedArc, {"start": Quantity("rad"), "extent": Quantity("rad")}),
-    "rotating": lambda: Keyed(journal.RotatingArc),
-    "reynolds": lambda: Keyed(journal.ReynoldsArc, {"start": Quantity("rad")}),
-    "complementarity": lambda: Keyed(journal.ComplementarityArc),
+    "fixed": lambda: keys_of(journal.FixedArc, "start", "extent"),
+    "rotating": lambda: keys_of(journal.RotatingArc),
+    "reynolds": lambda: keys_of(journal.ReynoldsArc, "start"),
+    "complementarity": lambda: keys_of(journal.ComplementarityArc),
 }
 """`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
 
-CAVITATIONS: dict[str, Keyed] = {
-    "complementarity": Keyed(Complementarity),
-    "half_sommerfeld": Keyed(HalfSommerfeld),
-    "full": Keyed(FullFilm),
-}
+CAVITATIONS = {"complementarity": Complementarity, "half_sommerfeld": HalfSommerfeld, "full": FullFilm}
 """What the two-dimensional film does in tension, by name."""
 
-STARTS: dict[str, Keyed] = {
-    "free": Keyed(FreeStart),
-    "widest_gap": Keyed(WidestGap),
-    "line": Keyed(HeldLine, {"line": Quantity("rad")}),
-}
+STARTS = {"free": FreeStart, "widest_gap": WidestGap, "line": HeldLine}
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
 
@@ -91,37 +80,128 @@ class ConservedOil:
 
 FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
-    "map": lambda: Keyed(journal.MapFilm),
-    "grooved_map": lambda: Keyed(
-        journal.GroovedMapFilm,
-        {"cells": CELLS, "nodes": NODES, "largest_eccentricity_ratio": Quantity("1")},
+    "map": lambda: keys_of(journal.MapFilm),
+    "grooved_map": lambda: keys_of(
+        journal.GroovedMapFilm, "largest_eccentricity_ratio", cells=COUNTS["cells"], nodes=NODES
     ),
-    "reynolds": lambda: Keyed(
+    "reynolds": lambda: keys_of(
         journal.ReynoldsFilm,
-        {
-            "cells": CELLS,
-            "cavitation": Variant("kind", CAVITATIONS),
-            "film_start": Variant("kind", STARTS),
-        },
+        "cells",
+        cavitation=Variant("kind", CAVITATIONS),
+        film_start=Variant("kind", STARTS),
     ),
-    "jfo": lambda: Keyed(ConservedOil, {"cells": CELLS}),
-    "short": lambda: Keyed(journal.ShortFilm),
-    "splitting": lambda: Keyed(
+    "jfo": lambda: Keyed(ConservedOil, {"cells": COUNTS["cells"]}),
+    "short": lambda: keys_of(journal.ShortFilm),
+    "splitting": lambda: keys_of(
         journal.SplittingFilm,
-        {"order": read_order, "constant": flag, "rupture": Variant("kind", RUPTURES)},
+        "constant",
         required=("order",),
+        order=read_order,
+        rupture=Variant("kind", RUPTURES),
     ),
 }
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
 
-PAD = Keyed(Pad, {"start": Quantity("rad"), "extent": Quantity("rad")})
-"""`pads = [{start, extent}]`: a fixed pad."""
 
-GROOVE = Keyed(Groove, {"center": Quantity("rad"), "width": Quantity("rad"), "length": Quantity("m")})
-"""`grooves = [{center, width, length}]`: an axial groove."""
+@dataclass(frozen=True, kw_only=True)
+@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells"))
+class JournalTable(OiledTable):
+    """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
-FEED_HOLE = Keyed(FeedHole, {"center": Quantity("rad"), "diameter": Quantity("m")})
-"""`feed_holes = [{center, diameter}]`: a round hole at mid-length."""
+    Supply flow, cavitation pressure and submerged ends are for a film that conserves its oil only.
+
+    Parameters
+    ----------
+    length : float [m]
+        Full axial length.
+    viscosity : float or None [Pa s]
+        None where `[lubricant]` gives the oil.
+    film : FilmLaw, ConservedOil or None
+        The film law; if the file does not say, the map where there is one, or what a question needs.
+    grooves : tuple of Groove
+        Axial grooves, over the whole length or in its middle.
+    feed_holes : tuple of FeedHole
+        Round holes at mid-length.
+    """
+
+    film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
+    pads: tuple[Pad, ...] = ()
+    grooves: tuple[Groove, ...] = ()
+    feed_holes: tuple[FeedHole, ...] = ()
+
+    def __post_init__(self) -> None:
+        # Without a viscosity there is no bearing before `on` has given the oil.
+        if self.has_lubricant:
+            self.build()
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+        return self.film is not None
+
+    @property
+    def conserves(self) -> bool:
+        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
+        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
+
+    @property
+    def _supply_keys(self) -> list[str]:
+        given = {
+            "supply_flow": self.supply_flow is not None,
+            "cavitation_pressure": self.cavitation_pressure != 0.0,
+            "submerged": self.submerged,
+        }
+        return [name for name, there in given.items() if there]
+
+    def require_law(self, what: str) -> None:
+        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
+        if self.conserves:
+            raise InputError(
+                f"journal.film must be a law of the moment for {what}, as map or reynolds, got one that "
+                "conserves its oil, and remembers"
+            )
+
+    def bearing(self) -> JournalBearing:
+        """Return the bearing, with its film law where the file names one; InputError for a bad value."""
+        named = None if isinstance(self.film, ConservedOil) else self.film
+        if named is not None and self._supply_keys:
+            raise InputError(
+                f'{self._supply_keys[0]} must be left out unless film is {{name = "jfo"}} or not given, '
+                f"got film {journal.film_name(named)}"
+            )
+        return made_from(JournalBearing, self, film=named, grooves=(*self.grooves, *self.feed_holes))
+
+    def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
+        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
+        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
+        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+
+    def build(self) -> JournalBearing | JFOFilm:
+        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+        bearing = self.bearing()
+        return self.conserved(bearing) if self.conserves else bearing
+
+    def echo(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
+        """Return what an answer repeats of the bearing, and the name of its film."""
+        if isinstance(bearing, JFOFilm):
+            return bearing_data(bearing.bearing), f"JFOFilm(cells={bearing.cells})"
+        return bearing_data(bearing), journal.film_name(bearing.fitted_film)
+
+    def remarks(
+        self, bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
+    ) -> tuple[str, ...]:
+        """Return what its physics leaves out and should not; see `film_remarks`."""
+        return film_remarks(bearing, oil, speed, load)
+
+    def make_map(self, report: Report) -> None:
+        """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
+        if not (self.grooves or self.pads):
+            return
+        bearing = self.build()
+        if isinstance(bearing, JFOFilm):
+            return
+        if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
+            journal.build_groove_map(bearing, report)
 
 
 # Which journals the map that comes with the package holds.
@@ -339,12 +419,12 @@ def film_remarks(
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
-        bearing = _warmed(bearing, film or _quick(bearing), speed, load)
+        bearing = warmed(bearing, film or _quick(bearing), speed, load)
         film = film and film.at_temperature(bearing.temperature)
     return said(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 
-def _warmed(bearing: JournalBearing, quick: Any, speed: float, load: tuple[float, float]) -> JournalBearing:
+def warmed(bearing: Any, quick: Any, speed: float, load: tuple[float, float]) -> Any:
     """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:

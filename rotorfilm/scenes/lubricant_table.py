@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Protocol, Self
+from typing import Annotated, Any, Self
 
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import BULK_MODULUS, grade_number
 from ..core.errors import InputError, SceneError, brief, require_non_negative, require_positive
 from ..core.units import CELSIUS
-from .reading import Count, Quantity, takes, text
+from .reading import Count, Taking, fields_of, made_from, takes, text
 
 WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 """Temperatures of `viscosity_40` and `viscosity_100` [K]."""
@@ -48,7 +48,8 @@ class Lubricant:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LubricantTable:
+@fields_of(Cooling, without=("full_gap",))
+class LubricantTable(Taking):
     """`[lubricant]`: an oil by its viscosity over temperature, what cools it, and further properties.
 
     Where it gives a viscosity and a bearing gives none, that bearing runs on this oil, in the balance of its
@@ -64,14 +65,6 @@ class LubricantTable:
         Kinematic viscosity at 40 and 100 degC.
     supply_temperature : float or None [K]
         Of the fresh oil; required with a viscosity.
-    ambient_temperature : float or None [K]
-        Around the housing; None for that of the fresh oil.
-    housing_conductance : float [W/K]
-        Heat flow through bush and housing per kelvin between film and ambient.
-    carry_over : float [1]
-        Share of the oil arriving at a groove that goes on into the next film.
-    bush_heat_capacity : float or None [J/K]
-        Of bush and housing; None for a steel ring.
     density : float or None [kg/m3]
         At 15 degC, of an oil with a viscosity here.
     heat_capacity : float or None [J/(kg K)]
@@ -84,18 +77,14 @@ class LubricantTable:
     """
 
     grade: Annotated[int | None, read_grade] = None
-    viscosity_40: Annotated[float | None, Quantity("m2/s")] = None
-    viscosity_100: Annotated[float | None, Quantity("m2/s")] = None
-    supply_temperature: Annotated[float | None, Quantity("K", absolute=True)] = None
-    ambient_temperature: Annotated[float | None, Quantity("K", absolute=True)] = None
-    housing_conductance: Annotated[float, Quantity("W/K")] = 0.0
-    carry_over: Annotated[float, Quantity("1")] = 0.8
-    bush_heat_capacity: Annotated[float | None, Quantity("J/K")] = None
-    density: Annotated[float | None, Quantity("kg/m3")] = None
-    heat_capacity: Annotated[float | None, Quantity("J/(kg.K)")] = None
-    conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
-    thinning: Annotated[float | None, Quantity("1/K")] = None
-    bulk_modulus: Annotated[float, Quantity("Pa")] = Lubricant.bulk_modulus
+    viscosity_40: float | None = None
+    viscosity_100: float | None = None
+    supply_temperature: float | None = None
+    density: float | None = None
+    heat_capacity: float | None = None
+    conductivity: float | None = None
+    thinning: float | None = None
+    bulk_modulus: float = Lubricant.bulk_modulus
 
     def __post_init__(self) -> None:
         for name in ("density", "heat_capacity", "conductivity", "thinning", "bulk_modulus"):
@@ -143,13 +132,7 @@ class LubricantTable:
         """What cools the oil; InputError where the supply temperature is not given."""
         if self.supply_temperature is None:
             raise InputError("supply_temperature must be given where the oil has a viscosity, got None")
-        return Cooling(
-            supply_temperature=self.supply_temperature,
-            ambient_temperature=self.ambient_temperature,
-            housing_conductance=self.housing_conductance,
-            carry_over=self.carry_over,
-            bush_heat_capacity=self.bush_heat_capacity,
-        )
+        return made_from(Cooling, self)
 
     @property
     def properties(self) -> Lubricant:
@@ -168,19 +151,13 @@ class LubricantTable:
         return Lubricant(**{**known, **given})
 
 
-class _Lubricated(Protocol):
-    @property
-    def viscosity(self) -> float | None: ...
-
-    @property
-    def oil(self) -> Oil | None: ...
-
-
-class OiledTable:
+class OiledTable(Taking):
     """The table of a bearing, a dataclass with `viscosity`, `oil` and `cooling`, on the oil of a scene."""
 
+    not_keys = ("oil", "cooling", "temperature")
+
     @property
-    def has_lubricant(self: _Lubricated) -> bool:
+    def has_lubricant(self) -> bool:
         """Whether there is a viscosity, or the oil of the scene."""
         return self.viscosity is not None or self.oil is not None
 
@@ -198,7 +175,7 @@ class OiledTable:
         InputError
             If neither gives a viscosity.
         """
-        if self.has_lubricant:  # type: ignore[misc]
+        if self.has_lubricant:
             return self
         if not lubricant.has_viscosity:
             raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")

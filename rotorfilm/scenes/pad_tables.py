@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from ..analysis import equilibrium
-from ..bearings.oil import Cooling, Oil
 from ..bearings.pads import (
     SETS,
     Lobe,
@@ -18,7 +16,6 @@ from ..bearings.pads import (
     PadGridFilm,
     PadMapFilm,
     PressureDamBearing,
-    Recess,
     RecessedPad,
     TiltingPadBearing,
     even_pivots,
@@ -26,22 +23,24 @@ from ..bearings.pads import (
     lobe_set,
     pressure_dam_pads,
 )
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
-from ..core.limits import FILM_CELLS
+from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, said
 from .film_rungs import room
-from .journal_tables import CELLS, NOTABLE, REMARKS, film_numbers
+from .journal_tables import NOTABLE, REMARKS, film_numbers, warmed
 from .lubricant_table import Lubricant, OiledTable
-from .reading import Count, Counts, Keyed, Quantity, Table, TableList, Variant, made_from, one_of, takes
+from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 # The films of pads in scene files: schema 1.
 
 
 PAD_FILMS: dict[str, Callable[[], Keyed[PadFilm]]] = {
-    "map": lambda: Keyed(PadMapFilm),
-    "reynolds": lambda: Keyed(PadGridFilm, {"cells": CELLS}),
+    "map": lambda: keys_of(PadMapFilm),
+    "reynolds": lambda: keys_of(PadGridFilm, "cells"),
 }
 """`film = {name = "map"}`: the films of a pad by their names."""
 
@@ -53,48 +52,32 @@ def usual_film(extents: Iterable[float], radius: float, length: float) -> PadFil
     return PadMapFilm() if mappable else PadGridFilm()
 
 
-def pad_film_name(film: PadFilm) -> str:
-    """Return what the film of a pad is called in print."""
-    if isinstance(film, PadGridFilm):
-        return f"2-D {film.cells[0]} x {film.cells[1]} extr. on each pad"
-    return "map of a pad"
+def pad_film_name(film: PadFilm | PressureDamBearing) -> str:
+    """Return what a film of pads, or that of a bearing with recesses, is called in print."""
+    if not isinstance(film, PadGridFilm | PressureDamBearing):
+        return "map of a pad"
+    extrapolated = " extr." if getattr(film, "extrapolated", True) else ""
+    return f"2-D {film.cells[0]} x {film.cells[1]}{extrapolated} on each pad"
 
 
 # What the tables of bearings made of pads share: dimensions, oil, film and maps.
 
 
 @dataclass(frozen=True, kw_only=True)
+@fields_of(LobedBearing, without=("lobes", "film"))
 class PadTable(OiledTable):
-    """The table of a bearing made of pads; a family adds its pads, `build` and `echo`.
+    """The table of a bearing made of pads; a family adds its pads, `data`, `film_key` and `build`.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the journal; a file may give `diameter` instead.
     length : float [m]
         Full axial length.
-    pad_clearance : float or None [m]
-        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
-    assembled_clearance : float or None [m]
-        c_b = (1 - preload) c_p: the least gap around a centered journal.
     viscosity : float or None [Pa s]
         None where `[lubricant]` gives the oil.
-    oil : Oil or None
-        Of `[lubricant]`, where there is no viscosity.
-    cooling : Cooling or None
-        Of `[lubricant]`, with the oil.
-    temperature : float or None [K]
-        Of the films, where a question keeps it; None for that of the balance of their heat.
     """
 
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    length: Annotated[float, Quantity("m")]
-    pad_clearance: Annotated[float | None, Quantity("m")] = None
-    assembled_clearance: Annotated[float | None, Quantity("m")] = None
-    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
-    oil: Oil | None = None
-    cooling: Cooling | None = None
-    temperature: float | None = None
+    data: ClassVar[type[PadData]]
+    film_key: ClassVar[str] = "film"
 
     def __post_init__(self) -> None:
         if self.has_lubricant:
@@ -106,42 +89,36 @@ class PadTable(OiledTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         raise NotImplementedError
 
+    def echo(self, bearing: AnyPads) -> tuple[PadData, str]:
+        """Return what an answer repeats of the bearing, and the name of its film."""
+        film: Any = bearing if isinstance(bearing, PressureDamBearing) else bearing.film
+        return echo_of_pads(self.data, bearing), pad_film_name(film)
+
     def remarks(
         self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
         return pad_remarks(bearing, oil, speed, load)
 
-
-@dataclass(frozen=True, kw_only=True)
-class FilmedPadTable(PadTable):
-    """The table of a bearing whose pads have a film of pads.
-
-    Parameters
-    ----------
-    film : PadFilm or None
-        The film law; if the file does not say, the map of a pad, or what a question needs.
-    """
-
-    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
-
     @property
     def film_is_given(self) -> bool:
-        """Whether the file names the film, so that no other may answer."""
-        return self.film is not None
+        """Whether the file names the film, or its cells, so that no other may answer."""
+        return getattr(self, self.film_key) is not None
 
     def make_map(self, report: Report) -> None:
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
-        bearing: Any = self.build()
-        if isinstance(bearing.film, PadMapFilm):
+        bearing = self.build()
+        film = getattr(bearing, "film", None)
+        if isinstance(film, PadMapFilm):
             for extent in sorted(set(bearing.extents)):
-                bearing.film.table(extent, bearing.slenderness, report)
+                film.table(extent, bearing.slenderness, report)
+
+    def given(self, names: Iterable[str]) -> dict[str, float]:
+        """Return those of some keys that the file gives."""
+        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
 
 
 # What answers repeat of bearings made of pads.
-
-
-D = TypeVar("D", bound=Readable)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,7 +194,7 @@ class DamData(PadData):
     pads: tuple[RecessedPad, ...]
 
 
-def echo_of_pads(kind: type[D], bearing: AnyPads) -> D:
+def echo_of_pads(kind: type[PadData], bearing: AnyPads) -> PadData:
     """Return what an answer repeats of a bearing made of pads.
 
     Parameters
@@ -290,7 +267,7 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
     remarks: tuple[Remark, ...] = PAD_REMARKS
     if bearing.oil is not None:
         remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
-        bearing = _warmed(bearing, speed, load)
+        bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
     return said(remarks, pad_numbers(bearing, oil, speed, load))
 
 
@@ -306,35 +283,32 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
     return bearing
 
 
-def _warmed(bearing: AnyPads, speed: float, load: tuple[float, float]) -> AnyPads:
-    """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
+def settled_scene(scene: Scene) -> Scene:
+    """Return a scene whose films keep the temperature that they have with the journal at rest."""
+    bearing: Any = scene.bearing
     if not bearing.is_warming:
-        return bearing
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        try:
-            at = equilibrium(quick_pads(bearing), load, speed)
-        except RotorfilmError:
-            return bearing.at_temperature(bearing.cooled[1].coldest)
-    assert at.temperature is not None  # of films that warm
-    return bearing.at_temperature(at.temperature)
+        return scene
+    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
+    name = next(name for name, table in scene.tables.items() if table is scene.film_table)
+    kept: Any = scene.film_table
+    return scene.with_tables(**{name: replace(kept, temperature=at.temperature)})
 
 
 # `[lobed_journal]` of a scene: a bearing of fixed pads.
 
 
-LOBE = Keyed(
-    Lobe,
-    {"start": Quantity("rad"), "extent": Quantity("rad"), "preload": Quantity("1"), "offset": Quantity("1")},
-)
-"""`lobes = [{start, extent, preload, offset}]`: a fixed pad with a center of curvature of its own."""
+OF_PRESET = ("preload", "extent", "offset", "turned")
 
 
 @dataclass(frozen=True, kw_only=True)
-class LobedTable(FilmedPadTable):
+@fields_of(lobe_set, without=("name",), optional=True)
+class LobedTable(PadTable):
     """`[lobed_journal]`: a journal bearing of fixed pads: elliptical, of several lobes, of offset halves.
 
     Parameters
     ----------
+    film : PadFilm or None
+        The film law; if the file does not say, the map of a pad, or what a question needs.
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
     preload, extent, offset, turned : float or None [1], [rad], [1], [rad]
@@ -344,64 +318,36 @@ class LobedTable(FilmedPadTable):
         The pads one by one.
     """
 
+    data = LobedData
+    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
     preset: Annotated[str | None, one_of(SETS)] = None
-    preload: Annotated[float | None, Quantity("1")] = None
-    extent: Annotated[float | None, Quantity("rad")] = None
-    offset: Annotated[float | None, Quantity("1")] = None
-    turned: Annotated[float | None, Quantity("rad")] = None
-    lobes: Annotated[tuple[Lobe, ...], TableList(LOBE)] = ()
+    lobes: tuple[Lobe, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.preset is None) is (not self.lobes):
             got = "neither" if self.preset is None else "both"
             raise InputError(f"preset or lobes is required, one of both, got {got}")
-        for name, value in self._of_preset.items():
+        for name, value in self.given(OF_PRESET).items():
             if self.lobes:
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
         super().__post_init__()
 
-    @property
-    def _of_preset(self) -> dict[str, float]:
-        given = {name: getattr(self, name) for name in ("preload", "extent", "offset", "turned")}
-        return {name: value for name, value in given.items() if value is not None}
-
     def build(self) -> LobedBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
+        lobes = self.lobes or lobe_set(self.preset or "", **self.given(OF_PRESET))
         film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
         return made_from(LobedBearing, self, lobes=lobes, film=film)
-
-    def echo(self, bearing: LobedBearing) -> tuple[LobedData, str]:
-        """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(LobedData, bearing), pad_film_name(bearing.film)
 
 
 # `[pressure_dam]` of a scene: fixed pads with recesses.
 
-
-RECESS = Keyed(
-    Recess,
-    {"depth": Quantity("m"), "end": Quantity("rad"), "share": Quantity("1"), "start": Quantity("rad")},
-)
-"""`recess = {depth, end, share, start}`: a dam, a step or a relief track."""
-
-RECESSED_PAD = Keyed(
-    RecessedPad,
-    {
-        "start": Quantity("rad"),
-        "extent": Quantity("rad"),
-        "preload": Quantity("1"),
-        "offset": Quantity("1"),
-        "recess": Table(RECESS),
-    },
-)
-"""`pads = [{start, extent, preload, offset, recess}]`: a fixed pad."""
 
 NEEDED = ("depth", "end", "share")
 FURTHER = ("track_depth", "track_share", "groove", "preload")
 
 
 @dataclass(frozen=True, kw_only=True)
+@fields_of(pressure_dam_pads, optional=True)
 class DamTable(PadTable):
     """`[pressure_dam]`: a journal bearing of fixed pads with a pressure dam, a step or a relief track.
 
@@ -420,18 +366,13 @@ class DamTable(PadTable):
         question needs.
     """
 
-    depth: Annotated[float | None, Quantity("m")] = None
-    end: Annotated[float | None, Quantity("rad")] = None
-    share: Annotated[float | None, Quantity("1")] = None
-    track_depth: Annotated[float | None, Quantity("m")] = None
-    track_share: Annotated[float | None, Quantity("1")] = None
-    groove: Annotated[float | None, Quantity("rad")] = None
-    preload: Annotated[float | None, Quantity("1")] = None
-    pads: Annotated[tuple[RecessedPad, ...], TableList(RECESSED_PAD)] = ()
-    cells: Annotated[tuple[int, int] | None, Counts(("around", "along"), FILM_CELLS)] = None
+    data = DamData
+    film_key = "cells"
+    pads: tuple[RecessedPad, ...] = ()
+    cells: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
-        given = self._of_design
+        given = self.given((*NEEDED, *FURTHER))
         for name in NEEDED:
             if not self.pads and name not in given:
                 raise InputError(f"{name} of the dam is required where there are no pads, and missing")
@@ -440,34 +381,11 @@ class DamTable(PadTable):
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
         super().__post_init__()
 
-    @property
-    def film_is_given(self) -> bool:
-        """Whether the file names the cells, so that no other film may answer."""
-        return self.cells is not None
-
-    @property
-    def _of_design(self) -> dict[str, float]:
-        given = {name: getattr(self, name) for name in (*NEEDED, *FURTHER)}
-        return {name: value for name, value in given.items() if value is not None}
-
     def build(self) -> PressureDamBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        pads = self.pads or pressure_dam_pads(**self._of_design)
+        pads = self.pads or pressure_dam_pads(**self.given((*NEEDED, *FURTHER)))
         cells = self.cells or PressureDamBearing.cells
         return made_from(PressureDamBearing, self, pads=pads, cells=cells)
-
-    def echo(self, bearing: PressureDamBearing) -> tuple[DamData, str]:
-        """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(DamData, bearing), dam_film_name(bearing)
-
-    def make_map(self, report: Report) -> None:
-        """Do nothing: films with steps have no map."""
-
-
-def dam_film_name(bearing: PressureDamBearing) -> str:
-    """Return what the film of a bearing with recesses is called in print."""
-    around, along = bearing.cells
-    return f"2-D {around} x {along}{' extr.' if bearing.extrapolated else ''} on each pad"
 
 
 # `[tilting_pad]` of a scene: a bearing of tilting pads.
@@ -480,52 +398,30 @@ LOADINGS = {"on_pad": False, "between_pads": True}
 """Whether a load along -y points between two pivots, by the name in scene files."""
 
 
-@takes([Quantity("rad"), ...])
-def read_pivots(where: str, value: Any) -> tuple[float, ...]:
-    """Read a list of angles."""
-    if not isinstance(value, list) or not 1 <= len(value) <= PADS:
-        raise SceneError(f"{where} must be a list of 1 to {PADS} angles, got {brief(value)}")
-    return tuple(Quantity("rad")(f"{where}[{k}]", one) for k, one in enumerate(value))
-
-
 @dataclass(frozen=True, kw_only=True)
-class TiltingTable(FilmedPadTable):
+@fields_of(TiltingPadBearing, without=("start",))
+class TiltingTable(PadTable):
     """`[tilting_pad]`: a journal bearing of equal tilting pads.
 
     Parameters
     ----------
-    extent : float [rad]
-        Angle that a pad covers.
+    film : PadFilm or None
+        The film law; if the file does not say, the map of a pad, or what a question needs.
     pad_count : int or None
         Number of evenly spaced pads; give this, with `loading`, or `pivots`.
     loading : str or None
         Whether a load along -y points to a pivot, "on_pad", or "between_pads".
     pivots : tuple of float [rad]
         Angles of the pivots, from +x towards +y.
-    pivot_offset : float [1]
-        Share of a pad before its pivot.
-    preload : float [1]
-        1 - c_b/c_p.
-    pivot_stiffness : float or None [N/m]
-        Of a spring below each pivot; None for rigid ones.
-    pad_inertia : float or None [kg m2]
-        About the pivot; None for pads that follow at once.
-    pivot_distance : float [m]
-        From the film back to the center about which a pad rolls or rocks.
-    pad_mass : float or None [kg]
-        That moves with the pivot.
     """
 
-    extent: Annotated[float, Quantity("rad")]
+    data = TiltingData
+    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
     loading: Annotated[str | None, one_of(LOADINGS)] = None
-    pivots: Annotated[tuple[float, ...], read_pivots] = ()
-    pivot_offset: Annotated[float, Quantity("1")] = 0.5
-    preload: Annotated[float, Quantity("1")] = 0.0
-    pivot_stiffness: Annotated[float | None, Quantity("N/m")] = None
-    pad_inertia: Annotated[float | None, Quantity("kg.m2")] = None
-    pivot_distance: Annotated[float, Quantity("m")] = 0.0
-    pad_mass: Annotated[float | None, Quantity("kg")] = None
+    pivots: Annotated[
+        tuple[float, ...], Several(Quantity("rad"), 1, PADS, f"a list of 1 to {PADS} angles")
+    ] = ()
 
     def __post_init__(self) -> None:
         if (self.pad_count is None) is (not self.pivots):
@@ -545,7 +441,3 @@ class TiltingTable(FilmedPadTable):
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
         film = self.film or usual_film([self.extent], self.radius, self.length)
         return made_from(TiltingPadBearing, self, pivots=pivots, film=film)
-
-    def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
-        """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(TiltingData, bearing), pad_film_name(bearing.film)

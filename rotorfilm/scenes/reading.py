@@ -1,24 +1,114 @@
-"""Read tables of a scene file into dataclasses: each field says by its annotation how it is read."""
+"""Read tables of a scene file into dataclasses: a field is read by its type and by the unit of its docstring.
+
+Where a class says enough, its fields are the keys: units, defaults and meanings stand there alone. A table of
+its own takes fields over (`fields_of`), and annotates with a reader what a file says in another way.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
+from types import NoneType, UnionType
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Generic,
+    NamedTuple,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from ..analysis.equilibrium import UNLOADED
 from ..core.errors import InputError, SceneError, brief, shortened
 from ..core.files import read_text
-from ..core.inputs import nearest, require_no_near_miss
-from ..core.limits import TEXT
-from ..core.units import parse_quantity
+from ..core.inputs import nearest, require_no_near_miss, temperatures_of, units_of
+from ..core.limits import FILM_CELLS, SHAFT_ELEMENTS, TEXT
+from ..core.readable import entries, explained
+from ..core.units import parse_quantity, si_name
 
 # From one dataclass to another that has fields of the same names.
+
+
+def fields_of(
+    *homes: Callable[..., Any], without: Iterable[str] = (), optional: bool = False
+) -> Callable[[type[T]], type[T]]:
+    """Let a class, before it becomes a dataclass, have the fields of others: type, default, unit and meaning.
+
+    Parameters
+    ----------
+    *homes : callable
+        Dataclasses, or functions, whose arguments are taken.
+    without : iterable of str
+        Those that are not taken over. What the class has itself, or by a base, stays as it is; a field
+        without a default takes that.
+    optional : bool
+        Whether each may be left out, and is None then.
+    """
+
+    def taking(cls: type[T]) -> type[T]:
+        own, text = inspect.get_annotations(cls), (cls.__doc__ or "").rstrip()
+        inherited = getattr(cls, "__dataclass_fields__", {})
+        told = {*without, *inherited, *(entry.name for entry in entries(text, cls.__name__))}
+        text += "" if "Parameters\n" in text else "\n\n    Parameters\n    ----------"
+        hints: dict[str, Any] = {}
+        for home in homes:
+            for name, default in _parameters(home).items():
+                if name not in told:
+                    told.add(name)
+                    text += _entry(home, name)
+                if name in (*without, *inherited, *hints):
+                    continue
+                if name not in own:
+                    kind = _hints(home)[name]
+                    hints[name] = kind | None if optional else kind
+                if name not in vars(cls) and (optional or default is not dataclasses.MISSING):
+                    setattr(cls, name, None if optional else default)
+        cls.__annotations__, cls.__doc__ = {**hints, **own}, text
+        return cls
+
+    return taking
+
+
+def _parameters(home: Callable[..., Any]) -> dict[str, Any]:
+    """Return the defaults of a dataclass or a function by their names, `MISSING` for none."""
+    if not isinstance(home, type):
+        return dict.fromkeys(inspect.signature(home).parameters, dataclasses.MISSING)
+    return {
+        one.name: one.default
+        if one.default_factory is dataclasses.MISSING
+        else dataclasses.field(default_factory=one.default_factory)
+        for one in fields(home)
+        if one.init
+    }
+
+
+def _entry(home: Callable[..., Any], name: str) -> str:
+    """Return what is said of a parameter as an entry of an indented docstring."""
+    if isinstance(home, type):
+        said = explained(home, name)
+    else:
+        said = next(one for one in entries(home.__doc__ or "", name) if one.name == name)
+    unit = f" [{said.unit}]" if said.unit else ""
+    return f"\n    {name} : {said.kind}{unit}" + (f"\n        {said.meaning}" if said.meaning else "")
+
+
+class Taking:
+    """The base of a table that has fields of other classes, which type checkers do not see."""
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Return the value of a key."""
 
 
 def made_from(makes: type[T], table: Any, **further: Any) -> T:
@@ -103,8 +193,25 @@ class Keyed(NamedTuple, Generic[T]):
     required: tuple[str, ...] = ()
 
 
+def keys_of(makes: type[T], *names: str, required: tuple[str, ...] = (), **readers: Reader) -> Keyed[T]:
+    """Return a class as a table of some of its parameters, or of none.
+
+    Parameters
+    ----------
+    makes : type
+        A dataclass.
+    *names : str
+        Of the parameters whose readers follow from their types and units.
+    required : tuple of str
+        As in `Keyed`.
+    **readers
+        Of the others.
+    """
+    return Keyed(makes, {**{name: reader_of(makes, name) for name in names}, **readers}, required)
+
+
 TableType = type[T] | Keyed[T] | Callable[[], Keyed[T]]
-"""What a table is read into: a dataclass of fields `Annotated[type, reader]`, or one beside its readers."""
+"""What a table is read into: a dataclass all of whose fields are keys, or one beside its readers."""
 
 
 @dataclass(frozen=True)
@@ -266,16 +373,52 @@ def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
 
 
 def keyed(table: TableType[T]) -> Keyed[T]:
-    """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    made = Keyed(table, _annotated(table)) if isinstance(table, type) else table
-    return made if isinstance(made, Keyed) else made()
+    """Return a table with its readers beside it; those of a plain dataclass follow from its fields."""
+    if isinstance(table, Keyed):
+        return table
+    return _keyed(table) if isinstance(table, type) else table()
 
 
 @cache
-def _annotated(table: type) -> dict[str, Reader]:
-    hints = get_type_hints(table, include_extras=True)
-    given = {field.name: hints[field.name] for field in dataclasses.fields(table)}
-    return {name: hint.__metadata__[0] for name, hint in given.items() if hasattr(hint, "__metadata__")}
+def _keyed(table: type[Any]) -> Keyed[Any]:
+    hidden = getattr(table, "not_keys", ())
+    return keys_of(table, *(field.name for field in fields(table) if field.name not in hidden))
+
+
+@cache
+def _hints(home: Callable[..., Any]) -> dict[str, Any]:
+    return get_type_hints(home, include_extras=True)
+
+
+def reader_of(makes: type, name: str) -> Reader:
+    """Return the reader of a field: that of its annotation, or what its type and its unit ask for."""
+    hint = _hints(makes)[name]
+    if hasattr(hint, "__metadata__"):
+        found: Reader = hint.__metadata__[0]
+        return found
+    union = get_origin(hint) in (Union, UnionType)
+    kind, *others = [one for one in get_args(hint) if one is not NoneType] if union else [hint]
+    many = get_args(kind) if get_origin(kind) is tuple else ()
+    plain = {bool: flag, str: text}.get(kind) or COUNTS.get(name)
+    if plain is not None:
+        return plain
+    if is_dataclass(kind):
+        return Table(kind)
+    if many and is_dataclass(many[0]):
+        return TableList(many[0])
+    number = _quantity_of(makes, name)
+    if many:
+        return Several(number, 0, ROWS) if many[-1] is ... else Several(number, len(many), len(many))
+    return matrix(number) if others else number
+
+
+def _quantity_of(makes: type, name: str) -> Quantity:
+    """Return the reader of a field that is a number; a required radius may be given as a diameter."""
+    if sys.flags.optimize > 1:
+        raise InputError("scene files need the units of docstrings, got a Python that runs without (-OO)")
+    bare = makes.__dataclass_fields__[name].default is dataclasses.MISSING  # type: ignore[attr-defined]
+    twice = "diameter" if name == "radius" and bare else ""
+    return Quantity(si_name(units_of(makes)[name]), twice, name in temperatures_of(makes))
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
@@ -356,13 +499,61 @@ def one_of(names: Mapping[str, Any]) -> Callable[[str, Any], str]:
     return read
 
 
-@takes(Quantity("N"), [Quantity("N"), Quantity("N")])
+@dataclass(frozen=True)
+class Several:
+    """Reader of a list of values of one kind.
+
+    Attributes
+    ----------
+    each : Reader
+        Of an entry.
+    least, most : int
+        How many there may be.
+    said : str
+        What the list must be, for messages; empty for quantities.
+    """
+
+    each: Reader
+    least: int
+    most: int
+    said: str = ""
+
+    @property
+    def takes(self) -> tuple[Any, ...]:
+        """What it reads, as `takes` has it."""
+        return ([self.each] * self.least if self.least == self.most else [self.each, ...],)
+
+    def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
+        """Return the values."""
+        if not isinstance(value, list) or not self.least <= len(value) <= self.most:
+            usual = "two quantities [x, y]" if self.most == 2 else "a list of quantities"
+            raise SceneError(f"{where} must be {self.said or usual}, got {brief(value)}")
+        return tuple(self.each(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+
+
+def matrix(each: Quantity) -> Reader:
+    """Return the reader of one quantity, the same along x and y, or of 2 x 2 of them."""
+    rows = Several(Several(each, 2, 2), 2, 2)
+
+    @takes(each, [[each, each], [each, each]])
+    def read(where: str, value: Any) -> Any:
+        if not isinstance(value, list):
+            return each(where, value)
+        if len(value) != 2 or any(not isinstance(row, list) or len(row) != 2 for row in value):
+            raise SceneError(f"{where} must be one quantity or 2 x 2 of them, got {brief(value)}")
+        return rows(where, value)
+
+    return read
+
+
+NEWTONS = Several(Quantity("N"), 2, 2, "one magnitude or two components [x, y]")
+
+
+@takes(Quantity("N"), *NEWTONS.takes)
 def read_load(where: str, value: Any) -> tuple[float, float]:
     """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""
     if isinstance(value, list):
-        if len(value) != 2:
-            raise SceneError(f"{where} must be one magnitude or two components [x, y], got {brief(value)}")
-        x, y = (Quantity("N")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+        x, y = NEWTONS(where, value)
         return x, y
     magnitude = Quantity("N")(where, value)
     if magnitude == 0.0:
@@ -372,28 +563,11 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     return 0.0, -magnitude
 
 
-@takes(Quantity("N"), [Quantity("N"), Quantity("N")])
+@takes(Quantity("N"), *NEWTONS.takes)
 def read_static_load(where: str, value: Any) -> tuple[float, float]:
     """Read a load [N] as `read_load` does, or none: preloaded balls carry themselves."""
     none = not isinstance(value, list) and Quantity("N")(where, value) == 0.0
     return (0.0, 0.0) if none else read_load(where, value)
-
-
-@takes([Quantity("m"), Quantity("m")])
-def read_place(where: str, value: Any) -> tuple[float, float]:
-    """Read a place [x, y] [m]."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise SceneError(f"{where} must be two lengths [x, y], got {brief(value)}")
-    x, y = (Quantity("m")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
-    return x, y
-
-
-@takes([text, ...])
-def read_names(where: str, value: Any) -> tuple[str, ...]:
-    """Read a list of names, one at least."""
-    if not isinstance(value, list) or not value:
-        raise SceneError(f"{where} must be a list of names, got {brief(value)}")
-    return tuple(text(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 
 @dataclass(frozen=True)
@@ -443,6 +617,13 @@ class Counts:
         if math.prod(counts) > self.most:
             raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
         return counts
+
+
+COUNTS: dict[str, Reader] = {
+    "node": Count(SHAFT_ELEMENTS, 0),
+    "cells": Counts(("around", "along"), FILM_CELLS),
+}
+"""Readers of whole numbers, whose limits no type tells, by the name of the key."""
 
 
 @dataclass(frozen=True)
@@ -550,6 +731,7 @@ def quantity_of(table: TableType[Any], path: Sequence[str]) -> Quantity | None:
     reader = readers.get(first) or doubled.get(first)
     if isinstance(reader, Quantity):
         return None if rest else reader
-    if isinstance(reader, Table):
-        return quantity_of(reader.table, rest)
-    return quantity_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
+    if isinstance(reader, Table | TableList):
+        return quantity_of(reader.table, rest[isinstance(reader, TableList) :])
+    beside = next((one for one in readers.values() if isinstance(one, Beside) and first in one.names), None)
+    return None if beside is None else quantity_of(beside.type_of(first), rest)

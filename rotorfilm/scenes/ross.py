@@ -127,7 +127,7 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
     bearings = {label: read_bearing(name, table) for label, (name, table) in stations.items()}
     rotor = ShaftRotor(
         elements=chain,
-        disks=(*_disks(_of(tables, "DiskElement")), *_flanges(couplings)),
+        disks=_disks(_of(tables, "DiskElement"), couplings),
         stations=tuple(
             Station(node=table["n"], name=label, support=_support_of(name, table, housings))
             for label, (name, table) in stations.items()
@@ -152,25 +152,18 @@ def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, 
     return {name: table for name, table in tables.items() if name.startswith(f"{kind}_")}
 
 
-def _disks(tables: Mapping[str, RossTable]) -> list[Disk]:
-    return [
-        Disk(node=int(t["n"]), mass=t["m"], diametral_inertia=t["Id"], polar_inertia=t["Ip"])
-        for t in tables.values()
-    ]
-
-
-def _flanges(tables: Mapping[str, RossTable]) -> list[Disk]:
-    """Return both sides of each coupling as disks."""
-    return [
+def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -> tuple[Disk, ...]:
+    """Return the disks, and both sides of each coupling as disks."""
+    sides = ((side, f"_{end}", t) for t in couplings.values() for side, end in enumerate("lr"))
+    return tuple(
         Disk(
-            node=t["n"] + side,
-            mass=t[f"m_{end}"],
-            diametral_inertia=t[f"Id_{end}"],
-            polar_inertia=t[f"Ip_{end}"],
+            node=int(t["n"]) + side,
+            mass=t[f"m{end}"],
+            diametral_inertia=t[f"Id{end}"],
+            polar_inertia=t[f"Ip{end}"],
         )
-        for t in tables.values()
-        for side, end in enumerate("lr")
-    ]
+        for side, end, t in (*((0, "", t) for t in disks.values()), *sides)
+    )
 
 
 def _coupling(name: str, table: RossTable) -> Coupling:
@@ -425,7 +418,7 @@ def read_bearing(name: str, table: RossTable) -> LinearBearing | TabulatedBearin
         raise InputError(
             f"{name!r} must be a shaft element, a disk or have the coefficient kxx, got {list(table)}"
         )
-    masses = [table.get(f"m{entry}", 0.0) for entry in ("xx", "xy", "yx", "yy")]
+    masses = [table.get(f"m{entry}", 0.0) for entry in ENTRIES]
     if any(np.any(np.asarray(mass)) for mass in masses):
         raise InputError(f"mxx, mxy, myx, myy must be 0, got {masses} in {name!r}")
     stiffness, damping = (_entries(table, letter) for letter in "kc")
@@ -444,11 +437,6 @@ def _entries(table: RossTable, letter: str) -> np.ndarray:
     """Return the coefficients k or c, shape (n, 2, 2); ROSS leaves out what it can guess."""
     main = table[f"{letter}xx"]
     cross = np.zeros_like(np.atleast_1d(main))
-    found = [
-        table.get(f"{letter}xx"),
-        table.get(f"{letter}xy", cross),
-        table.get(f"{letter}yx", cross),
-        table.get(f"{letter}yy", main),
-    ]
+    found = (table.get(f"{letter}{entry}", main if entry[0] == entry[1] else cross) for entry in ENTRIES)
     columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(entry, dtype=float)) for entry in found))
     return np.stack(columns, axis=-1).reshape(-1, 2, 2)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,24 +13,17 @@ from scipy.interpolate import CubicSpline
 from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
-from ..core.inputs import arguments
 from ..core.model import Array, Reaction
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..rotors import (
-    FlexibleRotor,
     MotorDrivenRotor,
-    ReducedRotor,
-    Reduction,
     RigidRotor,
     ShaftRotor,
     ShakenBaseRotor,
-    SteadyRotor,
     mount,
-    reduce_rotor,
 )
-from ..rotors.structure import station_names
 from .excitation_table import (
     BladeLossTable,
     GroundTable,
@@ -40,7 +32,6 @@ from .excitation_table import (
     UnbalanceTable,
     require_kind,
 )
-from .solve_shaft import added_unbalance
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -297,145 +288,3 @@ def _places(run: Trajectory) -> dict[str, Array]:
     return {
         name[:-2] or "journal": np.stack([run.signals[name], run.signals[f"{name[:-1]}y"]]) for name in moved
     }
-
-
-# FMUs of a flexible rotor, alone or with its bearings, in as few states as a tolerance allows.
-
-
-class ExportedSystem(NamedTuple):
-    """Where the FMU of a flexible rotor in its bearings is.
-
-    Attributes
-    ----------
-    system : Path
-    """
-
-    system: Path
-
-
-@arguments
-def export_rotor_fmu(
-    rotor: FlexibleRotor,
-    path: str | Path,
-    version: str = "2.0",
-    *,
-    frequency: float,
-    tolerance: float = 1e-3,
-    bearings: Mapping[str, Reaction] | None = None,
-    platforms: str = "host",
-    component: str = "rotor",
-) -> Reduction:
-    """Write a rotor at constant speed as a native FMU, reduced as far as a tolerance allows.
-
-    Parameters
-    ----------
-    rotor : FlexibleRotor
-        With a constant speed; held by its stations, whose signals are those of the FMU.
-    path, version, platforms, component
-        As in `export_fmu`.
-    frequency : float [rad/s]
-        Highest frequency of interest, as in `reduce_rotor`.
-    tolerance : float [1]
-        Largest error of the reduction.
-    bearings : mapping of str to Reaction, optional
-        By station: the FMU begins at rest in them, under their forces; without, straight and without forces.
-
-    Returns
-    -------
-    Reduction
-        The rotor in the FMU, with its error.
-
-    Raises
-    ------
-    InputError
-        If an argument breaks its rule.
-    ConvergenceError
-        If no reduction is within the tolerance.
-    EquilibriumError
-        If there is no equilibrium in the bearings.
-    """
-    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
-
-    reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
-    start = {}
-    if bearings is not None:
-        rotor, loads = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
-        reduction = replace(reduction, rotor=rotor)
-        start = {
-            name: -value
-            for station, load in loads.items()
-            for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
-        }
-    model = SteadyRotor(rotor=reduction.rotor)
-    export_fmu(model, path, version, platforms=platforms, component=component, start=start)
-    return reduction
-
-
-def export_system(
-    scene: Scene,
-    folder: Path,
-    *,
-    version: str = "2.0",
-    backend: str | None = None,
-    platforms: str = "host",
-    tolerance: float = 1e-3,
-) -> ExportedSystem:
-    """Write `system.fmu`: the flexible rotor of a scene with all its bearings, at rest in them.
-
-    Its speed is `operation.speed`, without an operation the first one of `shaft.speeds`.
-
-    Parameters
-    ----------
-    scene : Scene
-        With a shaft.
-    folder : Path
-        Made if absent.
-    version, backend, platforms : str
-        See `export_fmu`.
-    tolerance : float [1]
-        Largest error of the reduction of the rotor, up to the highest frequency of the shaft.
-
-    Raises
-    ------
-    InputError
-        If the scene has no shaft, or an excitation other than an unbalance.
-    ConvergenceError
-        If no reduction is within the tolerance.
-    EquilibriumError
-        If there is no equilibrium in the bearings.
-    FmuError
-        If a model cannot be exported.
-    """
-    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
-
-    if scene.shaft is None:
-        raise InputError("shaft is required for the FMU of a rotor and its bearings, got no such table")
-    speeds = scene.shaft.speeds
-    speed = speeds.first if scene.operation is None else scene.speed
-    highest = scene.shaft.highest_frequency or 2.0 * speeds.last
-    whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
-    bearings = scene.shaft.build_bearings()
-    rotor, _ = _at_rest(reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor, bearings, speed)
-    model = mount(rotor, bearings)
-    path = folder / "system.fmu"
-    turning = abs(speed) or 1.0
-    export_fmu(
-        model,
-        path,
-        version,
-        backend,
-        platforms=platforms,
-        component="system",
-        step_size=scene.cosimulation.macro_angle / turning,
-        stop_time=2.0 * np.pi / turning,  # a turn: what Python takes for it is some seconds
-    )
-    return ExportedSystem(system=path)
-
-
-def _at_rest(
-    rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
-) -> tuple[ReducedRotor, Mapping[str, Array]]:
-    """Return the rotor as it rests in its bearings at a speed [rad/s], and its load on each [N]."""
-    at = rotor_equilibrium(rotor, bearings, speed)
-    rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
-    return replace(rotor, initial=tuple(rest.tolist())), at.loads

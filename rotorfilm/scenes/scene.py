@@ -7,23 +7,21 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from importlib import import_module, resources
+from importlib import resources
 from os import PathLike
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from ..bearings.journal import JournalBearing
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
+from ..core.inputs import nearest
 from ..core.limits import LINE_DOTS, SCENE_BYTES
 from ..core.model import Reaction
 from ..core.progress import Report, silent
+from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
-from .bush_table import BushAnswer, BushTable, solve_bush
-from .contact_table import ContactTable
-from .damper_table import DamperTable
 from .excitation_table import (
     EXCITATIONS,
     ExcitationTable,
@@ -33,12 +31,14 @@ from .excitation_table import (
     film_tables,
     oil_remarks,
 )
-from .families import FAMILIES, family_of, table_of
+from .families import FAMILIES, brought, table_of
 from .lubricant_table import LubricantTable
-from .reading import Beside, Quantity, Table, Variant, one_of, read_table, require_no_near_miss, takes, text
-from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
-from .shaft_table import ShaftTable, require_node, require_place
-from .solve_journal import Answer, film_answer
+from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
+from .schema import SCHEMA, CosimulationTable, OperationTable, RigidRotorTable
+
+if TYPE_CHECKING:
+    from ..bearings.journal import JournalBearing
+    from .solve_journal import Answer
 
 # `[question]`: the quantity that is asked for, and how accurate it must be.
 
@@ -55,6 +55,7 @@ QUANTITIES = {
     "film_parameter": "lambda of a ball bearing: smallest film / roughness",
     "power_loss": "heat made in a film at its equilibrium [W]",
     "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
+    "maximum_pressure": "largest in a film at its equilibrium [Pa]",
     "temperature": "of the oil that leaves a film of an oil at its equilibrium, in the mean [K]",
     "maximum_temperature": "highest in a film of an oil at its equilibrium [K]",
     "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
@@ -102,7 +103,7 @@ class QuestionTable:
 
     quantity: Annotated[str, one_of(QUANTITIES)]
     tolerance: Annotated[float, read_tolerance]
-    at: Annotated[str, text] = ""
+    at: str = ""
 
     def __post_init__(self) -> None:
         require_positive("tolerance", self.tolerance)
@@ -127,18 +128,9 @@ class Scene:
     ----------
     title : str
         One line for print-outs and charts.
-    journal : JournalTable or None
-        A journal bearing.
-    contact : ContactTable or None
-        Rolling balls in lubricated contact, alone or as a support of the rotor.
-    shaft : ShaftTable or None
-        A flexible rotor in its own bearings.
-    bush : BushTable or None
-        A polymer bush that wears by melting.
-    damper : DamperTable or None
-        A squeeze-film damper.
-    others : mapping of str to object
-        Tables of further families, by their names in the file, where each stands beside the ones above.
+    tables : mapping of str to object
+        Those of bearings, and of rotors in their own bearings, by their names in the file, as `FAMILIES` has
+        them. Each is an attribute too, as `scene.journal`; None where the scene has none.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -159,52 +151,70 @@ class Scene:
         given nor follows from the weight of a rotor; if the question is about a place that is not there.
     """
 
-    title: Annotated[str, text] = "untitled scene"
+    title: str = "untitled scene"
 
-    # Bearings, and rotors with their own bearings. A further family has its line in `FAMILIES`, and its table
-    # in `others`. It checks what it needs of the other tables where it is solved.
-    journal: Annotated[JournalTable | None, Table(JournalTable)] = None
-    bush: Annotated[BushTable | None, Table(BushTable)] = None
-    contact: Annotated[ContactTable | None, Table(ContactTable)] = None
-    shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
-    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
-    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(
+    # A family checks what it needs of the other tables where it is solved.
+    tables: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(
         default_factory=dict, hash=False
     )
 
     # What all families share.
-    operation: Annotated[OperationTable | None, Table(OperationTable)] = None
-    lubricant: Annotated[LubricantTable, Table(LubricantTable)] = field(default_factory=LubricantTable)
-    rigid_rotor: Annotated[RigidRotorTable | None, Table(RigidRotorTable)] = None
+    operation: OperationTable | None = None
+    lubricant: LubricantTable = field(default_factory=LubricantTable)
+    rigid_rotor: RigidRotorTable | None = None
     excitation: Annotated[ExcitationTable | None, Variant("kind", EXCITATIONS)] = None
-    cosimulation: Annotated[CosimulationTable, Table(CosimulationTable)] = field(
-        default_factory=CosimulationTable
-    )
-    question: Annotated[QuestionTable | None, Table(QuestionTable)] = None
+    cosimulation: CosimulationTable = field(default_factory=CosimulationTable)
+    question: QuestionTable | None = None
 
     def __post_init__(self) -> None:
         self._take_oil()
-        if all(table is None for table in self.tables.values()):
+        if not self.tables:
             raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
-            require_place(self.question.at, self.question.quantity, self.shaft)
+            self._require_place(self.question.at, self.question.quantity)
         if isinstance(self.excitation, UnbalanceTable):
-            require_node("excitation.node", self.excitation.node, self.shaft)
-        films = film_tables(self.tables)
-        if not films:
+            self._require_node("excitation.node", self.excitation.node)
+        if not self.has_film:
             return
         if self.operation is None:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError(NO_LOAD)
 
+    def __getattr__(self, name: str) -> Any:
+        """Return the table of a family by its name; None if the scene has none."""
+        if name in FAMILIES:
+            return self.tables.get(name)
+        raise AttributeError(f"a scene has no attribute {name!r}")
+
     def _take_oil(self) -> None:
         """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
-        for name, table in film_tables(self.tables).items():
-            mine, one = name not in self.others, table.on(name, self.lubricant)
-            object.__setattr__(self, name if mine else "others", one if mine else {**self.others, name: one})
+        oiled = {name: table.on(name, self.lubricant) for name, table in film_tables(self.tables).items()}
         if self.shaft is not None:
-            object.__setattr__(self, "shaft", self.shaft.on(self.lubricant))
+            oiled["shaft"] = self.shaft.on(self.lubricant)
+        object.__setattr__(self, "tables", {**self.tables, **oiled})
+
+    def _require_node(self, name: str, node: int) -> None:
+        """Raise InputError unless the shaft has this node; where there is none, it is 0."""
+        if self.shaft is None and node:
+            raise InputError(f"{name} must be 0 where there is no [shaft], got {node}")
+        if self.shaft is not None:
+            self.shaft.require_node(name, node)
+
+    def _require_place(self, place: str, quantity: str) -> None:
+        """Raise InputError unless a question about a place names a bearing or a probe of the shaft."""
+        if self.shaft is None:
+            raise InputError(f"question.at must be left out where there is no [shaft], got {brief(place)}")
+        known = self.shaft.places(forces=quantity == "unbalance_force")
+        if place not in known:
+            raise InputError(
+                f"question.at must be one of {', '.join(known)} for {quantity}, "
+                f"got {place!r}{nearest(place, known)}"
+            )
+
+    def with_tables(self, **tables: Any) -> Scene:
+        """Return the scene with other tables of families, by their names."""
+        return replace(self, tables={**self.tables, **tables})
 
     @classmethod
     def load(cls, path: str | PathLike[str], changes: Mapping[str, Any] = MappingProxyType({})) -> Scene:
@@ -245,9 +255,8 @@ class Scene:
         if self.has_film:
             self.film_table.make_map(report)
             return self.describe()
-        given = [family_of(name) for name, table in self.tables.items() if table is not None]
-        answer = next((one.answer for one in given if one.answer is not None), None)
-        return self.describe() if answer is None else answer(self, report)
+        answer = next((FAMILIES[name].answer for name in self.tables if FAMILIES[name].answer), "")
+        return brought(answer)(self, report) if answer else self.describe()
 
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the first rung that meets its tolerance.
@@ -269,8 +278,7 @@ class Scene:
         ValidityWarning
             Where the physics of all rungs leaves out what matters in this scene.
         """
-        # Found late: questions stand above scenes.
-        answer = import_module("..questions", __package__).ask(self)
+        answer: QuestionAnswer = offered("ask")(self)
         for remark in answer.remarks:
             warn_user(f"left out: {remark}")
         return answer
@@ -280,26 +288,17 @@ class Scene:
 
         What the physics of the film leaves out is in `remarks` of the answer.
         """
+        bearing = self.bearing  # once, and before an import resets what was warned of: making it may warn
+        from .solve_journal import film_answer  # which a scene with a question does not need
+
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        bearing = self.bearing  # once: making it may warn
         given = self.film_table.echo(bearing)
         answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=self._remarks_of(bearing))
 
-    def melting(self) -> BushAnswer:
-        """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
-        if self.bush is None:
-            raise InputError("bush is required for a critical speed of melting, got no such table")
-        return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
-
     def table(self, name: str) -> Any:
         """Return the table of a family by its name in the file; None if the scene has none."""
-        return self.others.get(name) or getattr(self, name, None)
-
-    @property
-    def tables(self) -> dict[str, Any]:
-        """The tables of all families by their names in the file, None where the scene has none."""
-        return {name: self.table(name) for name in FAMILIES}
+        return self.tables.get(name)
 
     @property
     def film_remarks(self) -> tuple[str, ...]:

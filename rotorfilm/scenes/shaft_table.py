@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Annotated, Any
 
@@ -24,31 +24,30 @@ from ..rotors import (
     Disk,
     ElasticMaterial,
     FourthOrderBeam,
-    Probe,
     ShaftElement,
     ShaftRotor,
     Station,
     Support,
-    TiltSpring,
     Unbalance,
 )
 from .excitation_table import UnbalanceTable
+from .journal_tables import JournalTable
 from .lubricant_table import LubricantTable
 from .reading import (
     Count,
-    Keyed,
     Named,
-    Quantity,
+    Several,
     Table,
     TableList,
+    Taking,
+    fields_of,
+    keys_of,
     made_from,
-    read_names,
     read_table,
     require_table,
     takes,
     text,
 )
-from .schema import JournalTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
 
@@ -56,89 +55,45 @@ from .schema import JournalTable
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
 
-def matrix(unit: str) -> Callable[[str, Any], float | Pair]:
-    """Return the reader of one quantity, the same along x and y, or of 2 x 2 of them."""
-    read = Quantity(unit)
-
-    @takes(read, [[read, read], [read, read]])
-    def reader(where: str, value: Any) -> float | Pair:
-        if not isinstance(value, list):
-            return read(where, value)
-        if len(value) != 2 or any(not isinstance(row, list) or len(row) != 2 for row in value):
-            raise SceneError(f"{where} must be one quantity or 2 x 2 of them, got {brief(value)}")
-        (a, b), (c, d) = (
-            [read(f"{where}[{i}][{j}]", x) for j, x in enumerate(r)] for i, r in enumerate(value)
-        )
-        return (a, b), (c, d)
-
-    return reader
-
-
-NODE = Count(SHAFT_ELEMENTS, 0)
-"""Reader of the number of a node."""
-
-MATERIAL = Keyed(
-    ElasticMaterial,
-    {"young_modulus": Quantity("Pa"), "shear_modulus": Quantity("Pa"), "density": Quantity("kg/m3")},
-)
-"""`shaft.material`: an elastic material."""
-
-COUPLING = Keyed(Coupling, {"stiffness": Quantity("N/m"), "tilt_stiffness": Quantity("N.m/rad")})
+COUPLING = keys_of(Coupling, "stiffness", "tilt_stiffness")
 """An entry of `shaft.elements` with a stiffness: a coupling between two nodes."""
 
-SUPPORT = Keyed(Support, {"mass": Quantity("kg"), "stiffness": matrix("N/m"), "damping": matrix("N.s/m")})
-"""`support` of a bearing: its housing on springs."""
-
-TILT_SPRING = Keyed(
-    TiltSpring, {"node": NODE, "stiffness": matrix("N.m/rad"), "damping": matrix("N.m.s/rad")}
+SEAL_KEYS = (
+    "radius",
+    "length",
+    "clearance",
+    "pressure_drop",
+    "viscosity",
+    "density",
+    "inlet_loss",
+    "inlet_swirl",
 )
-"""An entry of `shaft.tilt_springs`: springs against the tilt of a node."""
-
-PROBE = Keyed(Probe, {"node": NODE, "name": text})
-"""An entry of `shaft.probes`: a node whose displacement is shown."""
-
-SEAL = Keyed(
-    AnnularSeal,
-    {
-        "radius": Quantity("m", twice="diameter"),
-        **dict.fromkeys(("length", "clearance"), Quantity("m")),
-        "pressure_drop": Quantity("Pa"),
-        "viscosity": Quantity("Pa.s"),
-        "density": Quantity("kg/m3"),
-        **dict.fromkeys(("inlet_loss", "inlet_swirl"), Quantity("1")),
-    },
-)
+SEAL = keys_of(AnnularSeal, *SEAL_KEYS)
 """`seal` of a bearing: an annular seal, with its added mass."""
+
+NAMES = 1_000_000
+"""Most names of a list."""
 
 ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
 """With it the parts of a shaft check their own keys, before the shaft has its material."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PieceTable:
+@fields_of(ShaftElement, without=("shear_coefficient", "mass_damping", "stiffness_damping"))
+class PieceTable(Taking):
     """An entry of `shaft.elements`: a piece of shaft, in so many equally long elements.
 
     Parameters
     ----------
-    length, outer_diameter, inner_diameter : float [m]
+    length : float [m]
+        Of the whole piece.
     pieces : int
-    end_outer_diameter, end_inner_diameter : float or None [m]
-        Of a cone, at its end.
-    axial_force : float [N]
-    torque : float [N m]
     material : ElasticMaterial or None
         Another one than that of the shaft.
     """
 
-    length: Annotated[float, Quantity("m")]
-    outer_diameter: Annotated[float, Quantity("m")]
-    inner_diameter: Annotated[float, Quantity("m")] = 0.0
     pieces: Annotated[int, Count(SHAFT_ELEMENTS)] = 1
-    end_outer_diameter: Annotated[float | None, Quantity("m")] = None
-    end_inner_diameter: Annotated[float | None, Quantity("m")] = None
-    axial_force: Annotated[float, Quantity("N")] = 0.0
-    torque: Annotated[float, Quantity("N.m")] = 0.0
-    material: Annotated[ElasticMaterial | None, Table(MATERIAL)] = None
+    material: ElasticMaterial | None = None
 
     def __post_init__(self) -> None:
         self.build(ANY_MATERIAL)
@@ -164,31 +119,23 @@ def read_pieces(where: str, value: Any) -> tuple[PieceTable | Coupling, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DiskTable:
+@fields_of(Disk)
+class DiskTable(Taking):
     """An entry of `shaft.disks`: a disk of given size, or of given mass and inertia.
 
     Parameters
     ----------
-    node : int
+    mass : float or None [kg]
     width, outer_diameter, inner_diameter : float [m]
     density : float or None [kg/m3]
         Of a disk of given size; that of the shaft unless given.
-    mass : float or None [kg]
-    diametral_inertia, polar_inertia : float [kg m2]
-    skew, skew_angle : float [rad]
-        By which its axis leans, and where to.
     """
 
-    node: Annotated[int, NODE]
-    width: Annotated[float | None, Quantity("m")] = None
-    outer_diameter: Annotated[float | None, Quantity("m")] = None
-    inner_diameter: Annotated[float, Quantity("m")] = 0.0
-    density: Annotated[float | None, Quantity("kg/m3")] = None
-    mass: Annotated[float | None, Quantity("kg")] = None
-    diametral_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
-    polar_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
-    skew: Annotated[float, Quantity("rad")] = 0.0
-    skew_angle: Annotated[float, Quantity("rad")] = 0.0
+    mass: float | None = None
+    width: float | None = None
+    outer_diameter: float | None = None
+    inner_diameter: float = 0.0
+    density: float | None = None
 
     def __post_init__(self) -> None:
         sized = self.width is not None and self.outer_diameter is not None
@@ -230,13 +177,13 @@ class BearingTable:
         Its housing; rigid unless given.
     """
 
-    name: Annotated[str, text]
-    node: Annotated[int, NODE]
-    journal: Annotated[JournalTable | None, Table(JournalTable)] = None
-    stiffness: Annotated[float | Pair | None, matrix("N/m")] = None
-    damping: Annotated[float | Pair, matrix("N.s/m")] = 0.0
+    name: str
+    node: int
+    journal: JournalTable | None = None
+    stiffness: float | Pair | None = None
+    damping: float | Pair = 0.0
     seal: Annotated[AnnularSeal | None, Table(SEAL)] = None
-    support: Annotated[Support | None, Table(SUPPORT)] = None
+    support: Support | None = None
 
     def __post_init__(self) -> None:
         if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
@@ -285,31 +232,6 @@ class BearingList(TableList):
 # `[shaft.compressor]`: what API 617 asks of a shaft with impellers or blades.
 
 
-IMPELLER = Keyed(
-    Impeller,
-    {
-        "power": Quantity("W"),
-        "diameter": Quantity("m"),
-        "width": Quantity("m"),
-        "suction_density": Quantity("kg/m3"),
-        "discharge_density": Quantity("kg/m3"),
-        "alford_factor": Quantity("1"),
-    },
-)
-"""An entry of `shaft.compressor.impellers`."""
-
-AXIAL_STAGE = Keyed(
-    AxialStage,
-    {
-        "power": Quantity("W"),
-        "diameter": Quantity("m"),
-        "height": Quantity("m"),
-        "alford_factor": Quantity("1"),
-    },
-)
-"""An entry of `shaft.compressor.axial_stages`."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class CouplingShare:
     """An entry of `shaft.compressor.nodes`: where cross-coupling acts.
@@ -321,8 +243,8 @@ class CouplingShare:
         Part of the cross-coupling; the parts are scaled to a sum of 1.
     """
 
-    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
-    share: Annotated[float, Quantity("1")] = 1.0
+    node: int
+    share: float = 1.0
 
     def __post_init__(self) -> None:
         require_positive("share", self.share)
@@ -353,15 +275,15 @@ class CompressorTable:
         Radial clearances of all bearings with a `journal`, each a curve of its own; as they are unless given.
     """
 
-    speed: Annotated[float, Quantity("rad/s")]
-    impellers: Annotated[tuple[Impeller, ...], TableList(IMPELLER)] = ()
-    axial_stages: Annotated[tuple[AxialStage, ...], TableList(AXIAL_STAGE)] = ()
-    stage_speed: Annotated[float | None, Quantity("rad/s")] = None
-    average_density: Annotated[float | None, Quantity("kg/m3")] = None
-    nodes: Annotated[tuple[CouplingShare, ...], TableList(CouplingShare)] = ()
-    supports: Annotated[tuple[str, ...], read_names] = ()
-    smallest_clearance: Annotated[float | None, Quantity("m")] = None
-    largest_clearance: Annotated[float | None, Quantity("m")] = None
+    speed: float
+    impellers: tuple[Impeller, ...] = ()
+    axial_stages: tuple[AxialStage, ...] = ()
+    stage_speed: float | None = None
+    average_density: float | None = None
+    nodes: tuple[CouplingShare, ...] = ()
+    supports: Annotated[tuple[str, ...], Several(text, 1, NAMES, "a list of names")] = ()
+    smallest_clearance: float | None = None
+    largest_clearance: float | None = None
 
     def __post_init__(self) -> None:
         require_positive("speed", self.speed)
@@ -421,8 +343,8 @@ class SpeedRangeTable:
         Number of speeds, at equal distance.
     """
 
-    first: Annotated[float, Quantity("rad/s")]
-    last: Annotated[float, Quantity("rad/s")]
+    first: float
+    last: float
     count: Annotated[int, Count(SPEEDS, 2)] = 60
 
     def __post_init__(self) -> None:
@@ -436,7 +358,8 @@ class SpeedRangeTable:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftTable:
+@fields_of(ShaftRotor, without=("speed", "stations", "gravity", "initial"))
+class ShaftTable(Taking):
     """`[shaft]`: a flexible rotor in its bearings.
 
     Parameters
@@ -446,11 +369,8 @@ class ShaftTable:
         From the first node to the last.
     bearings : tuple of BearingTable
     speeds : SpeedRangeTable
-    disks, unbalances, probes, tilt_springs : tuple
-        Of DiskTable, UnbalanceTable, Probe, TiltSpring.
-    internal_damping : float [s]
-    mass_damping, stiffness_damping : float [1/s, s]
-    loss_factor : float [1]
+    disks, unbalances : tuple
+        Of DiskTable, UnbalanceTable.
     beam : Beam
     highest_frequency : float or None [rad/s]
         Of the modes shown; twice the last speed unless given.
@@ -458,21 +378,15 @@ class ShaftTable:
         What API 617 asks.
     """
 
-    material: Annotated[ElasticMaterial, Table(MATERIAL)]
+    material: ElasticMaterial
     elements: Annotated[tuple[PieceTable | Coupling, ...], read_pieces]
     bearings: Annotated[tuple[BearingTable, ...], BearingList(BearingTable)]
-    speeds: Annotated[SpeedRangeTable, Table(SpeedRangeTable)]
-    disks: Annotated[tuple[DiskTable, ...], TableList(DiskTable)] = ()
-    unbalances: Annotated[tuple[UnbalanceTable, ...], TableList(UnbalanceTable)] = ()
-    probes: Annotated[tuple[Probe, ...], TableList(PROBE)] = ()
-    tilt_springs: Annotated[tuple[TiltSpring, ...], TableList(TILT_SPRING)] = ()
-    internal_damping: Annotated[float, Quantity("s")] = 0.0
-    mass_damping: Annotated[float, Quantity("1/s")] = 0.0
-    stiffness_damping: Annotated[float, Quantity("s")] = 0.0
-    loss_factor: Annotated[float, Quantity("1")] = 0.0
-    beam: Annotated[Beam, Named(BEAMS)] = field(default_factory=FourthOrderBeam)
-    highest_frequency: Annotated[float | None, Quantity("rad/s")] = None
-    compressor: Annotated[CompressorTable | None, Table(CompressorTable)] = None
+    speeds: SpeedRangeTable
+    disks: tuple[DiskTable, ...]
+    unbalances: tuple[UnbalanceTable, ...]
+    beam: Annotated[Beam, Named(BEAMS)]
+    highest_frequency: float | None = None
+    compressor: CompressorTable | None = None
 
     def __post_init__(self) -> None:
         if not self.bearings:
@@ -482,9 +396,9 @@ class ShaftTable:
         require_at_most("elements", self.node_count - 1, SHAFT_ELEMENTS)
         for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
             for k, part in enumerate(getattr(self, name)):
-                require_node(f"{name}[{k}].node", part.node, self)
+                self.require_node(f"{name}[{k}].node", part.node)
         for k, share in enumerate(self.compressor.nodes if self.compressor else ()):
-            require_node(f"compressor.nodes[{k}].node", share.node, self)
+            self.require_node(f"compressor.nodes[{k}].node", share.node)
         self._require_supports()
         self.build()
 
@@ -532,22 +446,7 @@ class ShaftTable:
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
 
-
-def require_node(name: str, node: int, shaft: ShaftTable | None) -> None:
-    """Raise InputError unless a shaft has this node; where there is none, it is 0."""
-    if shaft is None and node:
-        raise InputError(f"{name} must be 0 where there is no [shaft], got {node}")
-    if shaft is not None and node >= shaft.node_count:
-        raise InputError(f"{name} must be a node of the shaft, 0 to {shaft.node_count - 1}, got {node}")
-
-
-def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
-    """Raise InputError unless a question about a place names a bearing or a probe of a shaft."""
-    if shaft is None:
-        raise InputError(f"question.at must be left out where there is no [shaft], got {brief(name)}")
-    known = shaft.places(forces=quantity == "unbalance_force")
-    if name not in known:
-        raise InputError(
-            f"question.at must be one of {', '.join(known)} for {quantity}, "
-            f"got {name!r}{nearest(name, known)}"
-        )
+    def require_node(self, name: str, node: int) -> None:
+        """Raise InputError unless the shaft has this node."""
+        if node >= self.node_count:
+            raise InputError(f"{name} must be a node of the shaft, 0 to {self.node_count - 1}, got {node}")

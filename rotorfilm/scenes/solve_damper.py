@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,17 +18,17 @@ from ..analysis import (
     synchronous_orbits,
 )
 from ..bearings.assemblies import Sprung
-from ..bearings.damper import DamperGroups, JFODamper, MapSqueeze, PorousDamper, damper_groups
+from ..bearings.damper import DamperGroups, JFODamper, damper_groups
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Reaction, largest_eccentricity_ratio
 from ..core.progress import Report, silent
 from ..core.readable import Drawable, Readable
 from ..core.results import CircularOrbit, Trajectory
 from ..cosim import CoSimulation, cosimulate
-from ..rotors import RigidRotor, mount
-from .damper_films import DamperScene, damper_fmus, damper_models
+from ..rotors import RigidRotor
+from .damper_films import DamperScene, damper_models
 from .excitation_table import UnbalanceTable
-from .export_scene import write_models
+from .export_scene import export_scene
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -63,31 +63,6 @@ class DamperAnswer(Readable):
     unbalance_scale: float
 
 
-def solve_damper(
-    damper: PorousDamper, *, mass: float, speed: float, unbalance: float, stiffness: float = 0.0
-) -> DamperAnswer:
-    """Return the answer for a rotor [kg, rad/s, kg m] on a damper with springs of the stiffness [N/m].
-
-    Raises
-    ------
-    InputError
-        If a value breaks its rule.
-    """
-    groups = damper_groups(damper, mass=mass, speed=speed, stiffness=stiffness, unbalance=unbalance)
-    rotor = RigidRotor(mass=mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
-    support: Reaction = Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
-    response = synchronous_orbits(rotor, support, _around(unbalance))
-    return DamperAnswer(
-        groups=groups,
-        orbits=response.at(unbalance),
-        folds=response.folds,
-        contact_unbalance=response.contact_unbalance,
-        small_motion=orbit_coefficients(support, 0.01, speed),
-        response=response,
-        unbalance_scale=mass * damper.clearance,
-    )
-
-
 def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
     """Return the orbits of the rotor of a scene on its damper, at the speed of its operation.
 
@@ -108,18 +83,20 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
         )
     excitation, rotor = scene.excitation, scene.rigid_rotor
     added = excitation.unbalance if isinstance(excitation, UnbalanceTable) else 0.0
-    return solve_damper(
-        scene.damper.build(),
-        mass=rotor.mass,
-        speed=scene.speed,
-        unbalance=rotor.unbalance or added,
-        stiffness=scene.damper.stiffness,
+    damper, stiffness, speed = scene.damper.build(), scene.damper.stiffness, scene.speed
+    unbalance = rotor.unbalance or added
+    support: Reaction = Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+    alone = RigidRotor(mass=rotor.mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
+    response = synchronous_orbits(alone, support, unbalance * np.linspace(0.005, 2.0, 400))
+    return DamperAnswer(
+        groups=damper_groups(damper, mass=rotor.mass, speed=speed, stiffness=stiffness, unbalance=unbalance),
+        orbits=response.at(unbalance),
+        folds=response.folds,
+        contact_unbalance=response.contact_unbalance,
+        small_motion=orbit_coefficients(support, 0.01, speed),
+        response=response,
+        unbalance_scale=rotor.mass * damper.clearance,
     )
-
-
-def _around(unbalance: float) -> Array:
-    """Return unbalances from nearly 0 to twice the given one, itself among them."""
-    return unbalance * np.linspace(0.005, 2.0, 400)
 
 
 # Runs of a scene with a damper, as a lost blade or a run-up: as one system, or as two FMUs.
@@ -186,9 +163,10 @@ def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun
         FMI version; a damper whose film is no map has 2.0 only.
     """
     models = damper_models(scene)
-    damper, rotor = write_models(damper_fmus(scene), folder, version)
+    made = export_scene(scene, folder, version=version)
     return _followed(
-        models, lambda: cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
+        models,
+        lambda: cosimulate(made["rotor"], made["film"], macro_step=models.step, duration=models.duration),
     )
 
 
@@ -215,64 +193,3 @@ def _followed(models: DamperScene, follow: Callable[[], Trajectory | CoSimulatio
         peak_force=float(np.hypot(signals["force_x"], signals["force_y"]).max()),
         contact_time=float(time[-1]) if touched or beyond.size else None,
     )
-
-
-# A rotor and a damper whose oil has mass as one FMU.
-
-
-class ExportedRotor(NamedTuple):
-    """Where the FMU of a rotor on its damper is.
-
-    Attributes
-    ----------
-    system : Path
-    """
-
-    system: Path
-
-
-def export_damped_rotor(
-    scene: Scene, folder: Path, *, version: str = "2.0", backend: str | None = None, platforms: str = "host"
-) -> ExportedRotor:
-    """Write `system.fmu`: the rotor of a scene on its damper, springs included, at rest.
-
-    A film that the scene does not name is the map of the short film, which runs in C, or between tight seals
-    that of finite length.
-
-    Parameters
-    ----------
-    scene : Scene
-        With a damper and a rotor.
-    folder : Path
-        Made if absent.
-    version, backend, platforms : str
-        See `export_fmu`.
-
-    Raises
-    ------
-    InputError
-        If the scene lacks a damper or a rotor.
-    FmuError
-        If the rotor cannot be exported.
-    """
-    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
-
-    table = scene.damper
-    if table is None:
-        raise InputError("damper is required for the FMU of a rotor on one, got no such table")
-    if table.film is None and not table.needs_length:
-        scene = replace(scene, damper=replace(table, film=MapSqueeze()))
-    models = damper_models(scene)
-    assert not isinstance(models.support, JFODamper)  # which no scene has that names a film, or seals
-    path = folder / "system.fmu"
-    export_fmu(
-        mount(models.rotor, {"": models.support}),
-        path,
-        version,
-        backend,
-        platforms=platforms,
-        component="system",
-        step_size=models.step,
-        stop_time=2.0 * np.pi / (abs(scene.speed) or 1.0),  # a turn: Python takes seconds for it
-    )
-    return ExportedRotor(system=path)

@@ -19,11 +19,10 @@ if TYPE_CHECKING:
         bearing_thresholds as bearing_thresholds,
         bearing_types as bearing_types,
     )
-    from .bush_tiers import bush_tiers as bush_tiers, shaft_flux_errors as shaft_flux_errors
-    from .contact_cases import contact_cases as contact_cases
-    from .contact_precision import contact_limits as contact_limits, contact_precision as contact_precision
+    from .bush_tiers import bush_tiers as bush_tiers
+    from .contact_precision import contact_precision as contact_precision, decay_time as decay_time
     from .coupling_cost import coupling_cost as coupling_cost, coupling_limits as coupling_limits
-    from .damper_accuracy import damper_accuracy as damper_accuracy, damper_rungs as damper_rungs
+    from .damper_accuracy import damper_accuracy as damper_accuracy
     from .heat_accuracy import (
         HEAT_CASES as HEAT_CASES,
         HeatCase as HeatCase,
@@ -41,11 +40,7 @@ if TYPE_CHECKING:
         random_states as random_states,
         reference_force as reference_force,
     )
-    from .journal_stability import (
-        JournalStability as JournalStability,
-        RungStability as RungStability,
-        journal_stability as journal_stability,
-    )
+    from .journal_stability import journal_stability as journal_stability
     from .limits_atlas import (
         Panel as Panel,
         failures as failures,

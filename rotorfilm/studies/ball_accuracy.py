@@ -78,11 +78,7 @@ def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent
         for name, error in _errors(bearing, load, speed).items():
             errors[name].append(error)
         report((number + 1) / (2 * states), "states")
-    laws: dict[str, Reaction] = {
-        CLOSED: _closed(bearings[0]),
-        STATIC: replace(bearings[0], law=StaticBalls()),
-        RUNNING: bearings[0],
-    }
+    laws = _laws(bearings[0])
     models = [StudyModel(name=name, family="balls", law=(laws[name], errors[name])) for name in errors]
     reference = f"{FILMS} of {1e3 * VISCOSITY:g} mPa s, those of the most loaded ball"
     conditions = {"states of each bearing [1]": states, "seed [-]": seed, "reference [-]": reference}
@@ -101,21 +97,22 @@ def _drawn(
     return replace(bearing, axial_load=thrust), (0.0, -0.3 * thrust), speed
 
 
-def _closed(bearing: BallBearing) -> PalmgrenBalls:
-    return PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
+def _laws(bearing: BallBearing) -> dict[str, Reaction]:
+    """Return the models of a bearing; the closed form has no contact angle."""
+    laws: dict[str, Reaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
+    if not bearing.separates:
+        laws[CLOSED] = PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
+    return laws
 
 
 def _errors(bearing: BallBearing, load: tuple[float, float], speed: float) -> dict[str, float]:
     """Return the errors of the models that have an answer; none where the reference has none."""
-    models: dict[str, Reaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
-    if not bearing.separates:
-        models[CLOSED] = _closed(bearing)
     try:
         best = _stiffness(_on_films(bearing, load, speed), load, speed)
     except RotorfilmError:
         return {}
     found = {}
-    for name, model in models.items():
+    for name, model in _laws(bearing).items():
         try:
             gap = _stiffness(model, load, speed) - best
         except RotorfilmError:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from functools import partial
 from time import process_time
-from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -17,6 +16,7 @@ from ..bearings.contact import (
     AdaptiveSteps,
     ContactGrid,
     ContactLaw,
+    ContactRun,
     ContactScheme,
     ContactState,
     FixedSteps,
@@ -24,14 +24,13 @@ from ..bearings.contact import (
     SineLoad,
     SmallMotion,
     StaggeredScheme,
-    StepLoad,
     UpwindScheme,
     reduce_contact,
     ride,
 )
-from ..core.errors import ConvergenceError, ValidityWarning
+from ..core.errors import ValidityWarning
 from ..core.model import Array
-from ..core.progress import Report, part_of, silent
+from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
 
 SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
@@ -159,79 +158,24 @@ def as_published() -> AbstractContextManager[object]:
     return warnings.catch_warnings(action="ignore", category=ValidityWarning)
 
 
-# Where the published scheme of a rolling ball fails: load steps it cannot take, decay it makes up itself.
+# Numbers that describe a motion of a ball: the decay of its oscillation, in a run and by the equations.
 
 
-STEPS = (0.05, 0.1, 0.2, 0.5, 1.0)
-AMPLITUDES = (0.7, 1.5, 3.0, 5.0, 8.0)
-INERTIAS = (0.1, 0.3, 0.5, 1.0, 3.0)
-SPAN = 4.0
-"""Time after a load step within which a run has to hold."""
+SMALLEST_PEAK = 1e-4
+"""Peaks of delta below which a decay is lost in the errors of the steps."""
 
 STIFFNESS = 1.57
 """Static stiffness of the contact, from which the search for its natural motion starts."""
 
 
-class ContactLimits(NamedTuple):
-    """Where implicit Euler with fixed steps on the published grid ends, and what it does to the decay.
-
-    Attributes
-    ----------
-    steps, load_steps, inertias : tuple of float
-        Lengths of the steps; load steps at W = 1; inertias W.
-    reached : ndarray, shape (steps, load_steps)
-        Time after the load step at which the run failed, infinite if it did not.
-    physical : ndarray, shape (inertias,)
-        Decay time of small oscillations by the linearized equations.
-    shown : ndarray, shape (steps, inertias)
-        Decay time that the scheme shows.
-    """
-
-    steps: tuple[float, ...]
-    load_steps: tuple[float, ...]
-    inertias: tuple[float, ...]
-    reached: np.ndarray
-    physical: np.ndarray
-    shown: np.ndarray
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return both maps as one table; no time of failure where a run holds, dt = 0 for the equations."""
-        rows = [
-            ("load step", step, a, float(self.reached[i, j]) if np.isfinite(self.reached[i, j]) else None)
-            for i, step in enumerate(self.steps)
-            for j, a in enumerate(self.load_steps)
-        ]
-        rows += [
-            ("decay time", step, W, float(self.shown[i, j]))
-            for i, step in enumerate(self.steps)
-            for j, W in enumerate(self.inertias)
-        ]
-        rows += [
-            ("decay time", 0.0, W, float(time)) for W, time in zip(self.inertias, self.physical, strict=True)
-        ]
-        headings = ("map", "dt", "amplitude or W", "time of failure or decay time")
-        return dict(zip(headings, map(list, zip(*rows, strict=True)), strict=True))
-
-
-def contact_limits(
-    cells: int = PUBLISHED_CELLS,
-    steps: Sequence[float] = STEPS,
-    amplitudes: Sequence[float] = AMPLITUDES,
-    inertias: Sequence[float] = INERTIAS,
-    report: Report = silent,
-) -> ContactLimits:
-    """Return the limits of the published scheme on its grid, or one of `cells` x `cells`; a minute."""
-    contact = published_contact(cells, StaggeredScheme())
-    with as_published():
-        rest = contact.stationary()
-    s = natural_motions(contact, rest, inertias, part_of(report, 0.0, 0.3))
-    reached = np.full((len(steps), len(amplitudes)), np.inf)
-    for i, step in enumerate(steps):
-        for j, amplitude in enumerate(amplitudes):
-            report(0.3 + 0.7 * (i + j / len(amplitudes)) / len(steps), f"dt = {step:g}, A = {amplitude:g}")
-            reached[i, j] = _reached(contact, rest, step, amplitude)
-    shown = np.array([step / np.log(np.abs(1.0 - step * s)) for step in steps])
-    return ContactLimits(tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown)
+def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
+    """Return the time in which delta's oscillation about `rest` falls by e, from its peaks; 0 if none."""
+    spline = CubicSpline(run.time, run.delta - rest)
+    peaks = spline.derivative().roots(extrapolate=False)
+    peaks = peaks[(peaks > begin) & (peaks < end)]
+    height = np.abs(spline(peaks))
+    peaks, height = peaks[height > SMALLEST_PEAK], height[height > SMALLEST_PEAK]
+    return float(-1.0 / np.polyfit(peaks, np.log(height), 1)[0]) if len(peaks) > 1 else 0.0
 
 
 def natural_motions(
@@ -244,13 +188,3 @@ def natural_motions(
         report(number / len(inertias), f"natural motion, W = {W:g}")
         found.append(small.natural_motion(W, 1j * np.sqrt(STIFFNESS / W)))
     return np.array(found)
-
-
-def _reached(contact: PointContact, rest: ContactState, step: float, amplitude: float) -> float:
-    load, control = StepLoad(amplitude=amplitude, start=step), FixedSteps(step=step, order=1)
-    try:
-        with as_published():
-            contact.simulate(rest, duration=step + SPAN, W=1.0, load=load, control=control)
-    except ConvergenceError as error:
-        return float(error.partial.time[-1] - step)
-    return np.inf

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -25,8 +26,7 @@ from ..cosim import (
     critical_macro_step,
 )
 from ..cosim.watch import quietly
-from ..rotors.jeffcott import JeffcottRotor
-from ..rotors.rigid import RigidRotor
+from ..rotors.rigid import JeffcottRotor, RigidRotor
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 
 # What couplings are compared on: the schemes by kind, and a rigid rotor at rest in its bearing.
@@ -147,21 +147,22 @@ def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, ob
     the work is film evaluations per turn, with the derivatives that the scheme asks for.
     """
     rotor, bearing = cost_case()
-    error, refused, turns = None, "", float(REVOLUTIONS)
+    run, refused = _coupled(rotor, bearing, scheme, angle / SPEED, float(exact.time[-1]))
+    error = None if refused else orbit_distance(run.trajectory, exact) / bearing.clearance
+    turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi) if refused else float(REVOLUTIONS)
+    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
+
+
+def _coupled(
+    rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float, duration: float
+) -> tuple[Any, str]:
+    """Return a coupled run, and why it ended early."""
+    slaves = InProcessSlave(rotor), InProcessSlave(bearing)
     try:
         with quietly():
-            run = couple(
-                InProcessSlave(rotor),
-                InProcessSlave(bearing),
-                macro_step=angle / SPEED,
-                duration=float(exact.time[-1]),
-                scheme=scheme,
-            )
-        error = orbit_distance(run.trajectory, exact) / bearing.clearance
+            return couple(*slaves, macro_step=step, duration=duration, scheme=scheme), ""
     except PartialResultError as failure:
-        run, refused = failure.partial, str(failure)
-        turns = max(run.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
-    return {"orbit_error [1]": error, "film_calls [1/turn]": run.film_calls / turns, "refused": refused}
+        return failure.partial, str(failure)
 
 
 # How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself.
@@ -291,27 +292,14 @@ def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, the
 
 def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> float:
     """Return how much a small alternation of the force grows over some steps, after others."""
-    forces = _disturbed(rotor, bearing, scheme, step)
+    moved = nudged(rotor, DISTURBANCE * bearing.clearance)
+    run = _coupled(moved, bearing, scheme, step, (SETTLED + COUNTED) * step)[0].trajectory
+    forces = np.stack([run["force_x"], run["force_y"]])
     swing = np.hypot(*np.diff(forces, n=2, axis=1))[SETTLED:]
     half = len(swing) // 2
     if half < COUNTED // 4 or swing[-1] > SATURATED * np.abs(forces).max():
         return np.inf
     return float(np.linalg.norm(swing[half : 2 * half]) / np.linalg.norm(swing[:half]))
-
-
-def _disturbed(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> Array:
-    try:
-        with quietly():
-            run = couple(
-                InProcessSlave(nudged(rotor, DISTURBANCE * bearing.clearance)),
-                InProcessSlave(bearing),
-                macro_step=step,
-                duration=(SETTLED + COUNTED) * step,
-                scheme=scheme,
-            ).trajectory
-    except PartialResultError as error:
-        run = error.partial.trajectory
-    return np.stack([run["force_x"], run["force_y"]])
 
 
 def nudged(rotor: Dynamic, distance: float) -> Dynamic:

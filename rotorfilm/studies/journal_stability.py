@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from ..bearings.journal import JournalBearing, ReynoldsFilm, fitted_bearing, ten
 from ..core.errors import InputError, require_finite
 from ..core.model import Array
 from ..core.progress import Report, silent
-from ..core.readable import Readable
 from ..core.results import Coefficients
 from .journal_accuracy import (
     LARGE,
@@ -23,7 +23,7 @@ from .journal_accuracy import (
     random_states,
     require_cells,
 )
-from .study import States, StudyModel, table
+from .study import States, StudyModel, StudyResult, StudyRung
 
 THRESHOLD_CELLS = (384, 16)
 """Finer grid of the reference; each derivative is a mean of eight solutions on it."""
@@ -34,6 +34,24 @@ ECCENTRICITY_RATIOS = tuple(np.linspace(0.05, 0.95, 46).tolist())
 TENSION_STATES = 400
 """Random states of large motion in which tension is looked for."""
 
+TOLERANCE = 0.05
+"""Relative deviation from which a threshold counts as wrong."""
+
+ASYMMETRY = 0.01
+"""|C_xy - C_yx| / max |C| from which damping counts as unsymmetric; exact for films with a potential: 0."""
+
+HIGHEST = 5.0
+"""Speed parameter up to which a threshold is judged: further up it rises so steeply that a shift of the
+eccentricity ratio by 0.001 changes it by several per cent."""
+
+RATIO, PARAMETER, REFERENCE = "eccentricity ratio [1]", "speed sqrt(c m/W) [1]", "reference [1]"
+DEVIATION, WRONG = "deviation [1]", f"deviation above {TOLERANCE:g} [-]"
+MISSING, INVENTED = "none where the reference has one [-]", "one where the reference has none [-]"
+RANK_ONE, UNSYMMETRIC = "damping of rank one [-]", "|Cxy - Cyx|/max|C| [1]"
+AT_REST, MOVING = "tension/largest pressure at rest [1]", "states of large motion in tension [1]"
+LENGTH, OWN_ERROR = "length/diameter [1]", "error of the reference [1]"
+"""Headings of the table."""
+
 
 def journal_stability(
     slenderness: float,
@@ -42,8 +60,13 @@ def journal_stability(
     rungs: Sequence[StudyModel] | None = None,
     cells: tuple[int, int] = THRESHOLD_CELLS,
     report: Report = silent,
-) -> JournalStability:
+) -> StudyResult:
     """Return the whirl threshold of a rigid rotor by every rung and by the two-dimensional reference.
+
+    A row for each rung and eccentricity ratio has speed * sqrt(clearance * mass / load) at the onset of
+    whirl, None where there is none, and what is wrong with it: a threshold up to `HIGHEST` that is off by
+    more than `TOLERANCE`, one that is missing or invented, damping of rank one or unsymmetric, and tension
+    in the film.
 
     Parameters
     ----------
@@ -79,17 +102,15 @@ def journal_stability(
         for grid in (cells, (around // 2, along // 2))
     )
     sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
-    judged = []
+    found: list[StudyRung] = []
     for number, rung in enumerate(rungs):
         report((number + 1) / (len(rungs) + 1), f"whirl threshold by {rung.name}")
-        judged.append(_judged(rung, bearing, ratios, exact, sample))
-    return JournalStability(
-        slenderness=slenderness,
-        eccentricity_ratio=tuple(ratios.tolist()),
-        speed_parameter=exact,
+        found += _points(rung, bearing, ratios, exact, sample)
+    return StudyResult(
+        study="stability",
         reference=f"2-D film, {around} x {along} cells, averaged over {PLACES} positions within a cell",
-        reference_error=_largest_gap(rough, exact),
-        rungs=tuple(judged),
+        conditions={LENGTH: slenderness, OWN_ERROR: _largest_gap(rough, exact)},
+        rungs=tuple(found),
     )
 
 
@@ -132,196 +153,56 @@ def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[st
     return parameters, tuple(border.reason for border in borders), matrices
 
 
-def _judged(
-    rung: StudyModel,
-    bearing: JournalBearing,
-    ratios: Array,
-    exact: Parameters,
-    sample: States,
-) -> RungStability:
+def _points(
+    rung: StudyModel, bearing: JournalBearing, ratios: Array, exact: Parameters, sample: States
+) -> Iterator[StudyRung]:
+    """Yield what a rung says at each eccentricity ratio."""
     own = fitted_bearing(bearing, rung.law)
-    parameters, reasons, matrices = _curve(own, ratios)
-    at_rest = tension(rung.law, *own.kinematics(*_static_states(own, ratios)), own.slenderness)
-    moving = tension(rung.law, *own.kinematics(*sample), own.slenderness)
-    return RungStability(
-        name=rung.name,
-        family=rung.family,
-        label=rung.label,
-        speed_parameter=parameters,
-        deviation=_deviation(parameters, exact),
-        reasons=reasons,
-        rank_one=tuple(damping_has_rank_one(at) for at in matrices),
-        asymmetry=tuple(_asymmetry(at.damping) for at in matrices),
-        static_tension=tuple(at_rest.tolist()),
-        tension_share=float(np.mean(moving > TENSION)),
+    still, moving = (
+        tension(rung.law, *own.kinematics(*states), own.slenderness)
+        for states in (_static_states(own, ratios), sample)
     )
+    share = float(np.mean(moving > TENSION))
+    rows = zip(ratios.tolist(), *_curve(own, ratios), exact, still.tolist(), strict=True)
+    for ratio, parameter, reason, at, right, pulled in rows:
+        judged, gap = is_judged(right), _deviation(parameter, right)
+        C = at.damping
+        values = {
+            "family [-]": rung.family,
+            "label [-]": rung.label,
+            RATIO: ratio,
+            PARAMETER: parameter,
+            REFERENCE: right,
+            DEVIATION: gap,
+            WRONG: int(judged and gap is not None and abs(gap) > TOLERANCE),
+            MISSING: int(judged and parameter is None),
+            INVENTED: int(right is None and is_judged(parameter)),
+            RANK_ONE: int(damping_has_rank_one(at)),
+            UNSYMMETRIC: float(abs(C[0, 1] - C[1, 0]) / np.max(np.abs(C))),
+            AT_REST: pulled,
+            MOVING: share,
+            "why none [-]": reason,
+        }
+        yield StudyRung(name=rung.name, family=rung.family, label=rung.label, case="", values=values)
 
 
-def _asymmetry(damping: Array) -> float:
-    return float(abs(damping[0, 1] - damping[1, 0]) / np.max(np.abs(damping)))
+def is_judged(parameter: float | None) -> bool:
+    """Return whether a threshold is one, and not above `HIGHEST`."""
+    return parameter is not None and parameter <= HIGHEST
+
+
+def _deviation(value: float | None, exact: float | None) -> float | None:
+    return None if value is None or exact is None else value / exact - 1.0
 
 
 def _largest_gap(rough: Parameters, exact: Parameters) -> float:
-    pairs = zip(_deviation(rough, exact), exact, strict=True)
-    gaps = [abs(gap) for gap, x in pairs if gap is not None and x is not None and x <= HIGHEST]
-    return max(gaps, default=0.0)
+    gaps = (_deviation(value, x) for value, x in zip(rough, exact, strict=True) if is_judged(x))
+    return max((abs(gap) for gap in gaps if gap is not None), default=0.0)
 
 
-def _deviation(values: Parameters, exact: Parameters) -> Parameters:
-    pairs = zip(values, exact, strict=True)
-    return tuple(None if v is None or x is None else v / x - 1.0 for v, x in pairs)
-
-
-# Whirl thresholds by the rungs of the ladder, and which of them are wrong.
-
-
-TOLERANCE = 0.05
-"""Relative deviation from which a threshold counts as wrong."""
-
-ASYMMETRY = 0.01
-"""|C_xy - C_yx| / max |C| from which damping counts as unsymmetric; exact for films with a potential: 0."""
-
-HIGHEST = 5.0
-"""Speed parameter up to which a threshold is judged: further up it rises so steeply that a shift of the
-eccentricity ratio by 0.001 changes it by several per cent."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RungStability(Readable):
-    """Whirl threshold by one rung, over the eccentricity ratios of a `JournalStability`.
-
-    Attributes
-    ----------
-    name, family, label : str
-        Of the film; see `StudyModel`.
-    speed_parameter : tuple of n floats or None [1]
-        speed * sqrt(clearance * mass / load) at the onset of whirl; None where there is none.
-    deviation : tuple of n floats or None [1]
-        Of the speed parameter from the reference, relative; None where one of the two has none.
-    reasons : tuple of n str
-        Why there is no threshold; empty where there is one.
-    rank_one : tuple of n bool
-        Whether det C = 0, so that stability does not depend on the mass.
-    asymmetry : tuple of n floats [1]
-        |C_xy - C_yx| / max |C|.
-    static_tension : tuple of n floats [1]
-        Largest tension of the film at rest / its largest pressure.
-    tension_share : float [1]
-        Share of random states of large motion in which the film carries more tension than `TENSION`.
-    """
-
-    name: str
-    family: str
-    label: str
-    speed_parameter: tuple[float | None, ...]
-    deviation: tuple[float | None, ...]
-    reasons: tuple[str, ...]
-    rank_one: tuple[bool, ...]
-    asymmetry: tuple[float, ...]
-    static_tension: tuple[float, ...]
-    tension_share: float
-
-    @property
-    def in_tension(self) -> bool:
-        """Whether the film carries tension at rest or in large motion."""
-        return self.tension_share > 0.0 or max(self.static_tension) > TENSION
-
-    @property
-    def unsymmetric(self) -> bool:
-        """Whether the damping matrix is unsymmetric by more than `ASYMMETRY` somewhere."""
-        return max(self.asymmetry) > ASYMMETRY
-
-    @property
-    def has_threshold(self) -> bool:
-        """Whether it predicts whirl anywhere."""
-        return any(value is not None for value in self.speed_parameter)
-
-
-@dataclass(frozen=True, kw_only=True)
-class JournalStability(Readable):
-    """Whirl threshold over the eccentricity ratio, by every rung.
-
-    Attributes
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    eccentricity_ratio : tuple of n floats [1]
-    speed_parameter : tuple of n floats or None [1]
-        Of the reference.
-    reference : str
-        What it is.
-    reference_error : float [1]
-        Estimate of its largest relative error, where it is judged.
-    tolerance, asymmetry_tolerance, tension_tolerance : float [1]
-        From which a threshold, a damping matrix and a film are marked.
-    highest : float [1]
-        Speed parameter of the reference up to which thresholds are judged.
-    rungs : tuple of RungStability
-    """
-
-    slenderness: float
-    eccentricity_ratio: tuple[float, ...]
-    speed_parameter: tuple[float | None, ...]
-    reference: str
-    reference_error: float
-    tolerance: float = TOLERANCE
-    asymmetry_tolerance: float = ASYMMETRY
-    tension_tolerance: float = TENSION
-    highest: float = HIGHEST
-    rungs: tuple[RungStability, ...]
-
-    @property
-    def judged(self) -> tuple[bool, ...]:
-        """Where the reference has a threshold not above `highest`."""
-        return tuple(value is not None and value <= self.highest for value in self.speed_parameter)
-
-    def wrong(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where a judged threshold is off by more than the tolerance."""
-        pairs = zip(self.judged, rung.deviation, strict=True)
-        return tuple(judged and gap is not None and abs(gap) > self.tolerance for judged, gap in pairs)
-
-    def missing(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where the reference has a judged threshold and the rung has none."""
-        pairs = zip(self.judged, rung.speed_parameter, strict=True)
-        return tuple(judged and value is None for judged, value in pairs)
-
-    def invented(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where the rung has a threshold not above `highest` and the reference has none at all."""
-        pairs = zip(self.speed_parameter, rung.speed_parameter, strict=True)
-        return tuple(exact is None and value is not None and value <= self.highest for exact, value in pairs)
-
-    def largest_deviation(self, rung: RungStability) -> float | None:
-        """Return the largest |deviation| of a judged threshold [1]; None where the rung has none."""
-        pairs = zip(self.judged, rung.deviation, strict=True)
-        return max((abs(gap) for judged, gap in pairs if judged and gap is not None), default=None)
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return one row for each rung and eccentricity ratio, headings with units."""
-        return table([row for rung in self.rungs for row in self._rows(rung)])
-
-    def _rows(self, rung: RungStability) -> list[dict[str, object]]:
-        wrong, missing, invented = self.wrong(rung), self.missing(rung), self.invented(rung)
-        return [
-            {
-                "family [-]": rung.family,
-                "label [-]": rung.label,
-                "eccentricity ratio [1]": ratio,
-                "speed sqrt(c m/W) [1]": rung.speed_parameter[k],
-                "reference [1]": self.speed_parameter[k],
-                "deviation [1]": rung.deviation[k],
-                f"deviation above {self.tolerance:g} [-]": int(wrong[k]),
-                "none where the reference has one [-]": int(missing[k]),
-                "one where the reference has none [-]": int(invented[k]),
-                "damping of rank one [-]": int(rung.rank_one[k]),
-                "|Cxy - Cyx|/max|C| [1]": rung.asymmetry[k],
-                "tension/largest pressure at rest [1]": rung.static_tension[k],
-                "states of large motion in tension [1]": rung.tension_share,
-                "why none [-]": rung.reasons[k],
-                "length/diameter [1]": self.slenderness,
-                "error of the reference [1]": self.reference_error,
-            }
-            for k, ratio in enumerate(self.eccentricity_ratio)
-        ]
+def by_film(result: StudyResult) -> dict[str, list[StudyRung]]:
+    """Return the rows of each film."""
+    return {name: list(rows) for name, rows in groupby(result.rungs, key=lambda rung: rung.name)}
 
 
 # The two-dimensional film without the jitter of its grid: the reference for derivatives.

@@ -7,9 +7,11 @@ against cost, how the cost is measured; `run_study` returns a row for each model
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -353,35 +355,43 @@ def shortest_time(call: Callable[[], object], repeats: int = 7, loops: int = 1) 
 
 def _batch_run(bearing: Any, states: States) -> tuple[Callable[[], object], int]:
     """Return a call long enough to be measured, and how many states it evaluates."""
-    (size, largest), each = BATCH, np.inf
-    while True:
-        repeated = [np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states]
 
-        def run(arguments: list[np.ndarray] = repeated) -> object:
-            return bearing.force(*arguments)
+    def made(size: int) -> Callable[[], object]:
+        return partial(
+            bearing.force, *(np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states)
+        )
 
-        run()  # The first call compiles and builds tables.
-        seconds, before = shortest_time(run, 2), each
-        each = seconds / size
-        if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
-            return run, size
-        size *= 2
+    return _long_enough(made, BATCH[1])
 
 
 def _call_run(bearing: Any, states: States) -> tuple[Callable[[], object], int]:
     """Return a loop over states long enough to be measured, and how many states it visits."""
     call = bearing.prepare()
     columns = np.concatenate([states.position, states.velocity, states.speed[None]]).T.tolist()
-    size = 8
-    while True:
+
+    def made(size: int) -> Callable[[], object]:
         visited = [columns[k % len(columns)] for k in range(size)]
 
-        def run(states: list[list[float]] = visited) -> None:
-            for state in states:
+        def run() -> None:
+            for state in visited:
                 call(*state)
 
-        run()
-        if shortest_time(run, 1) > SHORTEST_RUN:
+        return run
+
+    return _long_enough(made)
+
+
+def _long_enough(
+    made: Callable[[int], Callable[[], object]], largest: float = math.inf
+) -> tuple[Callable[[], object], int]:
+    """Return what is made for a number of states, and the number with which its runs can be measured."""
+    size, each = BATCH[0], math.inf
+    while True:
+        run = made(size)
+        run()  # The first call compiles and builds tables.
+        seconds, before = shortest_time(run, 2), each
+        each = seconds / size
+        if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
             return run, size
         size *= 2
 

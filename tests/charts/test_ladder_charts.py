@@ -6,13 +6,8 @@ import pytest
 from rotorfilm.charts import new_axes, plot_journal_stability, plot_study, plot_thresholds
 from rotorfilm.charts.canvas import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, Label, place_labels
 from rotorfilm.charts.whirl_verdicts import verdicts
-from rotorfilm.studies import (
-    JournalStability,
-    RungStability,
-    StudyResult,
-    StudyRung,
-    journal_rungs,
-)
+from rotorfilm.studies import StudyResult, StudyRung, journal_rungs
+from rotorfilm.studies.journal_stability import by_film
 
 
 def accuracy(family, time, error):
@@ -25,35 +20,38 @@ def accuracy(family, time, error):
     return StudyRung(name=family, family=family, label="x", case="", values=values)
 
 
-def stability(family, parameters, exact, *, rank_one=False, asymmetry=0.0, share=0.0):
-    pairs = zip(parameters, exact, strict=True)
-    return RungStability(
-        name=f"{family} x",
-        family=family,
-        label="x",
-        speed_parameter=parameters,
-        deviation=tuple(None if None in pair else pair[0] / pair[1] - 1.0 for pair in pairs),
-        reasons=tuple("none" if value is None else "" for value in parameters),
-        rank_one=(rank_one,) * len(parameters),
-        asymmetry=(asymmetry,) * len(parameters),
-        static_tension=(0.0,) * len(parameters),
-        tension_share=share,
-    )
+def stability(family, parameters, exact, *, rank_one=0, asymmetry=0.0, share=0.0):
+    rows = []
+    for ratio, parameter, right in zip((0.2, 0.5, 0.9), parameters, exact, strict=True):
+        gap = None if None in (parameter, right) else parameter / right - 1.0
+        values = {
+            "eccentricity ratio [1]": ratio,
+            "speed sqrt(c m/W) [1]": parameter,
+            "reference [1]": right,
+            "deviation [1]": gap,
+            "deviation above 0.05 [-]": int(gap is not None and abs(gap) > 0.05),
+            "none where the reference has one [-]": int(right is not None and parameter is None),
+            "one where the reference has none [-]": int(right is None and parameter is not None),
+            "damping of rank one [-]": rank_one,
+            "|Cxy - Cyx|/max|C| [1]": asymmetry,
+            "tension/largest pressure at rest [1]": 0.0,
+            "states of large motion in tension [1]": share,
+        }
+        rows.append(StudyRung(name=f"{family} x", family=family, label="x", case="", values=values))
+    return rows
 
 
 @pytest.fixture
 def thresholds():
     exact = (2.6, 2.5, None)
-    return JournalStability(
-        slenderness=0.5,
-        eccentricity_ratio=(0.2, 0.5, 0.9),
-        speed_parameter=exact,
+    return StudyResult(
+        study="stability",
         reference="2-D",
-        reference_error=1e-3,
+        conditions={"length/diameter [1]": 0.5, "error of the reference [1]": 1e-3},
         rungs=(
-            stability("map", exact, exact),
-            stability("fixed arc", (2.6, 2.0, 4.0), exact, share=0.8),
-            stability("published", (None, None, None), exact, rank_one=True, asymmetry=0.5),
+            *stability("map", exact, exact),
+            *stability("fixed arc", (2.6, 2.0, 4.0), exact, share=0.8),
+            *stability("published", (None, None, None), exact, rank_one=1, asymmetry=0.5),
         ),
     )
 
@@ -65,7 +63,7 @@ def test_every_family_has_a_color_and_a_width():
 
 
 def test_verdicts_tell_the_four_faults(thresholds):
-    good, fixed, first = (verdicts(thresholds, rung) for rung in thresholds.rungs)
+    good, fixed, first = map(verdicts, by_film(thresholds).values())
     assert [text for text, _ in good] == ["0 %", "nowhere", "none", "0"]
     assert {color for _, color in good} == {GOOD}
     assert [text for text, _ in fixed] == ["20 %", "0.5 to 0.9", "80 % of states", "0"]

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from rotorfilm import PorousDamper, RigidRotor, Sprung, synchronous_orbits
-from rotorfilm.scenes.families import FAMILIES, family_of
+from rotorfilm.scenes.families import FAMILIES, table_of
 from rotorfilm.scenes.new_scene import new_scene
 from rotorfilm.scenes.reading import keyed, twice_of
 from rotorfilm.scenes.scene import parse_scene
@@ -26,15 +26,16 @@ def test_the_scene_of_an_element_is_solved_as_it_stands(run, tmp_path, name):
 def test_the_scene_of_an_element_has_all_of_its_keys(run, name):
     text = run("new", name)[1]
     lines = [line.removeprefix("# ") for line in text.splitlines()]
-    for key, reader in keyed(family_of(name).table).readers.items():
+    for key, reader in keyed(table_of(name)).readers.items():
         assert any(line.startswith((f"{key} = ", f"{twice_of(reader) or key} = ")) for line in lines), key
     assert json.loads(run("new", name, "--json")[1]) == tomllib.loads(text)
 
 
 def test_defaults_and_units_are_those_of_the_table():
     text = new_scene("tilting_pad")
-    assert "# pivot_offset = 0.5  # Share of a pad before its pivot" in text
-    assert '# pivot_stiffness = "... N/m"  # [N/m] Of a spring below each pivot' in text
+    assert "# pivot_offset = 0.5" in text
+    assert "Share of a pad before its pivot, from its start in the positive sense" in text
+    assert '# pivot_stiffness = "... N/m"  # [N/m] Of a spring below each pivot, along its direction' in text
     # A key with a default may be written as it is.
     plain = new_scene("journal").replace('# supply_pressure = "0 Pa"', 'supply_pressure = "0 Pa"')
     assert parse_scene(plain, "new").journal == parse_scene(new_scene("journal"), "new").journal

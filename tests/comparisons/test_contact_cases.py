@@ -1,29 +1,17 @@
 """Published cases of a rolling ball: measures by closed forms, verdicts, ladder and limits on small grids."""
 
-import importlib
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from studies import contact_cases as cases, contact_limits as limits
+from studies.contact_cases import Claim, Statement, amplitude, overshoot, statements, unrest, wave_speed
 
 from rotorfilm import ContactGrid, FixedSteps, PointContact, SineLoad
 from rotorfilm.bearings.contact.contact_steps import ContactRun
 from rotorfilm.bearings.contact.point_contact import perturbed
-from rotorfilm.charts import plot_contact_cases, plot_contact_limits, plot_study, save
-from rotorfilm.studies import contact_limits, contact_precision
-from rotorfilm.studies.contact_cases import (
-    Claim,
-    Statement,
-    amplitude,
-    decay_time,
-    overshoot,
-    statements,
-    unrest,
-    wave_speed,
-)
-
-cases = importlib.import_module("rotorfilm.studies.contact_cases")
-limits = importlib.import_module("rotorfilm.studies.contact_precision")
+from rotorfilm.charts import plot_study, save
+from rotorfilm.studies import contact_precision, decay_time
 
 
 def run_of(time, delta):
@@ -167,7 +155,7 @@ def test_cases_become_a_table_curves_and_figures(made_up, tmp_path):
     assert set(table["section"]) == {"4", "4.1", "4.2", "4.3"}
     series = made_up.series()
     assert {len(column) for column in series.values()} == {12 * 3 * 801}
-    axes = plot_contact_cases(made_up)
+    axes = cases.plot_contact_cases(made_up)
     assert len(axes) == 12
     assert save(axes[0], tmp_path / "cases.png").stat().st_size > 50_000
 
@@ -231,14 +219,14 @@ def test_published_step_halves_the_travelling_film_and_hides_the_decay():
 @pytest.mark.closed_form
 def test_limits_are_those_of_the_scheme(monkeypatch):
     monkeypatch.setattr(limits, "SPAN", 1.0)
-    result = contact_limits(24, steps=(0.1, 1.0), amplitudes=(0.5, 60.0), inertias=(1.0,))
+    result = limits.contact_limits(24, steps=(0.1, 1.0), amplitudes=(0.5, 60.0), inertias=(1.0,))
     assert np.isinf(result.reached[0, 0])
     assert np.isfinite(result.reached[1, 1])
     # Euler damps at k dt/(2 W) in first order, beside which the physical damping is little.
     assert result.shown[0, 0] == pytest.approx(2.0 / (1.57 * 0.1 + 2.0 / result.physical[0]), rel=0.03)
     assert 40.0 < result.physical[0] < 90.0
     assert result.columns()["time of failure or decay time"].count(None) == np.isinf(result.reached).sum()
-    assert len(plot_contact_limits(result)) == 2
+    assert len(limits.plot_contact_limits(result)) == 2
 
 
 @pytest.mark.long

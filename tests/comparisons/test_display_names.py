@@ -21,7 +21,7 @@ ALLOWED = {
     ("cli/command.py", "parameter.name == 'radius'"),
     ("cli/main.py", "started.name == f'{package}.__main__'"),
     # an answer knows the rung that gave it by its name alone
-    ("cli/question_printing.py", "report.name == answer.model"),
+    ("cli/answer_printing.py", "report.name == answer.model"),
     ("charts/result_charts.py", "one.name == answer.model"),
     # a fingerprint, which is shown to no one
     ("sweeps/sweep_run.py", "json.loads(text)['sweep'] != self.name"),

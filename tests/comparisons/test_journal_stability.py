@@ -2,7 +2,7 @@
 
 import csv
 import math
-from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -13,7 +13,24 @@ from rotorfilm.bearings.journal.splitting_film import second_approximation
 from rotorfilm.core.errors import InputError
 from rotorfilm.core.results import write_csv
 from rotorfilm.studies import StudyModel, journal_rungs, journal_stability
-from rotorfilm.studies.journal_stability import AveragedFilm
+from rotorfilm.studies.journal_stability import (
+    AT_REST,
+    DEVIATION,
+    INVENTED,
+    MISSING,
+    MOVING,
+    OWN_ERROR,
+    PARAMETER,
+    RANK_ONE,
+    REFERENCE,
+    UNSYMMETRIC,
+    WRONG,
+    AveragedFilm,
+    by_film,
+    is_judged,
+)
+
+journal_stability_module = import_module("rotorfilm.studies.journal_stability")
 
 RATIOS = (0.1, 0.3, 0.5, 0.7, 0.85)
 WANTED = (
@@ -35,9 +52,17 @@ def result():
     return journal_stability(0.5, eccentricity_ratio=RATIOS, rungs=rungs, cells=(384, 16))
 
 
+def columns_of(result):
+    """Return the columns of each film, by its name."""
+    return {
+        name: {heading: [row[heading] for row in rows] for heading in rows[0].values}
+        for name, rows in by_film(result).items()
+    }
+
+
 @pytest.fixture(scope="module")
 def rung(result):
-    return {rung.name: rung for rung in result.rungs}
+    return columns_of(result)
 
 
 def threshold(force, eps):
@@ -77,7 +102,7 @@ def short_force(eps, g_s, g_c):
 
 @pytest.mark.closed_form
 def test_short_film_has_the_thresholds_of_ocvirks_force(rung):
-    short = rung["short film"].speed_parameter[:3]
+    short = rung["short film"][PARAMETER][:3]
     np.testing.assert_allclose(short, [threshold(short_force, eps) for eps in RATIOS[:3]], rtol=1e-6)
     np.testing.assert_allclose(short, [2.741279, 2.605786, 2.541731], atol=1e-6)
 
@@ -87,7 +112,7 @@ def test_published_film_has_the_thresholds_of_the_published_formulas(rung):
     # Sussi & Fridman (1978), second approximation with the misprints of docs/journal.md corrected, one axial
     # mode. The paper prints no threshold: 3.81 = c M omega^2/W at .5 follows from its formulas.
     exact = [threshold(lambda *z: second_approximation(*z, 0.5, 1), eps) for eps in RATIOS[:3]]
-    np.testing.assert_allclose(rung["published (2, 1)"].speed_parameter[:3], exact, rtol=1e-6)
+    np.testing.assert_allclose(rung["published (2, 1)"][PARAMETER][:3], exact, rtol=1e-6)
     assert exact[2] ** 2 == pytest.approx(3.81, abs=0.005)
 
 
@@ -105,7 +130,7 @@ def test_converged_films_agree_with_another_method():
         for name, arc in arcs.items()
     ]
     result = journal_stability(0.5, eccentricity_ratio=RATIOS[:3], rungs=rungs, cells=(64, 16))
-    pressure, flux = np.reshape([rung.speed_parameter for rung in result.rungs], (2, 3, 3))
+    pressure, flux = np.reshape(result.columns()[PARAMETER], (2, 3, 3))
     np.testing.assert_allclose(pressure, flux, rtol=1e-3)
 
 
@@ -114,14 +139,14 @@ def test_short_film_ceases_to_whirl():
     # Ocvirk film: no threshold beyond e = .756
     short = [rung for rung in journal_rungs() if rung.name == "short film"]
     result = journal_stability(0.3, eccentricity_ratio=(0.74, 0.76), rungs=short, cells=(64, 16))
-    below, beyond = result.rungs[0].speed_parameter
+    below, beyond = result.columns()[PARAMETER]
     assert below > 5.0
     assert beyond is None
 
 
 @pytest.mark.parametrize("name", ["map", "2-D 96 x 8", "free arc (4+c, 8)"])
-def test_films_with_reynolds_rupture_whirl_alike(result, rung, name):
-    np.testing.assert_allclose(rung[name].speed_parameter[:3], result.speed_parameter[:3], rtol=0.01)
+def test_films_with_reynolds_rupture_whirl_alike(rung, name):
+    np.testing.assert_allclose(rung[name][PARAMETER][:3], rung[name][REFERENCE][:3], rtol=0.01)
 
 
 @pytest.mark.parametrize("slenderness", [0.1, 0.5, 1.0, 4.0])
@@ -130,8 +155,10 @@ def test_map_and_reference_agree_within_the_estimated_error(slenderness):
     ratios = np.linspace(0.05, 0.95, 13)
     result = journal_stability(slenderness, eccentricity_ratio=ratios, rungs=rungs, cells=(384, 16))
     # .83 % at L/D .1, .56 % at .5, .24 % at 1, .28 % at 4
-    assert 1e-4 < result.reference_error < 1e-2
-    assert result.largest_deviation(result.rungs[0]) < result.reference_error
+    error, gaps = result.conditions[OWN_ERROR], result.columns()[DEVIATION]
+    assert 1e-4 < error < 1e-2
+    judged = [gap for gap, row in zip(gaps, result.rungs, strict=True) if is_judged(row[REFERENCE])]
+    assert max(map(abs, judged)) < error
 
 
 @pytest.mark.convergence
@@ -151,61 +178,68 @@ def test_averaging_takes_out_most_of_the_jitter_of_the_jacobian():
     assert spread(AveragedFilm(film=film)) < 0.5 * spread(film)
 
 
-def test_reference_and_map_are_stable_at_the_same_ratios(result, rung):
-    assert result.speed_parameter[4] is None
-    assert rung["map"].speed_parameter[4] is None
+def test_reference_and_map_are_stable_at_the_same_ratios(rung):
+    assert rung["map"][REFERENCE][4] is None
+    assert rung["map"][PARAMETER][4] is None
 
 
-def test_one_circumferential_function_has_no_threshold(result, rung):
+def test_one_circumferential_function_has_no_threshold(rung):
     first = rung["published (1, 1)"]
-    assert not first.has_threshold
-    assert all(first.rank_one)
-    assert result.missing(first) == (True, True, True, True, False)
-    assert result.largest_deviation(first) is None
-    assert "rank 1" in first.reasons[0]
+    assert first[PARAMETER] == first[DEVIATION] == [None] * 5
+    assert all(first[RANK_ONE])
+    assert first[MISSING] == [1, 1, 1, 1, 0]
+    assert "rank 1" in first["why none [-]"][0]
 
 
-def test_wrong_thresholds_are_marked(result, rung):
-    assert result.wrong(rung["fixed arc converged"]) == (True, True, True, True, False)
-    assert result.wrong(rung["rotating arc converged"]) == (False, False, False, True, False)
-    assert not any(result.wrong(rung["free arc converged"]))
+def test_wrong_thresholds_are_marked(rung):
+    assert rung["fixed arc converged"][WRONG] == [1, 1, 1, 1, 0]
+    assert rung["rotating arc converged"][WRONG] == [0, 0, 0, 1, 0]
+    assert not any(rung["free arc converged"][WRONG])
 
 
 def test_tension_and_asymmetry_are_marked(rung):
     for name in ("published (1, 1)", "published (2, 1)", "fixed arc converged"):
-        assert rung[name].in_tension
-        assert rung[name].tension_share > 0.4
-        assert max(rung[name].static_tension) < 1e-9
-    assert not rung["map"].in_tension
-    assert {name for name, law in rung.items() if law.unsymmetric} == {
+        assert rung[name][MOVING][0] > 0.4
+        assert max(rung[name][AT_REST]) < 1e-9
+    assert rung["map"][MOVING][0] == 0.0
+    assert max(rung["map"][AT_REST]) < 1e-2
+    assert {name for name, law in rung.items() if max(law[UNSYMMETRIC]) > 0.01} == {
         "published (1, 1)",
         "rotating arc converged",
     }
     # A potential makes damping symmetric: exactly so for map and grid, for two functions on a fixed arc.
     for name in ("short film", "published (2, 1)", "2-D 96 x 8", "map"):
-        assert max(rung[name].asymmetry) < 1e-9
+        assert max(rung[name][UNSYMMETRIC]) < 1e-9
 
 
-def test_thresholds_above_the_highest_are_not_judged(result, rung):
-    low = replace(result, highest=2.6)
-    assert low.judged == tuple(value is not None and value <= 2.6 for value in result.speed_parameter)
-    assert not low.wrong(rung["fixed arc converged"])[0]
+def test_thresholds_above_the_highest_are_not_judged(monkeypatch):
+    few = [rung for rung in journal_rungs() if rung.name == "fixed arc (2, all)"]
+    given = {"eccentricity_ratio": (0.1, 0.5), "rungs": few, "cells": (64, 16)}
+    assert journal_stability(0.5, **given).columns()[WRONG] == [1, 1]
+    monkeypatch.setattr(journal_stability_module, "HIGHEST", 2.6)
+    table = journal_stability(0.5, **given).columns()
+    assert table[WRONG] == [0, 1]
+    assert table[REFERENCE][0] > 2.6 > table[REFERENCE][1]
 
 
-def test_threshold_where_the_reference_has_none_is_marked(result, rung):
-    claims = replace(rung["map"], speed_parameter=(*rung["map"].speed_parameter[:4], 3.0))
-    assert result.invented(claims) == (False, False, False, False, True)
+def test_threshold_where_the_reference_has_none_is_marked(monkeypatch):
+    few = [rung for rung in journal_rungs() if rung.name == "rotating arc (2, 1)"]
+    given = {"eccentricity_ratio": (0.5, 0.85), "rungs": few, "cells": (64, 16)}
+    table = journal_stability(0.5, **given).columns()
+    assert table[REFERENCE][1] is None
+    assert table[PARAMETER][1] == pytest.approx(13.44, abs=0.01)
+    assert table[INVENTED] == [0, 0]  # so high that nobody would meet it
+    monkeypatch.setattr(journal_stability_module, "HIGHEST", 20.0)
+    assert journal_stability(0.5, **given).columns()[INVENTED] == [0, 1]
 
 
 def test_csv_round_trip(result, tmp_path):
     path = write_csv(tmp_path / "table.csv", result.columns())
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
     assert len(rows) == len(RATIOS) * len(WANTED)
-    for row, (name, k) in zip(
-        rows, ((r.name, k) for r in result.rungs for k in range(len(RATIOS))), strict=True
-    ):
-        assert f"{row['family [-]']} {row['label [-]']}".strip() == name
-        assert float(row["eccentricity ratio [1]"]) == RATIOS[k]
+    for row, rung, ratio in zip(rows, result.rungs, RATIOS * len(WANTED), strict=True):
+        assert f"{row['family [-]']} {row['label [-]']}".strip() == rung.name
+        assert float(row["eccentricity ratio [1]"]) == ratio
     first = rows[len(RATIOS)]
     assert (first["speed sqrt(c m/W) [1]"], first["damping of rank one [-]"]) == ("", "1")
     assert float(rows[0]["speed sqrt(c m/W) [1]"]) == pytest.approx(2.741279, abs=1e-6)

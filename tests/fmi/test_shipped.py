@@ -91,7 +91,7 @@ def test_a_wrong_fmu_is_noticed(name, component, parameter, shipped, tmp_path):
 def test_the_two_recipes_fit_together(shipped):
     film, rotor = shipped.load_recipe("journal"), shipped.load_recipe("rotor")
     scene = film.scene()
-    assert replace(scene, journal=bundled_scene().journal) == bundled_scene()
+    assert scene.with_tables(journal=bundled_scene().journal) == bundled_scene()
     assert film.model() == scene.bearing
     assert replace(rotor.model(), position=(0.0, 0.0)) == scene.rotor
     start = film.start()

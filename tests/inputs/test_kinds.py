@@ -5,9 +5,8 @@ import inspect
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.core.allowed import is_object, kinds_of
 from rotorfilm.core.errors import InputError
-from rotorfilm.core.inputs import units_of
+from rotorfilm.core.inputs import is_object, kinds_of, units_of
 
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = rf.RigidShaft(

@@ -31,7 +31,7 @@ RESULTS = {
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
-PARTS = {"PadBearing", "RecessedPads", "TiltingPads"}
+PARTS = {"PadBearing"}
 """What bearings are made of, which have it with quantities."""
 
 SCALED = PARTS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.core.allowed import kinds_of
 from rotorfilm.core.errors import InputError
+from rotorfilm.core.inputs import kinds_of
 from rotorfilm.core.readable import Readable
 
 from .public_objects import MADE

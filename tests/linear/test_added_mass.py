@@ -9,8 +9,7 @@ from scipy.linalg import eig
 from scipy.optimize import brentq
 
 import rotorfilm as rf
-from rotorfilm.analysis.rotor_matrices import second_order
-from rotorfilm.analysis.truncation_error import WholeRotor
+from rotorfilm.analysis.rotor_matrices import WholeRotor, second_order
 
 SPEED = 300.0
 SEAL = rf.AnnularSeal(

@@ -32,8 +32,7 @@ from rotorfilm.analysis.modal_reduction import (
     usual_frequency,
 )
 from rotorfilm.analysis.rotor_equilibrium import rest
-from rotorfilm.analysis.rotor_matrices import second_order
-from rotorfilm.analysis.truncation_error import WholeRotor, seen_rows, whirl_errors
+from rotorfilm.analysis.rotor_matrices import WholeRotor, second_order, seen_rows, whirl_errors
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.rotors import (

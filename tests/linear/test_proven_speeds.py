@@ -26,8 +26,7 @@ from rotorfilm.analysis import (
 from rotorfilm.analysis.critical import Changing, branches_on_line, require_all_undamped
 from rotorfilm.analysis.modal_reduction import models, negative_count
 from rotorfilm.analysis.rotor_equilibrium import rest
-from rotorfilm.analysis.rotor_matrices import small_motion
-from rotorfilm.analysis.truncation_error import LeftOut, WholeRotor, seen_rows
+from rotorfilm.analysis.rotor_matrices import LeftOut, WholeRotor, seen_rows, small_motion
 from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.rotors import (
     Disk,

@@ -24,8 +24,8 @@ from rotorfilm.analysis import (
     unbalance_response,
     whirl_threshold,
 )
+from rotorfilm.analysis.rotor_matrices import roundoff
 from rotorfilm.analysis.rotor_modes import log_decrement
-from rotorfilm.analysis.truncation_error import roundoff
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning

@@ -15,12 +15,12 @@ from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion
 from rotorfilm.core.answers import WorkUnit
 from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.contact import FollowedFilm, GridRung, LawRung, SlowRung, lowest
+from rotorfilm.questions.contact import FollowedFilm, grid_rung, law_rung, lowest, slow_rung
 from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.contact_motions import (
     INLETS,
     OUTLET,
-    REACH,
+    QUANTITIES,
     SPACINGS,
     RestingFilms,
     contact_motion,
@@ -113,7 +113,7 @@ def test_rectangle_is_extrapolated_to_the_infinite_one():
     )
     films = RestingFilms(table=table, quantity="approach")
     assert (pytest.approx(0.1), pytest.approx(5.0)) == (films.ball.V, films.ball.Q0)
-    rungs = {rung.name: rung for rung in ladder_of(replace(scene, contact=table)).rungs}
+    rungs = {rung.name: rung for rung in ladder_of(scene.with_tables(contact=table)).rungs}
     found = rungs["grid 96 x 96, unbounded"].answer(None)
     assert found.value / films.ball.film_scale == pytest.approx(-1.804, abs=2e-3)
     assert films.value(64, {}) == pytest.approx(-1.8200, abs=1e-3)
@@ -124,7 +124,7 @@ def test_rectangle_is_extrapolated_to_the_infinite_one():
 def test_change_beyond_the_rectangle_is_that_of_a_third_one(quantity):
     films = RestingFilms(table=scene_of().contact, quantity=quantity)
     near, far = INLETS[0], INLETS[2]
-    predicted = films.beyond({}) * (1.0 - (near / far) ** REACH[quantity])
+    predicted = films.beyond({}) * (1.0 - (near / far) ** QUANTITIES[quantity].reach)
     cells = [round(SPACINGS[0] * (inlet + OUTLET)) for inlet in (near, far)]
     short, longest = (films.value(n, {}, inlet) for n, inlet in zip(cells, (near, far), strict=True))
     assert predicted == pytest.approx(longest - short, rel=0.06)  # a power 2 is 13 % off or more
@@ -135,7 +135,7 @@ def test_rectangle_without_a_companion_is_said_to_be_what_fails():
     short, longer = ([round(spacing * (inlet + OUTLET)) for spacing in SPACINGS] for inlet in INLETS[:2])
     films.known.update({(INLETS[0], n, 1.0): -1.8 for n in (24, *short)})
     films.known.update({(INLETS[1], n, 1.0): math.nan for n in longer})
-    rung = GridRung(films=films, cells=32)
+    rung = grid_rung(films, 32)
     about = rung.estimate(rung.answer(None), None, 0.1)
     assert about.doubt == "no companion: a contact must be solvable on 96 x 96 cells, got none before"
 
@@ -169,7 +169,7 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
         load=SineLoad(amplitude=0.25, frequency=2.0 * math.pi / 60.0),
         control=FixedSteps(step=0.5, tolerance=1e-5),
     )  # fmt: skip
-    slow = SlowRung(films=films, shaken=replace(shaken, duration=60.0)).answer(None)
+    slow = slow_rung(films, replace(shaken, duration=60.0)).answer(None)
     still = films.value(24, {})
     assert run.central_film.min() / still == pytest.approx(
         slow.value / films.ball.film_scale / films.value(48, {}), abs=0.03
@@ -179,7 +179,7 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
 def test_step_is_met_by_law_and_film_alike():
     scene = scene_of("approach", 0.03, STEP)
     films, shaken = RestingFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
-    law = LawRung(films=films, shaken=shaken)
+    law = law_rung(films, shaken)
     found = law.answer(None)
     about = law.estimate(found, None, 0.03)
     assert not about.doubt
@@ -225,9 +225,9 @@ def test_what_cannot_shake_a_ball_is_refused(excitation, message):
 def test_load_that_lifts_the_ball_is_in_doubt_for_the_law_and_at_rest():
     scene = scene_of("approach", 0.1, SINE.format("60 N", 1000.0))
     films, shaken = RestingFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
-    slow = SlowRung(films=films, shaken=shaken)
+    slow = slow_rung(films, shaken)
     assert slow.estimate(slow.answer(None), None, 0.1).doubt == "the ball leaves the film"
-    law = LawRung(films=films, shaken=shaken)
+    law = law_rung(films, shaken)
     assert "leaves the range of the law" in law.estimate(law.answer(None), None, 0.1).doubt
 
 
@@ -272,10 +272,10 @@ def test_numbers_of_what_is_left_out():
 
 def test_what_is_left_out_is_told():
     scene = scene_of()
-    hot = replace(scene, contact=replace(scene.contact, speed=20.0, viscosity=0.1))
+    hot = scene.with_tables(contact=replace(scene.contact, speed=20.0, viscosity=0.1))
     assert any(line.startswith("heat: the oil that flows back") for line in ladder_of(hot).remarks)
     mild = replace(scene.contact, roelands=True, compressible=True)
-    assert ladder_of(replace(scene, contact=mild)).remarks == ()
+    assert ladder_of(scene.with_tables(contact=mild)).remarks == ()
 
 
 def test_shipped_scene_is_met():

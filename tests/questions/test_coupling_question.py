@@ -228,9 +228,9 @@ def test_damper_and_grooved_bearing_are_coupled_too():
     assert found.met
     scene = bundled_scene()
     grooved = replace(scene.journal, grooves=(Groove(center=0.0, width=0.4),))
-    rungs = ladder_of(asked(1e-2, 0.25, replace(scene, journal=grooved))).rungs
+    rungs = ladder_of(asked(1e-2, 0.25, scene.with_tables(journal=grooved))).rungs
     assert rungs[0].name.endswith("2-D 48 x 4")
-    assert not isinstance(rungs[0].reaction.film, MapFilm)
+    assert not isinstance(rungs[0].case.reaction.film, MapFilm)
 
 
 def test_run_shorter_than_a_macro_step_is_answered():

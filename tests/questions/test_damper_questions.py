@@ -24,7 +24,7 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.cli.question_printing import print_question
+from rotorfilm.cli.answer_printing import print_question
 from rotorfilm.core.errors import AbsentError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.core.model import prepared_tangent
 from rotorfilm.questions import ladder_of
@@ -170,7 +170,7 @@ def test_a_lost_blade_is_answered_as_it_runs():
     answer = asked(found, "blade_loss_peak", 3e-3).ask()
     assert answer.met
     assert answer.model.startswith("nonlinear")
-    finite = replace(found, damper=replace(found.damper, film=FiniteSqueeze()))
+    finite = found.with_tables(damper=replace(found.damper, film=FiniteSqueeze()))
     with pytest.raises(InputError, match="blade_loss"):
         asked(replace(found, excitation=None), "blade_loss_peak", 0.1).ask()
     models = damper_models(finite)
@@ -268,7 +268,7 @@ def test_fed_full_film_has_the_film_of_finite_length_above_it():
     feed = RadialFeed(inflow=0.002)
     text = JUMPS.replace("[rigid_rotor]", "[rigid_rotor]\nunbalance = 2e-4")
     found = scene(FULL, text)
-    fed = asked(replace(found, damper=replace(found.damper, feed=feed)), "unbalance_amplitude", 1e-2)
+    fed = asked(found.with_tables(damper=replace(found.damper, feed=feed)), "unbalance_amplitude", 1e-2)
     answer = fed.ask()
     assert answer.met
     assert [report.name for report in answer.rungs] == ["short film", "finite film"]
@@ -399,7 +399,7 @@ MAPPED = 'film = {name = "finite_map"}\n'
 def turned_by(unbalance, quantity, viscosity=1.0):
     found = scene(MAPPED, JUMPS.replace("[rigid_rotor]", f"[rigid_rotor]\nunbalance = {float(unbalance)!r}"))
     thicker = replace(found.damper, viscosity=viscosity * found.damper.viscosity)
-    return asked(replace(found, damper=thicker), quantity, 1e-3)
+    return asked(found.with_tables(damper=thicker), quantity, 1e-3)
 
 
 @pytest.mark.parametrize("quantity", ["unbalance_amplitude", "transmissibility"])
@@ -434,9 +434,9 @@ def test_bound_of_a_jump_is_that_of_the_force_there():
 
 def test_jumps_of_a_fed_film_of_finite_length_are_left_out_unless_it_is_named():
     fed = scene(FULL, JUMPS)
-    fed = replace(fed, damper=replace(fed.damper, feed=RadialFeed(inflow=0.002)))
+    fed = fed.with_tables(damper=replace(fed.damper, feed=RadialFeed(inflow=0.002)))
     assert [rung.name for rung in ladder_of(asked(fed, "jump_up", 0.1)).rungs] == ["short film"]
-    named = replace(fed, damper=replace(fed.damper, film=FiniteSqueeze()))
+    named = fed.with_tables(damper=replace(fed.damper, film=FiniteSqueeze()))
     assert len(ladder_of(asked(named, "jump_up", 0.1)).rungs) == 1
     (film,) = damper_films(named.damper)
     # whatever it is called

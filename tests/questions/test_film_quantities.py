@@ -31,7 +31,8 @@ def rungs(bearing, quantity):
 
 @pytest.mark.parametrize("bearing", BEARINGS)
 def test_one_rung_answers_each_quantity_of_every_bearing_with_a_film(bearing):
-    for quantity in set(QUANTITIES) - set(TEMPERATURES):
+    unknown = set() if bearing in ("journal", "pressure_dam") else {"maximum_pressure"}
+    for quantity in set(QUANTITIES) - set(TEMPERATURES) - unknown:
         asked = rungs(bearing, quantity)
         assert {type(rung) for rung in asked} == {StaticRung}
         assert all(rung.quantity is QUANTITIES[quantity] for rung in asked)

@@ -14,7 +14,7 @@ from rotorfilm.core.errors import AbsentError, InputError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.film_motions import rotor_of
 from rotorfilm.questions.pads import COARSE_MAP, lobed_candidates, smooth_slopes
-from rotorfilm.questions.quantities import LOSSES, QUANTITIES
+from rotorfilm.questions.quantities import QUANTITIES
 from rotorfilm.scenes.film_rungs import attitude, tangent
 from rotorfilm.scenes.scene import parse_scene, read_scene
 
@@ -135,7 +135,7 @@ def truth(scene, finest):
         return slopes[:, :2] if quantity == "stiffness" else slopes[:, 2:]
     if quantity == "attitude_angle":
         return attitude(at.position, load, speed)
-    if quantity in LOSSES:
+    if quantity in ("power_loss", "side_flow"):
         return getattr(at.losses, quantity)
     return getattr(at, quantity)
 

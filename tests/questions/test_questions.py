@@ -16,7 +16,7 @@ from rotorfilm.analysis.harmonic_balance import basis, constant, solve
 from rotorfilm.analysis.periodic_orbit import rest_on_film, rest_position, rotor_answers
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.core.errors import InputError, ValidityWarning
-from rotorfilm.questions import ladder_of
+from rotorfilm.questions import ladder_of, ladders_of
 from rotorfilm.questions.walk import NoAnswerError
 from rotorfilm.scenes import Scene, bundled_scene, families, parse_scene
 from rotorfilm.scenes.damper_table import DamperTable
@@ -119,7 +119,7 @@ def test_an_impossible_tolerance_is_answered_honestly():
 
 def test_named_film_is_the_only_one_that_answers():
     scene = bundled_scene()
-    named = replace(scene, journal=replace(scene.journal, film=ShortFilm()))
+    named = scene.with_tables(journal=replace(scene.journal, film=ShortFilm()))
     answer = asked("eccentricity_ratio", 1e-3, named).ask()
     assert [report.name for report in answer.rungs] == ["ShortFilm()"]
     assert not answer.met
@@ -139,7 +139,7 @@ def test_cost_of_the_answer_is_its_work_and_the_next_rung_is_priced():
 
 
 def test_every_quantity_that_a_scene_may_ask_for_has_a_meaning_and_every_ladder_a_quantity():
-    asked_for = {quantity for name in families.FAMILIES for quantity in families.family_of(name).ladders}
+    asked_for = {quantity for name in families.FAMILIES for quantity in ladders_of(name)}
     assert asked_for == set(QUANTITIES)
 
 
@@ -365,7 +365,7 @@ def test_one_unbalance_and_one_table_answer():
     lost = replace(bare, excitation=BladeLossTable(unbalance=1e-4))
     with pytest.raises(InputError, match=r'excitation must be of kind "unbalance" .* got BladeLossTable'):
         asked("unbalance_amplitude", 1e-2, lost).ask()
-    both = replace(bare, damper=DamperTable(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.01))
+    both = bare.with_tables(damper=DamperTable(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.01))
     with pytest.raises(
         InputError, match=r"one table, got 'unbalance_amplitude' of \[damper\] and \[journal\]"
     ):

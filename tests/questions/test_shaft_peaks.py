@@ -146,7 +146,7 @@ def test_a_seal_runs_without_its_mass_and_says_so():
         radius=0.06, length=0.02, clearance=9e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0
     )
     ring = BearingTable(name="ring", node=1, seal=gap)
-    sealed = replace(scene, shaft=replace(scene.shaft, bearings=(*scene.shaft.bearings, ring)))
+    sealed = scene.with_tables(shaft=replace(scene.shaft, bearings=(*scene.shaft.bearings, ring)))
     ladder = ladder_of(sealed)
     assert ladder.remarks == ("ring: the added mass of the seal, in runs over time",)
     assert ladder.rungs[0].answer(None).value > 0.0

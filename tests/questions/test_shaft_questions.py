@@ -21,9 +21,9 @@ from rotorfilm.analysis import (
 )
 from rotorfilm.analysis.periodic_orbit import rest_position, rotor_answers
 from rotorfilm.analysis.speed_events import (
-    Critical,
+    CRITICAL,
+    THRESHOLD,
     Start,
-    Threshold,
     on_films,
     value_rate,
     whirl_near,
@@ -106,9 +106,13 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
     nodal = rungs[0].model.nodal(whirl_near(structure, at, forward, 1j * forward, shape)[1])
     for rung in rungs[:-1]:
         whirl, _ = whirl_of(
-            Critical(), rung.model.rotor, rung.films, Start(forward, 1j * forward, rung.model.seen(nodal))
+            CRITICAL,
+            rung.model.rotor,
+            rung.films.reaction,
+            rung.films.turning,
+            Start(forward, 1j * forward, rung.model.seen(nodal)),
         )
-        rate = Critical().rate(value_rate(rung.model.rotor.structure, whirl, rung.films))
+        rate = CRITICAL.rate(value_rate(rung.model.rotor.structure, whirl, rung.films.turning))
         moved = rung._corrected(whirl, rate, trusted=True)
         error, about = abs(whirl.at.speed / exact - 1.0), abs(moved.speed / whirl.at.speed - 1.0)
         # bearings of 1e13 N/m give way by some 4e-8
@@ -168,7 +172,7 @@ def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
     rung = ladder_of(asked(quantity, 0.1)).rungs[1]
     whirl = rung.answer(None).solution.whirls[0]
     structure, random = rung.model.rotor.structure, np.random.default_rng(5)
-    rate = rung.event.rate(value_rate(structure, whirl, rung.films))
+    rate = rung.event.rate(value_rate(structure, whirl, rung.films.turning))
     own, changes = coefficient_bounds(rung.films, whirl.at), []
     for _ in range(200):
         off = {name: with_error(film, random) for name, film in whirl.at.coefficients.items()}
@@ -214,7 +218,7 @@ def test_derivative_of_an_eigenvalue_by_the_speed():
         return values[np.argmin(np.abs(values - whirl.value))]
 
     slope = (nearest(speed + step) - nearest(speed - step)) / (2.0 * step)
-    assert value_rate(rotor.structure, whirl, rung.films) == pytest.approx(slope, rel=1e-4)
+    assert value_rate(rotor.structure, whirl, rung.films.turning) == pytest.approx(slope, rel=1e-4)
 
 
 def test_linear_orbit_is_the_unbalance_response():
@@ -237,7 +241,7 @@ def test_nonlinear_orbit_is_that_of_harmonic_balance():
     shaft = replace(
         SCENE.shaft, unbalances=(replace(SCENE.shaft.unbalances[0], unbalance=6e-3, unbalance_angle=0.7),)
     )
-    scene = replace(SCENE, shaft=shaft)
+    scene = SCENE.with_tables(shaft=shaft)
     rung = next(
         rung
         for rung in ladder_of(asked("unbalance_amplitude", 1e-3, scene, at="drive_end")).rungs
@@ -300,7 +304,7 @@ def test_phase_turns_with_the_unbalance_on_springs():
     scene = parse_scene(UNIFORM + "at = 'middle'\n[operation]\nspeed = 200\n", "uniform")
     first = asked("unbalance_phase", 0.01, scene, "middle").ask()
     turned = replace(scene.shaft, unbalances=(replace(scene.shaft.unbalances[0], unbalance_angle=2.4),))
-    second = asked("unbalance_phase", 0.01, replace(scene, shaft=turned), "middle").ask()
+    second = asked("unbalance_phase", 0.01, scene.with_tables(shaft=turned), "middle").ask()
     assert first.met
     assert first.value == pytest.approx(second.value, abs=1e-9)
     assert first.value == pytest.approx(0.0, abs=1e-6)  # below the first critical speed, without damping
@@ -414,7 +418,7 @@ def test_what_is_missing_or_contradictory_is_said():
         InputError, match=r"question\.at is required for unbalance_phase: one of a, b, middle"
     ):
         asked("unbalance_phase", 0.1, moving).ask()
-    balanced = replace(moving, shaft=replace(scene.shaft, unbalances=()))
+    balanced = moving.with_tables(shaft=replace(scene.shaft, unbalances=()))
     with pytest.raises(InputError, match=r"shaft\.unbalances must have a positive one"):
         asked("unbalance_force", 0.1, balanced).ask()
     loaded = replace(moving, operation=replace(moving.operation, load=(0.0, -1.0)))
@@ -449,7 +453,7 @@ def test_divergence_is_no_whirl_threshold():
     film = TabulatedBearing(speeds=[10.0, 100.0], stiffness=springs, damping=[100.0 * np.eye(2)] * 2)
     message = r"10 to 100 rad/s: the rotor departs without whirl \(divergence\) from 55 rad/s on"
     with pytest.raises(AbsentError, match=message):
-        Threshold().sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
+        THRESHOLD.sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
 
 
 def test_a_speed_that_only_a_cheap_model_finds_in_the_range_is_no_answer():

@@ -42,7 +42,7 @@ NO_RESULTS = {
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("RestingBalls", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
-        *("FilmRest", "FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate"),
+        *("FilmRest", "FilmCandidate", "PadCandidate", "TiltingCandidate"),
         *(
             "RestingFilms",
             "DamperFilm",
@@ -53,13 +53,7 @@ NO_RESULTS = {
 }
 """Classes with attributes that nobody is answered with, by the reason."""
 
-READERS = (
-    "scenes.reading",
-    "questions.",
-    "core.answers.Ladder",
-    "core.answers.CandidateRung",
-    "core.answers.MadeRung",
-)
+READERS = ("scenes.reading", "questions.", "core.answers.Ladder", "core.answers.CandidateRung")
 """Where classes hold what they were made from: readers of files, and rungs."""
 
 BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

@@ -86,7 +86,7 @@ def test_folds_feel_the_inertia_of_the_film():
     for damper in DAMPERS.values():
         system = orbit_rotor(rotor(), sprung(damper))
         eps = np.array([0.2, 0.6, 0.8])
-        up, down = (np.abs(orbit_points(system, eps + d).pull) ** 2 for d in (1e-6, -1e-6))
+        up, down = (np.abs(orbit_points(system, eps + d)[0]) ** 2 for d in (1e-6, -1e-6))
         assert_allclose(orbit_slope(system, eps).slope * 1e-4, (up - down) / 2e-6, rtol=1e-6)
 
 

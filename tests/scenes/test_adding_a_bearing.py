@@ -16,8 +16,11 @@ PACKAGE = Path(rotorfilm.__file__).parent
 FOLDER = Path(__file__).parent / "sleeve"
 MOST_LINES = 3
 
-LINE = '    "sleeve": "scenes.sleeve.sleeve_family.FAMILY",\n'
-AFTER = '    "damper": "questions.damper.FAMILY",\n'
+LINE = (
+    '    "sleeve": Family("scenes.sleeve.SleeveTable", "scenes.sleeve.sleeve_models", '
+    'ladders="scenes.sleeve.LADDERS"),\n'
+)
+BEFORE = '    "lobed_journal": Family('
 
 SCENE = """schema = 1
 [sleeve]
@@ -57,7 +60,7 @@ loaded = Scene.load(scene)
 answer = loaded.ask()
 made = export_scene(loaded, out)
 moving = {"sleeve.vx": 2e-3}
-run = simulate_fmu(str(made.film), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
+run = simulate_fmu(str(made["film"]), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
 try:
     parse_scene(scene.read_text().replace("[sleeve]", "[sleve]"), "typo.toml")
 except SceneError as error:
@@ -72,9 +75,9 @@ print(json.dumps({
     "model": answer.model,
     "rungs": [[rung.name, rung.verdict] for rung in answer.rungs],
     "remarks": answer.remarks,
-    "files": [path.name for path in made],
+    "files": [path.name for path in made.values()],
     "force": float(run["sleeve.force_x"][-1]),
-    "checks": {item.check: item.passed for item in check_fmu(made.film)},
+    "checks": {item.check: item.passed for item in check_fmu(made["film"])},
     "typo": typo,
     "sign": sign,
 }))
@@ -90,7 +93,7 @@ def answered(tmp_path_factory):
     shutil.copytree(FOLDER, copy / "scenes" / "sleeve", ignore=shutil.ignore_patterns("__pycache__"))
     listed = copy / "scenes" / "families.py"
     before = listed.read_text(encoding="utf-8")
-    listed.write_text(before.replace(AFTER, AFTER + LINE), encoding="utf-8")
+    listed.write_text(before.replace(BEFORE, LINE + BEFORE), encoding="utf-8")
     scene = home / "sleeve.toml"
     scene.write_text(SCENE, encoding="utf-8")
     done = subprocess.run(

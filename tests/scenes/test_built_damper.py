@@ -18,7 +18,7 @@ from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.damper_films import damper_fmus, damper_models
-from rotorfilm.scenes.solve_damper import export_damped_rotor
+from rotorfilm.scenes.export_scene import export_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
@@ -72,7 +72,7 @@ def test_seals_by_leakage_gap_or_leak_test(seals, leakage):
         ("seals = {leakage = -1.0}", "leakage must"),
         ('seals = {leakage = "1 m"}', "leakage"),
         ("offset = [1e-4, 0]", "offset must be below the clearance"),
-        ("offset = 1e-5", r"offset must be two lengths \[x, y\]"),
+        ("offset = 1e-5", r"offset must be two quantities \[x, y\]"),
         ("feed_flow = -1", "feed_flow must"),
         ("air_fraction = 1.0", "air_fraction must be below 1"),
         (
@@ -148,8 +148,8 @@ def test_what_is_left_out_of_a_ruptured_film_is_its_edge(eps):
 
 def test_reynolds_number_is_refused_beyond_its_model_and_told_near_it():
     with pytest.raises(InputError, match="squeeze Reynolds number must not exceed 20"):
-        ladder_of(replace(scene(FULL), damper=replace(scene(FULL).damper, viscosity=5e-4)))
-    near = replace(scene(FULL), damper=replace(scene(FULL).damper, viscosity=1.4e-3))
+        ladder_of(scene(FULL).with_tables(damper=replace(scene(FULL).damper, viscosity=5e-4)))
+    near = scene(FULL).with_tables(damper=replace(scene(FULL).damper, viscosity=1.4e-3))
     assert any("squeeze Reynolds number 13.7, above 10" in line for line in ladder_of(near).remarks)
 
 
@@ -166,7 +166,7 @@ def test_seals_and_air_are_remarked():
 def test_lost_blade_is_that_of_an_integration(more):
     found = scene(more, LOSS, "blade_loss_peak")
     rung = next(r for r in ladder_of(found).rungs if r.name == "nonlinear, 192 steps, finite film")
-    models = damper_models(replace(found, damper=replace(found.damper, film=rung.film.law)))
+    models = damper_models(found.with_tables(damper=replace(found.damper, film=rung.film.law)))
     run = simulate(models.rotor, models.support, duration=models.duration, samples=400, rtol=1e-5)
     assert_allclose(rung.answer(None).value, np.hypot(*run.position).max(), rtol=2e-3)
 
@@ -180,7 +180,7 @@ def test_rotor_and_damper_are_one_fmu(tmp_path):
     found = scene(FULL + SEALS)
     with pytest.raises(InputError, match="exchange of accelerations diverges"):
         damper_fmus(found)
-    path = export_damped_rotor(found, tmp_path).system
+    path = export_scene(found, tmp_path)["system"]
     run = fmpy.simulate_fmu(str(path), stop_time=5e-4, step_size=2e-5, output_interval=2e-5)
     models = damper_models(found)
     right = simulate(models.rotor, models.support, duration=5e-4, samples=26, rtol=1e-6)

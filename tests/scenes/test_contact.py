@@ -55,7 +55,7 @@ def test_the_support_is_preloaded():
     [
         ('"206 GPa"', '"-206 GPa"', r"x\.toml: contact\.modulus must be finite and positive"),
         ('"8 mPa s"', '"8 mm"', r"x\.toml: contact\.viscosity: quantity must be measured in Pa\.s"),
-        ('["-90 deg", "30 deg", "150 deg"]', '"-90 deg"', r"contact\.angles must be a list of angles"),
+        ('["-90 deg", "30 deg", "150 deg"]', '"-90 deg"', r"contact\.angles must be a list of quantities"),
         ('"30 deg"', '"30 mm"', r"contact\.angles\[1\]: quantity must be measured in rad"),
         ("cells = 20", "cells = 3", r"cells must be two integers of at least 8"),
         ('preload = "6 N"', 'preload = "-6 N"', "contact.preload must be finite and not negative"),

@@ -155,11 +155,11 @@ def test_what_a_run_lacks_is_named():
 
 def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
     made = export_scene(scene(SPRINGS + CAGE), tmp_path, version="3.0")
-    assert [path.name for path in made] == ["damper.fmu", "rotor.fmu"]
-    found = {v.name: v for v in fmpy.read_model_description(str(made.film)).modelVariables}
+    assert [path.name for path in made.values()] == ["damper.fmu", "rotor.fmu"]
+    found = {v.name: v for v in fmpy.read_model_description(str(made["film"])).modelVariables}
     assert float(found["damper.stiffness"].start) == 2.56e5
     assert "damper.speed" not in found
-    rotor = {v.name: v for v in fmpy.read_model_description(str(made.rotor)).modelVariables}
+    rotor = {v.name: v for v in fmpy.read_model_description(str(made["rotor"])).modelVariables}
     assert float(rotor["rotor.unbalance"].start) == 3.5e-4
 
 
@@ -203,7 +203,7 @@ def test_first_moments_after_a_blade_loss_are_those_of_a_free_mass():
     # x'' = (u/m) w^2 cos(w t + a): before the film has moved, from rest at the center.
     late = replace(scene().excitation, start=0.02, unbalance_angle=0.3, revolutions=0.01)
     light = replace(scene().damper, viscosity=1e-9)
-    run = run_damper(replace(scene(), excitation=late, damper=light))
+    run = run_damper(replace(scene(), excitation=late).with_tables(damper=light))
     t, shift = run.trajectory.time - 0.02, 0.3 + 400.0 * 0.02
     assert t[0] == 0.0
     turn = 400.0 * t

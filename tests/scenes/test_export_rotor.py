@@ -29,8 +29,8 @@ from rotorfilm.rotors import (
     mount,
     reduce_rotor,
 )
-from rotorfilm.scenes import bundled_scene, export_rotor_fmu, parse_scene
-from rotorfilm.scenes.rotor_runs import export_system
+from rotorfilm.scenes import export_rotor_fmu, parse_scene
+from rotorfilm.scenes.export_scene import export_scene
 
 SPEED = 1500.0 * np.pi / 30.0
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
@@ -233,9 +233,9 @@ def test_scene_becomes_one_fmu_of_rotor_and_bearings_that_moves_as_the_model(tmp
     """After an eighth of a turn under its unbalance it is where Radau takes the model."""
     text = (Path(__file__).parents[2] / "examples" / "flexible_rotor.toml").read_text(encoding="utf-8")
     scene = parse_scene(text.replace("[shaft]", '[operation]\nspeed = "1500 rpm"\n[shaft]', 1), "flexible")
-    made = export_system(scene, tmp_path)
-    assert made.system.name == "system.fmu"
-    known = {v.name: v for v in fmpy.read_model_description(str(made.system)).modelVariables}
+    made = export_scene(scene, tmp_path)
+    assert made["system"].name == "system.fmu"
+    known = {v.name: v for v in fmpy.read_model_description(str(made["system"])).modelVariables}
     assert {"system.left_x", "system.right_force_y", "system.small_x"} <= set(known)
     bearings = scene.shaft.build_bearings()
     small = reduce_rotor(
@@ -253,14 +253,9 @@ def test_scene_becomes_one_fmu_of_rotor_and_bearings_that_moves_as_the_model(tmp
         atol=1e-11,
     )
     wanted = dict(zip(names(model.outputs), model.output(end, run.y[:, -1], []), strict=True))
-    with open_fmu(made.system) as fmu:
+    with open_fmu(made["system"]) as fmu:
         fmu.start({})
         fmu.step(0.0, end)
         found = fmu.get()
     for name in ("left_x", "left_y", "right_y"):
         assert found[name] == pytest.approx(wanted[name], abs=1e-10)
-
-
-def test_scene_without_a_shaft_has_no_system():
-    with pytest.raises(InputError, match="shaft is required for the FMU"):
-        export_system(bundled_scene(), Path("."))

@@ -67,6 +67,7 @@ def every_table(table):
     for reader in keyed.readers.values():
         below = {tables.Table: lambda one: [one.table], tables.TableList: lambda one: [one.table]}
         below[tables.Variant] = lambda one: one.variants.values()
+        below[tables.Beside] = lambda one: map(one.type_of, one.names)
         for one in below.get(type(reader), lambda _: [])(reader):
             yield from every_table(one)
 

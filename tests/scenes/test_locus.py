@@ -9,8 +9,7 @@ import pytest
 from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm, ShortFilm
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.demo import RUNGS, demo_rungs
-from rotorfilm.scenes.solve_journal import attitude_angle, attitude_angles
+from rotorfilm.scenes.demo import RUNGS, attitude_angle, attitude_angles, demo_rungs
 
 BEARING = bundled_scene().bearing
 RATIOS = np.array([0.1, 0.3, 0.5, 0.74, 0.76])

@@ -177,7 +177,7 @@ def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch,
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     scene = scene_of(table)
     made = export_scene(scene, tmp_path)
-    found = describe_fmu(made.film)
+    found = describe_fmu(made["film"])
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
     starts = {row["name"]: row["start"] for row in found["variables"]}
     assert float(starts["film.y"]) == pytest.approx(at.position[1], rel=1e-12)

@@ -243,7 +243,7 @@ def test_a_peak_between_the_speeds_is_not_missed():
     shown = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
     asked = Scene.load(shown)
     coarse = replace(asked.shaft.speeds, first=40.0, last=200.0, count=5)
-    answer = solve_rotor(replace(asked, shaft=replace(asked.shaft, speeds=coarse)))
+    answer = solve_rotor(asked.with_tables(shaft=replace(asked.shaft, speeds=coarse)))
     rotor, bearings = asked.shaft.build(), asked.shaft.build_bearings()
     fine = unbalance_response(rotor, bearings, np.linspace(100.0, 120.0, 401))
     k = fine.output_labels.index("large_y")

@@ -25,8 +25,7 @@ from ...core.signals import MOTION_NAMES
 from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
-from ..films.kernel_film import BoundKernel
-from ..films.law import options
+from ..films.law import BoundKernel, options
 from ..reaction import NOMINAL_SPEED, Size, require_size
 from .squeeze_films import LayerModes, PorousLayer, SqueezeFilm, layer_modes
 from .squeeze_inertia import SqueezeInertia, warn_of_length, warn_of_short_seals
@@ -301,7 +300,7 @@ class SqueezeFilmDamper(SqueezeInertia):
         return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
 
     def portable(self) -> Self:
-        """Return this damper with a film that carries the table it needs; see `model.Portable`."""
+        """Return this damper with a film that carries the table it needs; see `model.Reaction`."""
         carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
 

@@ -21,7 +21,7 @@ from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.sources import source_digest
 from ...native import MapKernel
-from ..films.kernel_film import BoundKernel
+from ..films.law import BoundKernel
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import VERSION, MapTable, cached_table, table_path
 from ..journal import MapFilm

@@ -24,7 +24,7 @@ from ...native.film_kernels import Batch, FilmKernel, Status
 from ...native.library import loops
 from ...native.structs import structure
 from .geometry import TURN, Cavitation, FilmGeometry, FilmStart, FreeStart, Span
-from .kernel_film import report_law
+from .law import report_law
 
 LEVELS = 3
 """Grids per solution, each with half the cells of the one before; the finest first."""
@@ -265,24 +265,6 @@ ORDER = 2
 """Order of convergence of a force, and of a potential, in the size of the cells."""
 
 
-class RingField(NamedTuple):
-    """One state on the finest grid of N lines with M unknown nodes each.
-
-    Attributes
-    ----------
-    theta, face : ndarray, shape (N,) [rad]
-        Angles of the lines, and of the faces after them.
-    pressure : ndarray, shape (N, M) [1/s]
-    side_flow : float
-        Out of one end of the film, in the units of `FilmField.side_flow`.
-    """
-
-    theta: Array
-    face: Array
-    pressure: Array
-    side_flow: float
-
-
 class RingPotential(NamedTuple):
     """The potential at one eccentricity for n sources on all grids, the finest first.
 
@@ -374,25 +356,36 @@ class RingKernel(FilmKernel):
         return richardson(*self._pair(eccentricity, source, slopes)), slopes
 
     def _pair(self, eccentricity: Array, source: Array, slopes: Array | None) -> tuple[Array, Array]:
-        e, w, (fine, coarse) = _float(eccentricity), _float(source), np.empty((2, *eccentricity.shape))
-        first = c_size_t()
-        places = [
-            None if numbers is None else numbers.ctypes.data for numbers in (e, w, fine, coarse, slopes)
-        ]
-        status = loops()["rf_ring_pair"](byref(self.struct), e.shape[1], *places, byref(first))
-        if status:
-            self._report(status, e[:, first.value], w[:, first.value])
+        fine, coarse = np.empty((2, *eccentricity.shape))
+        self._ask("rf_ring_pair", eccentricity, source, fine, coarse, slopes)
         return fine, coarse
 
-    def field(self, eccentricity: Array, source: Array) -> RingField:
-        """Return the solution of one state (2,) on the finest grid."""
+    def _ask(self, what: str, eccentricity: Array, source: Array, *further: Array | None) -> None:
+        """Ask the library of states (2, n), and report the first that is none."""
+        e, w, first = _float(eccentricity), _float(source), c_size_t()
+        places = [None if numbers is None else numbers.ctypes.data for numbers in (e, w, *further)]
+        status = loops()[what](byref(self.struct), e.shape[1], *places, byref(first))
+        if status:
+            self._report(status, e[:, first.value], w[:, first.value])
+
+    def field(self, eccentricity: Array, source: Array) -> tuple[Array, Array, Array, float]:
+        """Return the solution of one state (2,) on the finest grid of N lines with M unknown nodes each.
+
+        Returns
+        -------
+        theta, face : ndarray, shape (N,) [rad]
+            Angles of the lines, and of the faces after them.
+        pressure : ndarray, shape (N, M) [1/s]
+        side_flow : float
+            Out of one end of the film, in the units of `FilmField.side_flow`.
+        """
         e, w, grid = _float(eccentricity), _float(source), self.grids[0]
         theta, face = np.empty((2, len(grid.span)))
         pressure, side_flow = np.empty((len(grid.span), len(grid.width))), c_double()
         places = [numbers.ctypes.data for numbers in (e, w, theta, face, pressure)]
         status = loops()["rf_ring_field"](byref(self.struct), *places, byref(side_flow))
         self._report(status, e, w)
-        return RingField(theta, face, pressure, side_flow.value)
+        return theta, face, pressure, side_flow.value
 
     def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
         """Return the losses of states (2, n), (3 + 2 openings, n), the oil running along at `rate` (n) [1/s].
@@ -400,12 +393,8 @@ class RingKernel(FilmKernel):
         They are the shear integrals of film and streamers, the side flow, the flow that leaves each opening
         and what arrives at each; openings that touch are one, and a groove all round is the last.
         """
-        e, w, along = _float(eccentricity), _float(source), _float(rate)
-        losses, first = np.empty((3 + 2 * self.grids[0].openings, e.shape[1])), c_size_t()
-        places = [numbers.ctypes.data for numbers in (e, w, along, losses)]
-        status = loops()["rf_ring_losses"](byref(self.struct), e.shape[1], *places, byref(first))
-        if status:
-            self._report(status, e[:, first.value], w[:, first.value])
+        losses = np.empty((3 + 2 * self.grids[0].openings, eccentricity.shape[1]))
+        self._ask("rf_ring_losses", eccentricity, source, _float(rate), losses)
         return losses
 
     def potential(self, eccentricity: Array, source: Array, *, slopes: bool = True) -> RingPotential:
@@ -446,27 +435,24 @@ def _float(numbers: Array) -> Array:
 
 def film_field(kernel: RingKernel, e: Array, w: Array, force: Array, extrapolated: Array) -> FilmField:
     """Return the solution of one state, of these forces; see `ReynoldsFilm.solve`."""
-    solved = kernel.field(e, w)
+    theta, face, pressure, side_flow = kernel.field(e, w)
+    width = (np.roll(theta, -1) - theta) % (2.0 * np.pi)
     return FilmField(
         force=force,
         force_extrapolated=extrapolated,
         force_error=float(np.hypot(*(extrapolated - force))),
-        angle=solved.theta,
+        angle=theta,
         axial=kernel.grids[0].nodes,
-        thickness=_thickness(e, solved.theta),
-        pressure=np.pad(solved.pressure, ((0, 0), (0, 1))),
-        side_flow=solved.side_flow,
-        shear=_shear(e, solved, kernel.grids[0].film),
+        thickness=thickness(e, theta),
+        pressure=np.pad(pressure, ((0, 0), (0, 1))),
+        side_flow=side_flow,
+        shear=float(np.sum(kernel.grids[0].film * width / thickness(e, face))),
     )
 
 
-def _thickness(e: Array, theta: Array) -> Array:
-    return 1.0 - e[0] * np.cos(theta) - e[1] * np.sin(theta)
-
-
-def _shear(e: Array, solved: RingField, film: np.ndarray) -> float:
-    width = (np.roll(solved.theta, -1) - solved.theta) % (2.0 * np.pi)
-    return float(np.sum(film * width / _thickness(e, solved.face)))
+def thickness(eccentricity: Array, angle: Array) -> Array:
+    """Return H = 1 - e.n at angles [rad], of their shape."""
+    return np.asarray(1.0 - eccentricity[0] * np.cos(angle) - eccentricity[1] * np.sin(angle))
 
 
 # What the makers of maps ask of the two-dimensional film: its potential, and its force with derivatives.
@@ -525,25 +511,10 @@ class Stencil(NamedTuple):
         return around - np.roll(around, 1, axis=0) + along - np.pad(along, ((0, 0), (1, 0)))[:, :-1]
 
 
-class StencilSolution(NamedTuple):
-    """The film that solves a stencil.
-
-    Attributes
-    ----------
-    pressure : ndarray, shape (N, M) [1/s]
-    full : ndarray of bool, shape (N, M)
-        Nodes where there is film.
-    answers : ndarray, shape (K, N, M)
-        Solutions of the same film for other right-hand sides, 0 where it is not full.
-    """
-
-    pressure: Array
-    full: np.ndarray
-    answers: Array
-
-
-def solve_stencil(stencil: Stencil, value: Array, guess: np.ndarray, others: Array) -> StencilSolution:
-    """Return the film with P >= 0 and no more outflow than its source.
+def solve_stencil(
+    stencil: Stencil, value: Array, guess: np.ndarray, others: Array
+) -> tuple[Array, np.ndarray, Array]:
+    """Return pressure, full nodes and answers of the film with P >= 0 and no more outflow than its source.
 
     Parameters
     ----------
@@ -554,6 +525,14 @@ def solve_stencil(stencil: Stencil, value: Array, guess: np.ndarray, others: Arr
         Nodes where there may be film.
     others : ndarray, shape (K, N, M)
         Further right-hand sides.
+
+    Returns
+    -------
+    pressure : ndarray, shape (N, M) [1/s]
+    full : ndarray of bool, shape (N, M)
+        Nodes where there is film.
+    answers : ndarray, shape (K, N, M)
+        Solutions of the same film for other right-hand sides, 0 where it is not full.
 
     Raises
     ------
@@ -572,7 +551,7 @@ def solve_stencil(stencil: Stencil, value: Array, guess: np.ndarray, others: Arr
         raise MemoryError("no memory for a film")
     if status:
         raise ConvergenceError("the search for the ruptured zone of a film of varying viscosity must end")
-    return StencilSolution(pressure, full.astype(bool), answers)
+    return pressure, full.astype(bool), answers
 
 
 # What one solution of the two-dimensional film holds.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import ClassVar, NamedTuple
 
 from ...core.errors import InputError, require_finite, require_non_negative, require_positive
 from ...core.inputs import quantities
@@ -355,22 +355,6 @@ def _fold(view: _View) -> int:
 # Where the film of a bearing without openings starts.
 
 
-@runtime_checkable
-class FilmStart(Protocol):
-    """The line at ambient pressure at which a film starts, if there is one."""
-
-    @property
-    def line(self) -> float | None:
-        """Angle of a line that stays in the bearing [rad]; None for none."""
-
-    @property
-    def turning(self) -> bool:
-        """Whether the line lies at the widest gap and turns with the journal."""
-
-    def __hash__(self) -> int:
-        """Return the same for equal starts: grids are kept by it."""
-
-
 @dataclass(frozen=True)
 class FreeStart:
     """The film starts where Reynolds' equation lets it: oil is there wherever pressure can be."""
@@ -417,20 +401,11 @@ class HeldLine:
         require_finite("line", self.line)
 
 
+FilmStart = FreeStart | WidestGap | HeldLine
+"""Where a film starts: at a `line` [rad] at ambient pressure, at one `turning` with the journal, or free."""
+
+
 # What a two-dimensional film does where its pressure would fall below ambient.
-
-
-@runtime_checkable
-class Cavitation(Protocol):
-    """How negative pressure is dealt with: find the ruptured zone, clip the pressure, or bear tension."""
-
-    @property
-    def searched(self) -> bool:
-        """Whether the ruptured zone is a part of the solution, p >= 0."""
-
-    @property
-    def clipped(self) -> bool:
-        """Whether negative pressures of a full film are dropped from the answer."""
 
 
 @dataclass(frozen=True)
@@ -464,3 +439,7 @@ class FullFilm:
 
     clipped: ClassVar[bool] = False
     """Negative pressures stay."""
+
+
+Cavitation = Complementarity | HalfSommerfeld | FullFilm
+"""How negative pressure is dealt with: find the ruptured zone, clip the pressure, or bear tension."""

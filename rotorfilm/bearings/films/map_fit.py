@@ -249,10 +249,10 @@ def even_shares(count: int, dimensions: int) -> Array:
     return np.outer(g ** -np.arange(1.0, dimensions + 1.0), np.arange(1, count + 1)) % 1.0
 
 
-def batches(e: Array, w: Array) -> Iterator[tuple[Array, Array]]:
-    """Yield eccentricities and sources (2, n), a piece of work at a time."""
-    for first in range(0, e.shape[1], BATCH):
-        yield e[:, first : first + BATCH], w[:, first : first + BATCH]
+def batches(*states: Array) -> Iterator[tuple[Array, ...]]:
+    """Yield what belongs to n states, on the last axis, a piece of work at a time."""
+    for first in range(0, states[0].shape[-1], BATCH):
+        yield tuple(part[..., first : first + BATCH] for part in states)
 
 
 def state_errors(
@@ -337,6 +337,14 @@ def made_pieces(
         # After an error, or Ctrl-C, what has not begun is given up.
         pool.shutdown(cancel_futures=True)
     return [found[number] for number in range(len(pieces))]
+
+
+def made_groups(
+    groups: Sequence[Sequence[Callable[[], Array]]], report: Report, what: str
+) -> list[list[Array]]:
+    """Return what the pieces of each group return; see `made_pieces`."""
+    found = iter(made_pieces([piece for group in groups for piece in group], report, what))
+    return [[next(found) for _ in group] for group in groups]
 
 
 def spread_order(count: int) -> list[int]:

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple, Self, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,23 +131,6 @@ MAGIC = b"RFILMMAP"
 VERSION = 2
 
 
-class BearingMap(NamedTuple):
-    """The map of one bearing.
-
-    Attributes
-    ----------
-    coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
-    reach : float
-        X of the last node.
-    log_center : float
-        L0.
-    """
-
-    coefficients: Array
-    reach: float
-    log_center: float
-
-
 @quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MapTable(StoredTable):
@@ -200,8 +183,8 @@ class MapTable(StoredTable):
         low, high = self.slenderness_range
         return low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12)
 
-    def at(self, slenderness: float) -> BearingMap:
-        """Return the map of one bearing.
+    def at(self, slenderness: float) -> tuple[Array, float, float]:
+        """Return the map of one bearing: coefficients (cells_x + 5, cells_t + 5), X of the last node, and L0.
 
         Parameters
         ----------
@@ -222,7 +205,7 @@ class MapTable(StoredTable):
         collapsed, center = slice_table(
             self.coefficients, self.log_center, self.slenderness_range, slenderness
         )
-        return BearingMap(collapsed, self.reach, center)
+        return collapsed, self.reach, center
 
     def to_bytes(self, quantum: float = 0.0) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers.

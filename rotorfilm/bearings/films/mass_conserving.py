@@ -260,7 +260,7 @@ class OilSolution(NamedTuple):
 def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
     """Return what flows out of every cell, shape (N, M)."""
     struct, kept = oil_struct(cells)
-    P, content, out = _float(pressure), _float(theta), np.empty(cells.opening.shape)
+    P, content, out = contiguous(pressure), contiguous(theta), np.empty(cells.opening.shape)
     loops()["rf_oil_outflow"](byref(struct), P.ctypes.data, content.ctypes.data, out.ctypes.data)
     del kept
     return out
@@ -320,8 +320,8 @@ def oil_response(
     """
     struct, kept = oil_struct(cells)
     sets = np.ascontiguousarray(full, dtype=np.uint8)
-    real = _float(storage.real), np.array(right.real, dtype=float, order="C")
-    others = (_float(storage.imag), np.array(right.imag, dtype=float, order="C"))
+    real = contiguous(storage.real), np.array(right.real, dtype=float, order="C")
+    others = (contiguous(storage.imag), np.array(right.imag, dtype=float, order="C"))
     imaginary = [part.ctypes.data if np.iscomplexobj(storage) else None for part in others]
     places = (
         sets.ctypes.data,
@@ -341,14 +341,14 @@ def oil_struct(cells: OilCells) -> tuple[Any, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
     faces = (np.broadcast_to(face, cells.opening.shape) for face in cells[:2])
-    kept: list[np.ndarray] = [_float(row) for row in (*faces, *cells[2:7], cells.flow)]
+    kept: list[np.ndarray] = [contiguous(row) for row in (*faces, *cells[2:7], cells.flow)]
     kept += [
         np.ascontiguousarray(cells.opening, dtype=np.int32),
         np.ascontiguousarray(cells.fed, dtype=np.uint8),
     ]
     *factors, flow, opening, fed = [row.ctypes.data for row in kept]
     if cells.old is not None:
-        kept.append(_float(cells.old))
+        kept.append(contiguous(cells.old))
     old = None if cells.old is None else kept[-1].ctypes.data
     struct = structure("rf_oil_cells")(
         *(lines, nodes, *factors, *cells[7:9], old, opening, fed, flow, len(cells.flow), cells.backward)
@@ -356,7 +356,8 @@ def oil_struct(cells: OilCells) -> tuple[Any, list[np.ndarray]]:
     return struct, kept
 
 
-def _float(numbers: Array) -> Array:
+def contiguous(numbers: Array) -> Array:
+    """Return numbers as C reads them."""
     return np.ascontiguousarray(numbers, dtype=float)
 
 
@@ -413,17 +414,8 @@ class Supply(NamedTuple):
     center_pressure: float = 0.0
 
 
-class Storage(NamedTuple):
-    """A time step: d(theta H)/dt = rate theta H - held.
-
-    Attributes
-    ----------
-    rate : float [1/s]
-    held : ndarray, shape (N, M) [1/s]
-    """
-
-    rate: float
-    held: Array
+Storage = tuple[float, Array]
+"""A time step, d(theta H)/dt = rate theta H - held: the rate [1/s], and what is held, shape (N, M) [1/s]."""
 
 
 def step_storage(dt: float, now: Array, before: Array | None = None, ratio: float = 1.0) -> Storage:
@@ -432,9 +424,9 @@ def step_storage(dt: float, now: Array, before: Array | None = None, ratio: floa
     `ratio` is that of the step to the one before.
     """
     if before is None:
-        return Storage(1.0 / dt, now / dt)
+        return 1.0 / dt, now / dt
     newest, last, older = bdf2(ratio)
-    return Storage(newest / dt, -(last * now + older * before) / dt)
+    return newest / dt, -(last * now + older * before) / dt
 
 
 def bdf2(ratio: float) -> tuple[float, float, float]:
@@ -577,17 +569,18 @@ class ConservedFilm:
         cells, supply = self.cells, self.supply
         extent, area = self._grid[:2]
         ease, conductance, center = self._pressed
+        storing, held = (0.0, None) if storage is None else storage
         return OilCells(
             wedge=rate * self.carried(gap),
             around=(gap.cube / cells.spacing)[:, None] * ease,
             along=gap.line**3 * extent / self.slenderness**2,
-            store=(0.0 if storage is None else storage.rate) * gap.line * extent,
+            store=storing * gap.line * extent,
             width=cells.width,
             conductance=conductance,
             center=center,
             center_pressure=supply.center_pressure,
             end_pressure=supply.end_pressure,
-            old=None if storage is None else storage.held * area,
+            old=None if held is None else held * area,
             opening=cells.opening,
             fed=supply.fed,
             flow=supply.flow,
@@ -684,7 +677,7 @@ def reynolds_state(film: ConservedFilm, gap: Gap, gap_rate: Array) -> ConservedS
     """
     moment = float(np.max(np.abs(gap_rate) / gap.line)) or 1.0
     held = np.repeat((moment * gap.line - gap_rate)[:, None], film.cells.width.size, axis=1)
-    return film.solve(gap, 0.0, storage=Storage(moment, held))
+    return film.solve(gap, 0.0, storage=(moment, held))
 
 
 # Air that the ends of a film would draw in where there is no oil around them.

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import io
 import math
-from collections.abc import Mapping
 from ctypes import byref, c_int64
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -28,8 +27,8 @@ from .mass_conserving import (
     ConservedState,
     Gap,
     OilSolution,
-    Storage,
     circular_gap,
+    contiguous,
     direction,
     oil_outflow,
     oil_response,
@@ -68,17 +67,6 @@ class OilMemory(NamedTuple):
     pressure: Array
     theta: Array
     full: np.ndarray
-
-
-def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
-    """Return the steady film that steps in a gap that stays come to: its oil is carried at second order.
-
-    Raises
-    ------
-    ConvergenceError
-        As `ConservedFilm.solve`.
-    """
-    return rest_oil(film, gap, rate)
 
 
 def remembered(state: ConservedState) -> OilMemory:
@@ -120,8 +108,21 @@ def oil_step(
         If the search for the cavity does not end.
     """
     like = memory if near is None else near
-    past = memory.content, memory.before, memory.length
-    return step_oil(film, gap, rate, dt, past, (like.theta, like.full))
+    content, before = contiguous(memory.content), contiguous(memory.before)
+    history = structure("rf_oil_past")(content.ctypes.data, before.ctypes.data, memory.length)
+    return _solved(film, gap, rate, (like.theta, like.full), "rf_oil_step", byref(history), dt)
+
+
+def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
+    """Return the steady film that steps in a gap that stays come to: its oil is carried at second order.
+
+    Raises
+    ------
+    ConvergenceError
+        As `ConservedFilm.solve`.
+    """
+    none = np.zeros(film.cells.opening.shape)
+    return _solved(film, gap, rate, (none, none), "rf_oil_rest")
 
 
 def passed_oil(before: Array, flow: Array, state: ConservedState, dt: float) -> Array:
@@ -158,6 +159,9 @@ LARGEST_ANGLE = 2.0 * math.pi / 192.0
 
 LARGEST_WAY = 0.02
 """Way of the journal in one inner step, in clearances."""
+
+UNIT_SPEED = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+"""Motion of a journal that turns in its place at 1 rad/s."""
 
 FLOW_NAMES = {
     "side_flow": "oil that leaves through both ends",
@@ -219,7 +223,7 @@ class SteppedFilm:
 
     def native(self) -> NativeSpec:
         """Return its kernel in the C library, which steps as this model does."""
-        return oil_spec(self.moving, self.numbers)
+        return oil_spec(self, self.numbers)
 
     def carrying(self, motion: Array) -> float:
         """Return the speed with which the walls carry the oil [rad/s]: half that of a journal."""
@@ -256,8 +260,11 @@ class SteppedFilm:
         ConvergenceError
             If the search for the cavity does not end.
         """
-        motion = self._inside(input_vector(u), "")
-        return self._remembered(self.moving.begin(motion))
+        motion, cells = contiguous(self._inside(input_vector(u), "")), self.film.cells.opening.size
+        block, why = np.empty(HEAD + len(ROWS) * cells), structure("rf_message")()
+        places = motion.ctypes.data, block.ctypes.data, byref(why)
+        _report(loops()["rf_oil_begin"](byref(self._struct), *places), why)
+        return self._remembered(block)
 
     def step(
         self, state: FilmMemory, t: float, u: ArrayLike, dt: float
@@ -277,11 +284,14 @@ class SteppedFilm:
         if dt == 0.0:
             return state, state.output, {"steps": 0, "solutions": 0}
         require_positive("dt", dt)
+        rows = [getattr(state.oil, name) for name in ROWS]
         heads = state.oil.length, state.motion, state.output, state.passed
-        begin = block_of(heads, state.oil._asdict())
-        block, steps, solutions = self.moving.travel(begin, t, target, dt)
+        block = np.concatenate([np.ravel(part) for part in (*heads, *rows)])
+        work, why, at = (c_int64 * 2)(), structure("rf_message")(), contiguous(target)
+        places = at.ctypes.data, dt, block.ctypes.data, work, byref(why)
+        _report(loops()["rf_oil_travel"](byref(self._struct), t, *places), why)
         end = self._remembered(block)
-        return end, end.output.copy(), {"steps": steps, "solutions": solutions}
+        return end, end.output.copy(), {"steps": work[0], "solutions": work[1]}
 
     def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.reaction`."""
@@ -317,14 +327,19 @@ class SteppedFilm:
         return FilmMemory(oil, further["motion"], further["output"], further["passed"])
 
     @property
-    def moving(self) -> MovingFilm:
+    def _struct(self) -> Any:
         """The film in SI units that the compiled library steps."""
-        share = self.carrying(np.array([0.0, 0.0, 0.0, 0.0, 1.0]))
-        return MovingFilm(self.film, self.clearance, share, *self.scales, LARGEST_ANGLE, LARGEST_WAY)
+        share, limits = self.carrying(UNIT_SPEED), (LARGEST_ANGLE, LARGEST_WAY)
+        return structure("rf_oil_film_si")(
+            shape_of(self.film)[0], self.clearance, share, *self.scales, *limits
+        )
 
     def _remembered(self, block: Array) -> FilmMemory:
-        (length, *heads), rows = parts_of(block, self.film.cells.opening.shape)
-        return FilmMemory(OilMemory(length=length, **rows), *heads)
+        """Return the memory in the numbers that the compiled library goes on from."""
+        length, *heads = np.split(block[:HEAD].copy(), np.cumsum(HEADS[:-1]))
+        rows = dict(zip(ROWS, block[HEAD:].reshape(len(ROWS), *self.film.cells.opening.shape), strict=True))
+        rows["full"] = rows["full"].astype(np.uint8)
+        return FilmMemory(OilMemory(length=float(length[0]), **rows), *heads)
 
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
         gap = circular_gap(self.film.cells, u[:2] / self.clearance)
@@ -347,19 +362,6 @@ KEEPS = 1e30
 """Storage [1/s] of cells that keep their oil."""
 
 Complex = NDArray[np.complex128]
-
-
-class SlowMotion(NamedTuple):
-    """Stiffness and damping in motions slow against the time that oil takes to cross the cavity.
-
-    Attributes
-    ----------
-    stiffness, damping : ndarray, shape (2, 2)
-        Of the dimensionless force over the eccentricity, K(0) [1/s] and dK/ds(0) [1].
-    """
-
-    stiffness: Array
-    damping: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -448,14 +450,17 @@ def step_stiffness(film: ConservedFilm, state: ConservedState) -> Array:
     return _stiffness(film, state, oil_response(state.equations, state.solution.full, none, -moved)).real
 
 
-def slow_motion(film: ConservedFilm, state: ConservedState) -> SlowMotion:
-    """Return K(0) and dK/ds(0) of a steady film."""
+def slow_motion(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
+    """Return K(0) [1/s] and dK/ds(0) [1] of a steady film, without dimensions, (2, 2) each.
+
+    They are stiffness and damping in motions slow against the time that oil takes to cross the cavity.
+    """
     moved, held = _slopes(film, state)
     none, full = np.zeros(film.cells.opening.shape), state.solution.full
     still = oil_response(state.equations, full, none, -moved)
     room = np.where(full, 0.0, state.gap.line[:, None] * film.cells.area)
     slow = oil_response(state.equations, full, none, -(held + room * still))
-    return SlowMotion(_stiffness(film, state, still).real, _stiffness(film, state, slow).real)
+    return _stiffness(film, state, still).real, _stiffness(film, state, slow).real
 
 
 def sudden_slopes(film: ConservedFilm, state: ConservedState) -> Array:
@@ -550,28 +555,8 @@ ROWS = ("content", "before", "pressure", "theta", "full")
 """What a block has of the cells."""
 
 
-class ShapeNumbers(NamedTuple):
-    """What the compiled film reads of a film: arrays in its types.
-
-    Attributes
-    ----------
-    spacing, direction, width, conductance, flow, pressure : ndarray of float
-    opening : ndarray of int32
-    fed : ndarray of uint8
-    """
-
-    spacing: Array
-    direction: Array
-    width: Array
-    conductance: Array
-    opening: np.ndarray
-    fed: np.ndarray
-    flow: Array
-    pressure: Array
-
-
 @lru_cache(maxsize=64)
-def shape_of(film: ConservedFilm) -> tuple[Any, ShapeNumbers]:
+def shape_of(film: ConservedFilm) -> tuple[Any, list[np.ndarray]]:
     """Return a film as C reads it, and the arrays that it must outlive.
 
     Raises
@@ -584,16 +569,13 @@ def shape_of(film: ConservedFilm) -> tuple[Any, ShapeNumbers]:
             "film must have one viscosity for steps in time and FMUs, got that of a frozen temperature field"
         )
     cells, supply = film.cells, film.supply
-    kept = ShapeNumbers(
-        spacing=_float(cells.spacing),
-        direction=_float(np.stack([direction(cells.angle), direction(cells.face)])),
-        width=_float(cells.width),
-        conductance=_float(cells.conductance),
-        opening=np.ascontiguousarray(cells.opening, dtype=np.int32),
-        fed=np.ascontiguousarray(supply.fed, dtype=np.uint8),
-        flow=_float(supply.flow),
-        pressure=_float(supply.pressure),
-    )
+    directions = np.stack([direction(cells.angle), direction(cells.face)])
+    kept = [contiguous(row) for row in (cells.spacing, directions, cells.width, cells.conductance)]
+    kept += [
+        np.ascontiguousarray(cells.opening, dtype=np.int32),
+        np.ascontiguousarray(supply.fed, dtype=np.uint8),
+        *(contiguous(row) for row in (supply.flow, supply.pressure)),
+    ]
     ends = float(cells.center[0]), supply.center_pressure, supply.end_pressure
     places = [row.ctypes.data for row in kept]
     return structure("rf_oil_shape")(
@@ -603,7 +585,7 @@ def shape_of(film: ConservedFilm) -> tuple[Any, ShapeNumbers]:
 
 def sharpened_oil(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
     """Return what leaves the cells beyond transport at upstream theta, shape (N, M) [1/s]."""
-    rows, theta = [_float(row) for row in gap], _float(theta)
+    rows, theta = [contiguous(row) for row in gap], contiguous(theta)
     carried = np.empty(film.cells.opening.shape)
     loops()["rf_sharpen_oil"](
         byref(shape_of(film)[0]), byref(_gap(rows)), rate, theta.ctypes.data, carried.ctypes.data
@@ -611,46 +593,10 @@ def sharpened_oil(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> A
     return carried
 
 
-def step_oil(
-    film: ConservedFilm,
-    gap: Gap,
-    rate: float,
-    dt: float,
-    past: tuple[Array, Array, float],
-    near: tuple[Array, np.ndarray],
-) -> ConservedState:
-    """Return the film after a step from the contents now and before the last one, and the length of that.
-
-    `near` is theta and the full cells of a film nearby.
-
-    Raises
-    ------
-    ConvergenceError
-        If the search for the cavity does not end.
-    """
-    content, before = (_float(row) for row in past[:2])
-    history = structure("rf_oil_past")(content.ctypes.data, before.ctypes.data, past[2])
-    rows = [_float(row) for row in gap]
-    found, made = _found(film, near)
-    status = loops()["rf_oil_step"](
-        byref(shape_of(film)[0]), byref(_gap(rows)), rate, byref(history), dt, byref(made)
-    )
-    return _state(film, gap, rate, status, found, made)
-
-
-def rest_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
-    """Return the steady film that steps in a gap that stays come to; raise as `step_oil`."""
-    none = np.zeros(film.cells.opening.shape)
-    rows = [_float(row) for row in gap]
-    found, made = _found(film, (none, none))
-    status = loops()["rf_oil_rest"](byref(shape_of(film)[0]), byref(_gap(rows)), rate, byref(made))
-    return _state(film, gap, rate, status, found, made)
-
-
 def oil_sums(film: ConservedFilm, state: ConservedState) -> Array:
     """Return the force, flows out of and into the ends, inflow, and the oil in the gap, shape (6,) [1/s]."""
-    rows, (equations, kept) = [_float(row) for row in state.gap], oil_struct(state.equations)
-    P, theta, sums = _float(state.solution.pressure), _float(state.solution.theta), np.empty(SUMS)
+    rows, (equations, kept) = [contiguous(row) for row in state.gap], oil_struct(state.equations)
+    P, theta, sums = contiguous(state.solution.pressure), contiguous(state.solution.theta), np.empty(SUMS)
     status = loops()["rf_oil_sums"](
         byref(shape_of(film)[0]),
         byref(_gap(rows)),
@@ -664,114 +610,22 @@ def oil_sums(film: ConservedFilm, state: ConservedState) -> Array:
     return sums
 
 
-class MovingFilm(NamedTuple):
-    """A film in SI units around a journal that moves.
-
-    Attributes
-    ----------
-    film : ConservedFilm
-    clearance : float [m]
-    carrying : float
-        Of the speed, that with which the walls carry the oil.
-    force, oil : float [N s], [m3]
-        Units of the force and of the oil.
-    largest_angle, largest_way : float [rad], [1]
-        Of the shaft and of the journal, in clearances, in one inner step.
-    """
-
-    film: ConservedFilm
-    clearance: float
-    carrying: float
-    force: float
-    oil: float
-    largest_angle: float
-    largest_way: float
-
-    def begin(self, motion: Array) -> Array:
-        """Return the block of numbers that a film at rest in a motion (5,) remembers.
-
-        Raises
-        ------
-        FilmContactError
-            If the journal touches the wall.
-        ConvergenceError
-            If the search for the cavity does not end.
-        """
-        block, why, at = (
-            np.empty(HEAD + len(ROWS) * self.film.cells.opening.size),
-            structure("rf_message")(),
-            motion,
-        )
-        at = _float(motion)
-        _report(
-            loops()["rf_oil_begin"](byref(self._struct), at.ctypes.data, block.ctypes.data, byref(why)), why
-        )
-        return block
-
-    def travel(self, block: Array, t: float, motion: Array, dt: float) -> tuple[Array, int, int]:
-        """Return the block dt [s] later, in a motion (5,), with the inner steps and solutions on the way.
-
-        Raises as `begin`.
-        """
-        end, work, why, at = block.copy(), (c_int64 * 2)(), structure("rf_message")(), _float(motion)
-        status = loops()["rf_oil_travel"](
-            byref(self._struct), t, at.ctypes.data, dt, end.ctypes.data, work, byref(why)
-        )
-        _report(status, why)
-        return end, work[0], work[1]
-
-    @property
-    def _struct(self) -> Any:
-        return structure("rf_oil_film_si")(shape_of(self.film)[0], *self[1:])
-
-
-def block_of(heads: tuple[float, Array, Array, Array], rows: Mapping[str, np.ndarray]) -> Array:
-    """Return the block of numbers of which `rf_oil_travel` goes on; `heads` as `parts_of` returns them."""
-    return np.concatenate([*(np.ravel(head) for head in heads), *(np.ravel(rows[name]) for name in ROWS)])
-
-
-def parts_of(
-    block: Array, shape: tuple[int, ...]
-) -> tuple[tuple[float, Array, Array, Array], dict[str, np.ndarray]]:
-    """Return length, motion, answer and what passed, and the rows of cells of a block."""
-    length, *heads = np.split(block[:HEAD].copy(), np.cumsum(HEADS[:-1]))
-    cells = dict(zip(ROWS, block[HEAD:].reshape(len(ROWS), *shape), strict=True))
-    full = cells.pop("full").astype(np.uint8)
-    motion, answer, passed = heads
-    return (float(length[0]), motion, answer, passed), {**cells, "full": full}
-
-
 def _gap(rows: list[Array]) -> Any:
     return structure("rf_oil_gap")(*(row.ctypes.data for row in rows))
 
 
-def _found(
-    film: ConservedFilm, near: tuple[Array, np.ndarray]
-) -> tuple[tuple[Array, Array, np.ndarray, Array], Any]:
-    """Return the arrays of a film that is sought, and what C reads of them."""
-    shape = film.cells.opening.shape
-    theta, full = np.array(near[0], dtype=float, order="C"), np.array(near[1], dtype=np.uint8, order="C")
-    found = np.empty(shape), theta, full, np.empty(shape)
-    return found, structure("rf_oil_found")(*(row.ctypes.data for row in found))
-
-
-def _state(
-    film: ConservedFilm,
-    gap: Gap,
-    rate: float,
-    status: int,
-    found: tuple[Array, Array, np.ndarray, Array],
-    made: Any,
+def _solved(
+    film: ConservedFilm, gap: Gap, rate: float, near: tuple[Array, np.ndarray], search: str, *further: Any
 ) -> ConservedState:
-    report_search(status)
-    pressure, theta, full, old = found
-    equations = film.equations(gap, rate, Storage(made.rate, np.zeros(old.shape)))._replace(old=old)
+    """Return the film that a search of the C library finds, near theta and the full cells of another one."""
+    shape, rows = film.cells.opening.shape, [contiguous(row) for row in gap]
+    theta, full = np.array(near[0], dtype=float, order="C"), np.array(near[1], dtype=np.uint8, order="C")
+    pressure, old = np.empty(shape), np.empty(shape)
+    made = structure("rf_oil_found")(*(row.ctypes.data for row in (pressure, theta, full, old)))
+    report_search(loops()[search](byref(shape_of(film)[0]), byref(_gap(rows)), rate, *further, byref(made)))
+    equations = film.equations(gap, rate, (made.rate, np.zeros(shape)))._replace(old=old)
     solution = OilSolution(pressure, theta, full, made.work.solutions, made.work.newton)
     return ConservedState(gap, rate, equations, solution, (made.rate, made.lag))
-
-
-def _float(numbers: Array) -> Array:
-    return np.ascontiguousarray(numbers, dtype=float)
 
 
 def _report(status: int, why: ctypes.Structure) -> None:
@@ -814,21 +668,22 @@ class OilNumbers(NamedTuple):
     stiffness: float | None = None
 
 
-def oil_spec(moving: MovingFilm, numbers: OilNumbers) -> NativeSpec:
+def oil_spec(stepped: SteppedFilm, numbers: OilNumbers) -> NativeSpec:
     """Return the kernel `conserved_film`; its tables are those of `kernel_conserved_film.c`."""
-    shape, rows = shape_of(moving.film)
+    shape, (spacing, directions, width, conductance, opening, *_) = shape_of(stepped.film)
+    clearance, (_, oil) = stepped.clearance, stepped.scales
     fed, given = numbers.supply_flow is not None, numbers.supply_pressure is not None
     film = [
-        *(numbers.radius, moving.clearance, moving.oil / moving.clearance, shape.slenderness),
-        *(numbers.cavitation_pressure, moving.carrying, shape.center),
-        *(moving.largest_angle, moving.largest_way),
+        *(numbers.radius, clearance, oil / clearance, shape.slenderness),
+        *(numbers.cavitation_pressure, stepped.carrying(UNIT_SPEED), shape.center),
+        *(LARGEST_ANGLE, LARGEST_WAY),
         *(fed or given, fed, numbers.stiffness is not None),
     ]
     tables: dict[str, Array] = {
         "film": np.array(film, dtype=float),
-        "lines": np.vstack([rows.spacing[None], rows.direction.reshape(4, -1)]),
-        "width": rows.width,
-        "cells": np.stack([rows.conductance, rows.opening.astype(float)]),
+        "lines": np.vstack([spacing[None], directions.reshape(4, -1)]),
+        "width": width,
+        "cells": np.stack([conductance, opening.astype(float)]),
         "supplied": np.append(numbers.supplied, False).astype(float),
     }
     return NativeSpec(kernel="conserved_film", parameters=_parameters(numbers), tables=tables)

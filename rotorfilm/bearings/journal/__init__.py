@@ -7,21 +7,22 @@ from ...core.sources import show
 if TYPE_CHECKING:
     from ..films.geometry import is_mappable
     from ..formulas import extrapolated_value
-    from ..oil.heat_balance import heat_surplus
-    from ..oil.heated_bearing import HeatedBearing as HeatedBearing
-    from .bearing import JournalBearing as JournalBearing, film_name, fitted_bearing
-    from .build_groove_map import build_groove_map as build_groove_map
-    from .complementarity import ComplementarityArc as ComplementarityArc
-    from .effective_viscosity import (
+    from ..oil.heated_bearing import HeatedBearing as HeatedBearing, heat_surplus
+    from .bearing import (
         BalancedBearing as BalancedBearing,
         HeatNumbers as HeatNumbers,
-        bearing_losses,
+        JournalBearing as JournalBearing,
+        film_name,
+        fitted_bearing,
         has_losses,
         heat_numbers as heat_numbers,
     )
+    from .build_groove_map import build_groove_map as build_groove_map
+    from .complementarity import ComplementarityArc as ComplementarityArc
     from .energy_equation import (
         AdiabaticWalls as AdiabaticWalls,
         BushRing as BushRing,
+        FilmProfile,
         HeldWalls as HeldWalls,
         LayeredTemperature as LayeredTemperature,
         MeanTemperature as MeanTemperature,
@@ -30,8 +31,13 @@ if TYPE_CHECKING:
     from .film_state import FilmState, film_state as film_state, middle_pressure, tension
     from .groove_map import GrooveMapTable as GrooveMapTable
     from .grooved_film import GroovedMapFilm as GroovedMapFilm
-    from .heated_film import FilmProfile, HeatAccount, HeatedFilm as HeatedFilm, HeatedState as HeatedState
-    from .heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
+    from .heated_film import (
+        HeatAccount,
+        HeatedFilm as HeatedFilm,
+        HeatedJFOFilm as HeatedJFOFilm,
+        HeatedJFOState as HeatedJFOState,
+        HeatedState as HeatedState,
+    )
     from .jfo_film import (
         RUPTURE_CELLS,
         JFOFilm as JFOFilm,
@@ -46,8 +52,13 @@ if TYPE_CHECKING:
         ReynoldsFilm as ReynoldsFilm,
         ShortFilm as ShortFilm,
     )
-    from .rupture import FixedArc as FixedArc, ReynoldsArc as ReynoldsArc, RotatingArc as RotatingArc, Rupture
-    from .slit_arc import SlitArc as SlitArc
+    from .rupture import (
+        FixedArc as FixedArc,
+        ReynoldsArc as ReynoldsArc,
+        RotatingArc as RotatingArc,
+        Rupture,
+        SlitArc as SlitArc,
+    )
     from .splitting_film import SpectralArcFilm as SpectralArcFilm, SplittingFilm as SplittingFilm
 else:
     show(__name__)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from scipy.special import ellipj, ellipk, ellipkinc
 
 from ...core.errors import ConvergenceError
 from ...core.model import Array
-from .rupture import Basis, FilmArc, FilmNodes, film_nodes
+from .rupture import Basis, FilmArc, FilmNodes, film_nodes, gauss_legendre, integrated_legendre
 
 Mask = NDArray[np.bool_]
 
@@ -63,9 +63,9 @@ class ComplementarityArc:
             If the ends are not found; not known to happen for chi <= 0.999 and L/D 0.1 to 4.
         """
         start, end = free_ends(chi, turn, slenderness)
-        flux = arc_flux(chi, turn, start, end, slenderness)
-        loads = np.stack([flux_by_chi(flux, slenderness), flux_by_turn(flux, turn)], -1)
-        outward = np.asarray(-np.linalg.solve(flux.outward, loads), dtype=np.float64)
+        _, by_ends, nodes, pressure, lift = arc_flux(chi, turn, start, end, slenderness)
+        loads = flux_by_chi(nodes, pressure, lift, slenderness), flux_by_turn(nodes, lift, turn)
+        outward = np.asarray(-np.linalg.solve(by_ends, np.stack(loads, -1)), dtype=np.float64)
         return FilmArc(start, end, -outward[:, 0, 0], outward[:, 1, 0], -outward[:, 0, 1], outward[:, 1, 1])
 
 
@@ -104,12 +104,12 @@ def free_ends(chi: Array, turn: Array, slenderness: float) -> tuple[Array, Array
 def _newton(chi: Array, turn: Array, z: Array, slenderness: float) -> tuple[Array, Array, Mask]:
     """Return the size of the flow, Newton's step in z, and whether the arc lies within the solution."""
     start, end = _angles(2.0 * chi / (1.0 + chi), z)
-    flux = arc_flux(chi, turn, start, end, slenderness)
-    step = -np.linalg.solve(flux.outward, flux.flow[:, :, None])[:, :, 0]
+    flow, outward, *_ = arc_flux(chi, turn, start, end, slenderness)
+    step = -np.linalg.solve(outward, flow[:, :, None])[:, :, 0]
     dn = np.sqrt((1.0 + chi[:, None] * np.cos(np.stack([start, end], -1))) / (1.0 + chi[:, None]))
-    grows = np.diagonal(flux.outward, axis1=1, axis2=2) > 0.0
-    valid = np.all(grows, axis=1) & (np.linalg.det(flux.outward) > 0.0)
-    return np.linalg.norm(flux.flow, axis=1), step / (2.0 * dn), valid
+    grows = np.diagonal(outward, axis1=1, axis2=2) > 0.0
+    valid = np.all(grows, axis=1) & (np.linalg.det(outward) > 0.0)
+    return np.linalg.norm(flow, axis=1), step / (2.0 * dn), valid
 
 
 def _within_room(step: Array, z: Array, half_circle: Array, circle: Array) -> Array:
@@ -143,11 +143,14 @@ NODES = 80
 """Gauss nodes: enough for the rational coefficients."""
 
 
-class ArcFlux(NamedTuple):
-    """Outward flow of the pressure through the ends (start, end) of an arc.
+Flux = tuple[Array, Array, FilmNodes, Array, Array]
 
-    Attributes
-    ----------
+
+def arc_flux(chi: Array, turn: Array, start: Array, end: Array, slenderness: float) -> Flux:
+    """Return the outward flow of the pressure through the ends (start, end) of arcs, arguments of shape (B,).
+
+    Returns
+    -------
     flow : ndarray, shape (B, 2)
         -H^3 u' at the start and H^3 u' at the end; negative where a positive pressure falls to zero.
     outward : ndarray, shape (B, 2, 2)
@@ -158,21 +161,6 @@ class ArcFlux(NamedTuple):
     lift : ndarray, shape (B, n, 2)
         What eliminates the inner equations from a load.
     """
-
-    flow: Array
-    outward: Array
-    nodes: FilmNodes
-    pressure: Array
-    lift: Array
-
-    def reduced(self, load: Array) -> Array:
-        """Return the flow through the ends that a load (B, n + 2) causes."""
-        inner, outer = load[:, :DEGREE], load[:, DEGREE:]
-        return outer - np.einsum("bij,bi->bj", self.lift, inner)
-
-
-def arc_flux(chi: Array, turn: Array, start: Array, end: Array, slenderness: float) -> ArcFlux:
-    """Return the outward flow through the ends of arcs, each argument of shape (B,)."""
     nodes = film_nodes(chi, start, end, NODES)
     matrix = _matrix(nodes, slenderness)
     load = _load(nodes, np.cos(nodes.gamma - turn[:, None]))
@@ -186,21 +174,26 @@ def arc_flux(chi: Array, turn: Array, start: Array, end: Array, slenderness: flo
     # Moving an end outward imposes the pressure -(outward u') at its old place, and adds the source.
     outward = -per_pressure * (flow / (1.0 + chi[:, None] * np.cos(ends)) ** 3)[:, None, :]
     outward[:, (0, 1), (0, 1)] += np.cos(ends - turn[:, None])
-    return ArcFlux(flow, outward, nodes, pressure, lift)
+    return flow, outward, nodes, pressure, lift
 
 
-def flux_by_chi(flux: ArcFlux, slenderness: float) -> Array:
+def _reduced(lift: Array, load: Array) -> Array:
+    """Return the flow through the ends that a load (B, n + 2) causes."""
+    return load[:, DEGREE:] - np.einsum("bij,bi->bj", lift, load[:, :DEGREE])
+
+
+def flux_by_chi(nodes: FilmNodes, pressure: Array, lift: Array, slenderness: float) -> Array:
     """Return the derivative of the flow with respect to chi at fixed ends, shape (B, 2)."""
     f, slope = _functions()
-    log_slope = 3.0 * flux.nodes.cosine / flux.nodes.film
-    dissipation, leakage = _weights(flux.nodes, slenderness)
-    u, u_slope = flux.pressure @ f[:, :DEGREE].T, flux.pressure @ slope[:, :DEGREE].T
-    return flux.reduced((log_slope * dissipation * u_slope) @ slope + (log_slope * leakage * u) @ f)
+    log_slope = 3.0 * nodes.cosine / nodes.film
+    dissipation, leakage = _weights(nodes, slenderness)
+    u, u_slope = pressure @ f[:, :DEGREE].T, pressure @ slope[:, :DEGREE].T
+    return _reduced(lift, (log_slope * dissipation * u_slope) @ slope + (log_slope * leakage * u) @ f)
 
 
-def flux_by_turn(flux: ArcFlux, turn: Array) -> Array:
+def flux_by_turn(nodes: FilmNodes, lift: Array, turn: Array) -> Array:
     """Return the derivative of the flow with respect to t at fixed ends, shape (B, 2)."""
-    return flux.reduced(_load(flux.nodes, np.sin(flux.nodes.gamma - turn[:, None])))
+    return _reduced(lift, _load(nodes, np.sin(nodes.gamma - turn[:, None])))
 
 
 def _load(nodes: FilmNodes, source: Array) -> Array:
@@ -210,7 +203,7 @@ def _load(nodes: FilmNodes, source: Array) -> Array:
 def _weights(nodes: FilmNodes, slenderness: float) -> tuple[Array, Array]:
     """Return the nodal weights of slope^2 (in the reference variable) and of value^2."""
     k2 = (0.5 * math.pi / slenderness) ** 2
-    return gauss_weights(NODES) ** 2 / nodes.weight, k2 * nodes.weight * nodes.film**6
+    return gauss_legendre(NODES)[1] ** 2 / nodes.weight, k2 * nodes.weight * nodes.film**6
 
 
 def _matrix(nodes: FilmNodes, slenderness: float) -> Array:
@@ -223,7 +216,7 @@ def _matrix(nodes: FilmNodes, slenderness: float) -> Array:
 @cache
 def _functions() -> tuple[Array, Array]:
     """Return all functions and their slopes at the nodes, the two lifting functions last."""
-    x, _ = np.polynomial.legendre.leggauss(NODES)
+    x, _ = gauss_legendre(NODES)
     f, slope = trial_functions(DEGREE, NODES)
     lifts = np.stack([0.5 * (1.0 - x), 0.5 * (1.0 + x)], -1)
     lift_slopes = np.broadcast_to([-0.5, 0.5], (NODES, 2))
@@ -249,15 +242,4 @@ def trial_functions(degree: int, count: int) -> tuple[Array, Array]:
     -------
     values, slopes : ndarray, shape (count, degree)
     """
-    x, _ = np.polynomial.legendre.leggauss(count)
-    legendre = np.polynomial.legendre.legvander(x, degree + 1)
-    k = np.arange(1, degree + 1)
-    norm = np.sqrt(k + 0.5)
-    integrated = norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0)
-    return integrated, norm * legendre[:, 1:-1]
-
-
-@cache
-def gauss_weights(count: int) -> Array:
-    """Return the Gauss weights, shape (count,)."""
-    return np.polynomial.legendre.leggauss(count)[1]
+    return integrated_legendre(gauss_legendre(count)[0], degree)

@@ -7,7 +7,7 @@ length/2, that is in 1/s and K/s.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ from ...core.errors import InputError, require_count, require_each, require_non_
 from ...core.inputs import quantities
 from ...core.model import Array
 from ..films.mass_conserving import Fluidity
-from ..oil.heat_balance import carried_share
+from ..oil.heated_bearing import carried_share
 from .film_flow import FilmFlow
 
 # What holds a warm film: walls without heat, of given temperature, or a bush that conducts it away.
@@ -54,38 +54,12 @@ class WallResponse(NamedTuple):
     shaft_ambient: float
 
 
-@runtime_checkable
-class Walls(Protocol):
-    """The bush around a film and the journal in it, as the heat of the film sees them."""
-
-    @property
-    def adiabatic(self) -> bool:
-        """Whether the walls take no heat at all."""
-
-    def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return how warm the walls get.
-
-        Parameters
-        ----------
-        radius : float [m]
-            Of the bearing.
-        start, extent : ndarray, shape (N,) [rad]
-            Cells around the film.
-        """
-
-
 @dataclass(frozen=True)
 class AdiabaticWalls:
     """Bush and journal that take no heat: all of it leaves with the oil."""
 
-    @property
-    def adiabatic(self) -> bool:
-        """Whether the walls take no heat at all."""
-        return True
-
-    def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return what no heat makes of the walls; see `Walls`."""
-        return WallResponse(np.zeros((len(start), len(start))), 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    def response(self, radius: float, start: Array, extent: Array) -> None:
+        """Return None: no heat makes the walls warmer."""
 
 
 @quantities
@@ -105,13 +79,8 @@ class HeldWalls:
     def __post_init__(self) -> None:
         require_each(self, require_positive, "bush_temperature", "journal_temperature")
 
-    @property
-    def adiabatic(self) -> bool:
-        """Whether the walls take no heat at all."""
-        return False
-
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return that heat changes nothing; see `Walls`."""
+        """Return that heat changes nothing; see `BushRing.response`."""
         spread = np.zeros((len(start), len(start)))
         return WallResponse(spread, 1.0, 0.0, self.bush_temperature, 1.0, 0.0, self.journal_temperature)
 
@@ -157,11 +126,6 @@ class BushRing:
         require_each(self, require_positive, "outer_radius", "conductivity", "ambient_temperature")
         require_each(self, require_non_negative, "transfer", "shaft_conductance")
 
-    @property
-    def adiabatic(self) -> bool:
-        """Whether the walls take no heat at all."""
-        return False
-
     def mean_transfer(self, radius: float) -> float:
         """Return D_0 [W/(m^2 K)], the heat per area of the bore and kelvin above the surroundings."""
         resistance = radius * np.log(self.outer_radius / radius) / self.conductivity
@@ -175,7 +139,15 @@ class BushRing:
         return np.asarray(self.conductivity * waves / radius * (1.0 - sq) / (1.0 + sq))
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return how warm the bush gets, by means over the cells; see `Walls`."""
+        """Return how warm the bush gets, by means over the cells.
+
+        Parameters
+        ----------
+        radius : float [m]
+            Of the bearing.
+        start, extent : ndarray, shape (N,) [rad]
+            Cells around the film.
+        """
         if self.outer_radius <= radius:
             raise InputError(
                 f"outer_radius must be above the bearing's radius {radius!r}, got {self.outer_radius!r}"
@@ -187,6 +159,10 @@ class BushRing:
         give = 2.0 * np.pi * radius * self.mean_transfer(radius)
         shaft = self.shaft_conductance, 1.0, self.ambient_temperature
         return WallResponse(spread, give, 1.0, self.ambient_temperature, *shaft)
+
+
+Walls = AdiabaticWalls | HeldWalls | BushRing
+"""The bush around a film and the journal in it, as the heat of the film sees them."""
 
 
 # The linear equations of the heat in a bearing: oil cell by cell, openings that mix, bush and journal.
@@ -246,13 +222,6 @@ class Heating(NamedTuple):
         return np.where(opening < 0, own, count + opening)
 
 
-class WallTemperatures(NamedTuple):
-    """Temperatures of bush (N,) and journal above that of the supply [K]."""
-
-    bush: Array
-    journal: float
-
-
 class HeatSolution(NamedTuple):
     """Temperatures above that of the supply [K], and where the heat goes [K/s].
 
@@ -262,8 +231,9 @@ class HeatSolution(NamedTuple):
         In openings that of the mixed oil.
     openings : ndarray, shape (openings,) [K]
         Of that oil.
-    walls : WallTemperatures or None
-        None of walls that take no heat.
+    bush : ndarray, shape (N,), or None [K]
+    journal : float or None [K]
+        Of the walls; None of those that take no heat.
     made : float [K/s]
         Heat of shear and pressure.
     leaked : float [K/s]
@@ -275,7 +245,8 @@ class HeatSolution(NamedTuple):
 
     oil: Array
     openings: Array
-    walls: WallTemperatures | None
+    bush: Array | None
+    journal: float | None
     made: float
     leaked: float
     drained: float
@@ -283,21 +254,11 @@ class HeatSolution(NamedTuple):
     to_journal: float
 
 
-class Carried(NamedTuple):
-    """Oil that goes from one unknown to another.
-
-    Attributes
-    ----------
-    donor, receiver : ndarray of int, shape (F,)
-    amount : ndarray, shape (F,) [1/s]
-    """
-
-    donor: np.ndarray
-    receiver: np.ndarray
-    amount: Array
+Carried = tuple[np.ndarray, np.ndarray, Array]
+"""Oil that goes from one unknown to another: those that give it and get it, and how much [1/s], (F,) each."""
 
 
-def carried(*faces: tuple[np.ndarray, np.ndarray, Array]) -> Carried:
+def carried(*faces: Carried) -> Carried:
     """Return what flows through faces, each the unknowns before and behind it and the flow, of any sign."""
     rows = [[np.ravel(part) for part in np.broadcast_arrays(*face)] for face in faces]
     before, behind, flow = (np.concatenate(parts) for parts in zip(*rows, strict=True))
@@ -305,12 +266,10 @@ def carried(*faces: tuple[np.ndarray, np.ndarray, Array]) -> Carried:
     before, behind, flow = before[through], behind[through], flow[through]
     onward = flow > 0.0
     donor, receiver = np.where(onward, before, behind), np.where(onward, behind, before)
-    return Carried(donor, receiver, np.abs(flow))
+    return donor, receiver, np.abs(flow)
 
 
-def from_center(
-    heating: Heating, cells: np.ndarray, flow: Array | None
-) -> list[tuple[np.ndarray, np.ndarray, Array]]:
+def from_center(heating: Heating, cells: np.ndarray, flow: Array | None) -> list[Carried]:
     """Return the faces through which a groove at mid-length feeds cells (N, ...); none without one."""
     if flow is None:
         return []
@@ -360,23 +319,20 @@ class HeatEquations:
 
     def _carry(self, oil: Carried) -> None:
         """Let oil bring its heat along, and mix in openings with fresh oil."""
-        opening, lam = self.size - self.openings, self._heating.carry_over
+        (donor, receiver, amount), lam = oil, self._heating.carry_over
+        opening = self.size - self.openings
         taken, given = (
-            np.asarray(np.bincount(ends, oil.amount, self.size)[opening:], dtype=float)
-            for ends in (oil.receiver, oil.donor)
+            np.asarray(np.bincount(ends, amount, self.size)[opening:], dtype=float)
+            for ends in (receiver, donor)
         )
         if lam is None:
             share = np.divide(taken, given, out=np.ones(taken.shape), where=given > 0.0)
         else:
-            share = carried_share(given, taken, lam).share
-        kept = np.append(np.ones(opening), share)[oil.receiver]
-        self.add(oil.receiver, oil.donor, -kept * oil.amount)
+            share, _, _ = carried_share(given, taken, lam)
+        kept = np.append(np.ones(opening), share)[receiver]
+        self.add(receiver, donor, -kept * amount)
         places = np.arange(opening, self.size)
         self.add(places, places, np.where(taken > 0.0, taken, 1.0))
-
-    def in_openings(self, x: Array) -> Array:
-        """Return the temperatures of the openings."""
-        return x[self.size - self.openings : self.size]
 
     def lose(
         self, rows: tuple[np.ndarray, np.ndarray], bush: Terms, journal: Terms, line: np.ndarray
@@ -410,11 +366,40 @@ class HeatEquations:
             return 0.0
         return float(sum(np.sum(value * x[column]) for column, value in terms))
 
-    def wall_temperatures(self, x: Array) -> WallTemperatures | None:
-        """Return the temperatures of the walls."""
-        if self._heating.walls is None:
-            return None
-        return WallTemperatures(x[self.bush], float(x[self.journal]))
+    def solution(
+        self,
+        index: np.ndarray,
+        oil: Carried,
+        walls: tuple[Terms, Terms],
+        made: Array,
+        less: Array,
+        leaked: Array,
+    ) -> HeatSolution:
+        """Return the temperatures, with the heat that is made, less what warming leaves out, and leaks.
+
+        Parameters
+        ----------
+        index : ndarray of int, shape (N, M, ...)
+            Unknown of each cell.
+        oil : Carried
+        walls : (Terms, Terms)
+            Heat into bush and journal.
+        made, less, leaked : ndarray, shape (N, M, ...)
+        """
+        x, film, opening = self.solve(), self._heating.film, self.size - self.openings
+        T, (donor, receiver, amount) = x[index], oil
+        heat, conducted = amount * x[donor], self._heating.walls is not None
+        return HeatSolution(
+            oil=T,
+            openings=x[opening : self.size],
+            bush=x[self.bush] if conducted else None,
+            journal=float(x[self.journal]) if conducted else None,
+            made=float(np.sum((made - less * (T - self._heating.temperature))[film])),
+            leaked=float(np.sum((leaked * T)[film])),
+            drained=float(heat[receiver >= opening].sum() - heat[donor >= opening].sum()),
+            to_bush=self.total(walls[0], x),
+            to_journal=self.total(walls[1], x),
+        )
 
     def _close_walls(self) -> None:
         walls = self._heating.walls
@@ -431,13 +416,6 @@ class HeatEquations:
         self.right[self.mean] = walls.give * walls.ambient
         self.add(self.journal, self.journal, walls.shaft_give)
         self.right[self.journal] = walls.shaft_give * walls.shaft_ambient
-
-
-def drained(oil: Carried, temperature: Array, opening: int) -> float:
-    """Return the heat [K/s] that goes into openings, the unknowns from `opening` on, less what comes back."""
-    goes, comes = oil.receiver >= opening, oil.donor >= opening
-    heat = oil.amount * temperature[oil.donor]
-    return float(heat[goes].sum() - heat[comes].sum())
 
 
 # The temperature over a film: one mean across it, by finite volumes on the cells of the pressure (T2).
@@ -465,7 +443,7 @@ class MeanTemperature:
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""
-        flow, film, index = heating.flow, heating.film, heating.unknowns()
+        flow, index = heating.flow, heating.unknowns()
         oil = carried(
             (index, np.roll(index, -1, axis=0), flow.around),
             (index[:, :-1], index[:, 1:], flow.axial[:, :-1]),
@@ -476,21 +454,10 @@ class MeanTemperature:
         less = made * heating.thinning
         through = np.maximum(flow.entering, flow.leaving) + less
         equations.warm_film(index, oil, through, made + less * heating.temperature)
-        bush, journal = _into_walls(equations, heating.diffusion * flow.shear, index)
+        walls = _into_walls(equations, heating.diffusion * flow.shear, index)
         line = np.broadcast_to(np.arange(len(index))[:, None], index.shape)
-        equations.lose((index, index), bush, journal, line)
-        x = equations.solve()
-        T = x[index]
-        return HeatSolution(
-            oil=T,
-            openings=equations.in_openings(x),
-            walls=equations.wall_temperatures(x),
-            made=float(np.sum((made - less * (T - heating.temperature))[film])),
-            leaked=float(np.sum((flow.leaked * T)[film])),
-            drained=drained(oil, x, index.size),
-            to_bush=equations.total(bush, x),
-            to_journal=equations.total(journal, x),
-        )
+        equations.lose((index, index), *walls, line)
+        return equations.solution(index, oil, walls, made, less, flow.leaked)
 
 
 def _into_walls(equations: HeatEquations, into: Array, index: np.ndarray) -> tuple[Terms, Terms]:
@@ -558,24 +525,13 @@ class LayeredTemperature:
         less = made * heating.thinning
         drawn = np.zeros(made.shape)
         drawn[:, -1] = np.maximum(-axial[:, -1], 0.0)
-        arriving = np.bincount(oil.receiver, oil.amount, equations.size)[index]
+        arriving = np.bincount(oil[1], oil[2], equations.size)[index]
         through = arriving + fresh + drawn + less
         equations.warm_film(index, oil, through, made + less * heating.temperature)
-        bush, journal = self._conduct(equations, heating, index)
-        x = equations.solve()
-        T = x[index]
+        walls = self._conduct(equations, heating, index)
         leaked = lost
         leaked[:, -1] += np.maximum(axial[:, -1], 0.0)
-        return HeatSolution(
-            oil=T,
-            openings=equations.in_openings(x),
-            walls=equations.wall_temperatures(x),
-            made=float(np.sum((made - less * (T - heating.temperature))[film])),
-            leaked=float(np.sum((leaked * T)[film])),
-            drained=drained(oil, x, index.size),
-            to_bush=equations.total(bush, x),
-            to_journal=equations.total(journal, x),
-        )
+        return equations.solution(index, oil, walls, made, less, leaked)
 
     def _conduct(self, equations: HeatEquations, heating: Heating, index: np.ndarray) -> tuple[Terms, Terms]:
         """Add what layers conduct to each other and to the walls; return the latter."""
@@ -593,6 +549,10 @@ class LayeredTemperature:
         journal.append((journal_column, -8.0 / 3.0 * each))
         equations.lose((layer[..., 0], layer[..., -1]), bush, journal, line)
         return bush, journal
+
+
+FilmProfile = MeanTemperature | LayeredTemperature
+"""What a film knows of the temperature across it."""
 
 
 def _layer_flows(heating: Heating, shares: LayerShares) -> tuple[Array, Array, Array | None]:

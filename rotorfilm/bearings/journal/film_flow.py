@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.model import Array, Tangent
-from ..films.finite_volumes import Grid, Spans, Stencil, StencilSolution, solve_stencil
+from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil, thickness
 from ..films.law import kinematics
 from ..films.mass_conserving import Fluidity
 from ..reaction import NOMINAL_SPEED, StaticReaction
@@ -116,8 +116,8 @@ def film_flow(
         Whether oil fills the gap in the ruptured zone too.
     """
     cells = film.cells
-    full = np.pad(found.solution.full, ((0, 0), (0, 1)), mode="edge")
-    pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
+    full = np.pad(found.full, ((0, 0), (0, 1)), mode="edge")
+    pressure = np.pad(found.pressure, ((0, 0), (0, 1)))
     H, at_lines = thickness(eccentricity, cells.face), thickness(eccentricity, cells.theta)
     drag = (
         speed * _driven(cells, full, H, at_lines, speed) * film.fluidity.mean_at_faces().dragged * cells.width
@@ -192,7 +192,7 @@ def _with_streamers(cells: FilmCells, full: np.ndarray, drag: Array, axial: Arra
 
 def _dissipation(cells: FilmCells, found: FilmSolution, full: np.ndarray) -> Array:
     """Return the power of the pressure, that of each face shared by the cells of film beside it."""
-    pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
+    pressure = np.pad(found.pressure, ((0, 0), (0, 1)))
     weight = film_weight(full, cells.held[:, None])
     around = np.zeros(full.shape)
     around[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1] ** 2
@@ -293,11 +293,6 @@ class FilmCells(NamedTuple):
         return 0.5 * self.extent * (_GAUSS_WEIGHTS / thickness(eccentricity, angles)).sum(axis=1)
 
 
-def thickness(eccentricity: Array, angle: Array) -> Array:
-    """Return H = 1 - e.n at angles [rad], of their shape."""
-    return np.asarray(1.0 - eccentricity[0] * np.cos(angle) - eccentricity[1] * np.sin(angle))
-
-
 def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array) -> FilmCells:
     """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,)."""
     distance = float(eccentricity @ eccentricity)
@@ -347,25 +342,30 @@ class FilmSolution(NamedTuple):
     Attributes
     ----------
     stencil : Stencil
-    solution : StencilSolution
-        With the response of the pressure to the two components of the force.
+    pressure : ndarray, shape (N, M) [1/s]
+    full : ndarray of bool, shape (N, M)
+        Nodes where there is film.
+    answers : ndarray, shape (2, N, M)
+        Response of the pressure to the two components of the force.
     normal : ndarray, shape (2, N)
     """
 
     stencil: Stencil
-    solution: StencilSolution
+    pressure: Array
+    full: np.ndarray
+    answers: Array
     normal: Array
 
     def force(self, cells: FilmCells) -> Array:
         """Return the force on the journal in the film's units [1/s], shape (2,)."""
-        return -12.0 * (self.normal @ (self.solution.pressure @ cells.width[:-1]))
+        return -12.0 * (self.normal @ (self.pressure @ cells.width[:-1]))
 
     def pumped(self, cells: FilmCells) -> float:
         """Return the power of the supply, pressure times flow into the film [1/s^2].
 
         The flow straight out of the openings at the bearing's end is no part of it.
         """
-        stencil, pressure = self.stencil, self.solution.pressure
+        stencil, pressure = self.stencil, self.pressure
         flow = stencil.outflow(pressure) - stencil.source
         flow[:, -1] -= stencil.along[:, -1] * pressure[:, -1]
         return 12.0 * float((cells.value * cells.held) @ flow.sum(axis=1))
@@ -418,7 +418,7 @@ class FrozenFilm(StaticReaction):
         return np.stack([self._response(*state)[:, columns] for state in states], axis=-1)
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float
@@ -458,7 +458,7 @@ class FrozenFilm(StaticReaction):
         )
         value = np.broadcast_to(cells.value[:, None], stencil.source.shape)
         unit = normal[:, :, None] * width
-        return FilmSolution(stencil, solve_stencil(stencil, value, stencil.source > 0.0, unit), normal)
+        return FilmSolution(stencil, *solve_stencil(stencil, value, stencil.source > 0.0, unit), normal)
 
     def _response(self, position: Array, velocity: Array, speed: float) -> Array:
         """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6).
@@ -468,7 +468,7 @@ class FrozenFilm(StaticReaction):
         """
         e, _ = kinematics(position, velocity, np.asarray(speed), self.clearance)
         found = self.solve(e, velocity / self.clearance, float(speed))
-        pressure, V = found.solution.pressure, found.solution.answers
+        pressure, V = found.pressure, found.answers
         width = self.cells.width[:-1]
         response = np.empty((2, 6))
         response[:, 0] = found.force(self.cells)

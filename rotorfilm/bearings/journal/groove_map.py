@@ -12,7 +12,6 @@ Beside it are shear and flow of the film (`groove_losses.py`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import NamedTuple, Self
@@ -42,7 +41,7 @@ from ..films.map_fit import (
     batches,
     cores,
     even_shares,
-    made_pieces,
+    made_groups,
     node_eccentricities,
     periodic_quintic,
     periodic_quintic_coefficients,
@@ -391,13 +390,6 @@ class Resolution(NamedTuple):
     largest_eccentricity_ratio: float
 
 
-class _Center(NamedTuple):
-    """Spline coefficients of L0, (DIRECTIONS,), and of dL/de at the center, (DIRECTIONS, 2)."""
-
-    level: Array
-    slope: Array
-
-
 def build_groove_table(
     openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report = silent
 ) -> GrooveMapTable:
@@ -417,47 +409,48 @@ def build_groove_table(
     ConvergenceError
         If the search for a ruptured zone does not end.
     """
-    potential = _Solver(openings.grooves, slenderness, resolution.cells)
-    checks = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio)
+    grooves, largest = openings.grooves, resolution.largest_eccentricity_ratio
     around, along = resolution.cells
-    finer = opened_film(openings.grooves, slenderness, (2 * around, 2 * along))
+    coarse, film, finer = (
+        opened_film(grooves, slenderness, cells)
+        for cells in (loss_cells(resolution.cells), resolution.cells, (2 * around, 2 * along))
+    )
+    states, chi = bound_states(grooves, largest), loss_eccentricities(largest, resolution.nodes[0])
     solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
+    turns = (TURN / resolution.nodes[1] * solved).tolist()
     columns = [
-        partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
+        partial(_level, film, *place) for j in solved.tolist() for place in _column_places(resolution, j)
     ]
-    losses = _Losses(openings, slenderness, resolution)
+    losses = [partial(node_losses_between, coarse, each, turn) for turn in turns for each in chi]
     references = [
-        partial(made, film, e, w)
-        for made, film in ((reference, finer), (bound_losses, losses.finer))
-        for e, w in batches(checks.e, checks.w)
+        partial(made, of, e, w)
+        for made, of in ((reference, finer), (bound_losses, film))
+        for e, w in batches(*states[1:])
     ]
-    center = _center(potential)
-    pieces: list[Sequence[Callable[[], Array]]] = [columns, losses.columns(solved), references]
-    found = iter(made_pieces([piece for group in pieces for piece in group], report, TITLE))
-    levels, nodes, exact = ([next(found) for _ in group] for group in pieces)
+    center = _centered(film)
+    levels, nodes, exact = made_groups((columns, losses, references), report, TITLE)
     M = _exponents(center, np.reshape(levels, (len(solved), resolution.nodes[0], -1)), openings, resolution)
-    splines = _splines(M, resolution)
-    shear, flows = losses.fitted(np.array(nodes), solved)
+    shear, flows = fitted_losses(whole_losses(np.array(nodes), solved, openings, resolution), chi)
     table = GrooveMapTable(
         slenderness=slenderness,
-        grooves=openings.grooves,
-        reach=float(stretch(resolution.largest_eccentricity_ratio)),
+        grooves=grooves,
+        reach=float(stretch(largest)),
         crowding=CROWDING,
-        log_center=center.level,
-        coefficients=splines,
+        log_center=center[0],
+        coefficients=_splines(M, resolution),
         shear=shear,
         flows=flows,
     )
     half = len(exact) // 2
     both = np.concatenate([np.concatenate(part, axis=1) for part in (exact[:half], exact[half:])])
-    return replace(table, bounds=checks.bounds(table, both))
+    return replace(table, bounds=groove_bounds(table, states, both))
 
 
 def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
     """Return about how long a map takes on all cores of this machine [s], to weigh it against other films."""
     cells_x, count_e, count_s = resolution.nodes
     solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
-    states = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio).e.shape[1]
+    states = bound_states(openings.grooves, resolution.largest_eccentricity_ratio)[1].shape[1]
     work = DIRECTIONS + solved * cells_x * count_s + (CHECK_NODES + LOSS_CHECKS) * states
     losses = LOSS_NODES * solved * (cells_x + 1) * 2 * (CELLS + 1)
     cells = math.prod(resolution.cells) * work + math.prod(loss_cells(resolution.cells)) * losses
@@ -475,53 +468,38 @@ def _splines(M: Array, resolution: Resolution) -> Array:
     return coefficients
 
 
-class _Losses:
-    """Shear and flow of one bearing at the nodes of their maps."""
+def whole_losses(
+    nodes: Array, solved: np.ndarray, openings: AlignedOpenings, resolution: Resolution
+) -> Array:
+    """Return losses at all nodes, as `fitted_losses` takes them, from those at the nodes that were solved.
 
-    def __init__(self, openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> None:
-        self._openings, self._count = openings, resolution.nodes[1]
-        self._film = opened_film(openings.grooves, slenderness, loss_cells(resolution.cells))
-        self.finer = opened_film(openings.grooves, slenderness, resolution.cells)
-        self._chi = loss_eccentricities(resolution.largest_eccentricity_ratio, resolution.nodes[0])
-
-    def columns(self, solved: np.ndarray) -> list[Callable[[], Array]]:
-        """Return the pieces of work for the directions of e that are solved, one for each eccentricity."""
-        turns = (TURN / self._count * solved).tolist()
-        return [partial(node_losses_between, self._film, chi, turn) for turn in turns for chi in self._chi]
-
-    def fitted(self, nodes: Array, solved: np.ndarray) -> tuple[Array, Array]:
-        """Return the splines of `fitted_losses` from losses at the solved nodes, ordered as `columns`."""
-        grooves, chi = self._openings.grooves, self._chi
-        rows, senses, places = nodes.shape[1:]
-        found = nodes.reshape(len(solved), len(chi), rows, senses, places)
-        whole = np.zeros((3 + 2 * len(grooves), senses, len(chi), self._count, places))
-        source, mirrored = symmetric_nodes(self._openings, self._count)
-        runs = np.array(opening_runs(grooves))
-        for j in range(self._count):
-            of = found[np.searchsorted(solved, source[j])].transpose(1, 2, 0, 3)
-            of = of[:, ::-1] if mirrored[j] else of
-            back = -source[j] if mirrored[j] else source[j]
-            at = np.array(images(grooves, TURN / self._count * (j - back), mirrored=bool(mirrored[j])))[runs]
-            whole[:3, :, :, j] = of[:3]
-            whole[3 + at, :, :, j] = of[3 : 3 + len(runs)]
-            whole[3 + len(grooves) + at, :, :, j] = of[3 + len(runs) :]
-        return fitted_losses(whole, chi)
+    Parameters
+    ----------
+    nodes : ndarray
+        Of `node_losses_between`, of one direction of e after the other, for each eccentricity ratio.
+    solved : ndarray of int
+        Directions of e.
+    """
+    grooves, count, cells_x = openings.grooves, resolution.nodes[1], resolution.nodes[0] + 1
+    rows, senses, places = nodes.shape[1:]
+    found = nodes.reshape(len(solved), cells_x, rows, senses, places)
+    whole = np.zeros((3 + 2 * len(grooves), senses, cells_x, count, places))
+    source, mirrored = symmetric_nodes(openings, count)
+    runs = np.array(opening_runs(grooves))
+    for j in range(count):
+        of = found[np.searchsorted(solved, source[j])].transpose(1, 2, 0, 3)
+        of = of[:, ::-1] if mirrored[j] else of
+        back = -source[j] if mirrored[j] else source[j]
+        at = np.array(images(grooves, TURN / count * (j - back), mirrored=bool(mirrored[j])))[runs]
+        whole[:3, :, :, j] = of[:3]
+        whole[3 + at, :, :, j] = of[3 : 3 + len(runs)]
+        whole[3 + len(grooves) + at, :, :, j] = of[3 + len(runs) :]
+    return whole
 
 
-class _Solver:
-    """The potential of one bearing by Richardson extrapolation."""
-
-    def __init__(self, grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> None:
-        self._kernel = opened_film(grooves, slenderness, cells)
-
-    def level(self, e: Array, phi: Array) -> Array:
-        """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
-        return log_potential(self._kernel, e, phi)[0]
-
-    def center(self, phi: Array) -> tuple[Array, Array]:
-        """Return ln(-J), (D,), and d ln(-J)/de, (D, 2), of the centered journal."""
-        level, found = log_potential(self._kernel, np.zeros(2), phi, slopes=True)
-        return level, -(richardson(*found.slope[:2]) / np.exp(level)).T
+def _level(film: RingKernel, e: Array, phi: Array) -> Array:
+    """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
+    return log_potential(film, e, phi)[0]
 
 
 def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
@@ -530,9 +508,12 @@ def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
     return TURN * np.arange(count_e) / count_e, np.arctan2(np.sin(s), CROWDING * np.cos(s))
 
 
-def _center(potential: _Solver) -> _Center:
-    level, slope = (_smooth(each) for each in potential.center(TURN * np.arange(DIRECTIONS) / DIRECTIONS))
-    return _Center(periodic_quintic_coefficients(level), periodic_quintic_coefficients(slope))
+def _centered(film: RingKernel) -> tuple[Array, Array]:
+    """Return spline coefficients of L0, (DIRECTIONS,), and of dL/de at the center, (DIRECTIONS, 2)."""
+    phi = TURN * np.arange(DIRECTIONS) / DIRECTIONS
+    level, found = log_potential(film, np.zeros(2), phi, slopes=True)
+    slope = -(richardson(*found.slope[:2]) / np.exp(level)).T
+    return periodic_quintic_coefficients(_smooth(level)), periodic_quintic_coefficients(_smooth(slope))
 
 
 def _smooth(values: Array) -> Array:
@@ -555,7 +536,9 @@ def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
     return [(eccentricity * along, theta[j] + beta) for eccentricity in chi[1:]]
 
 
-def _exponents(center: _Center, levels: Array, openings: AlignedOpenings, resolution: Resolution) -> Array:
+def _exponents(
+    center: tuple[Array, Array], levels: Array, openings: AlignedOpenings, resolution: Resolution
+) -> Array:
     """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) at those that were solved.
 
     Parameters
@@ -569,8 +552,8 @@ def _exponents(center: _Center, levels: Array, openings: AlignedOpenings, resolu
     M = np.empty((cells_x + 1, count_e, count_s))
     for j, level in zip(np.unique(source).tolist(), levels, strict=True):
         turns = (theta[j] + beta) / TURN
-        M[0, j] = periodic_quintic(center.slope, turns) @ [np.cos(theta[j]), np.sin(theta[j])]
-        M[1:, j] = (level - periodic_quintic(center.level, turns)) / chi[1:, None]
+        M[0, j] = periodic_quintic(center[1], turns) @ [np.cos(theta[j]), np.sin(theta[j])]
+        M[1:, j] = (level - periodic_quintic(center[0], turns)) / chi[1:, None]
     opposite = -np.arange(count_s) % count_s
     for j in range(count_e):
         M[:, j] = M[:, source[j]][:, opposite] if mirrored[j] else M[:, source[j]]
@@ -607,8 +590,10 @@ BESIDE = (-0.03, 0.3)
 """Angles outwards from the edge of an opening, where half of the states have the minimum film [rad]."""
 
 
-class BoundStates:
-    """States of a journal at rest at which a map is compared with a finer film.
+def bound_states(
+    grooves: tuple[Groove, ...], largest_eccentricity_ratio: float
+) -> tuple[list[float], Array, Array]:
+    """Return states of a journal at rest at which a map is compared with a finer film.
 
     Parameters
     ----------
@@ -616,42 +601,51 @@ class BoundStates:
         The openings, from the axis of the map.
     largest_eccentricity_ratio : float [1]
         Of the map.
+
+    Returns
+    -------
+    reaches : list of float [1]
+        Largest eccentricity ratio of each band.
+    e, w : ndarray, shape (2, n)
+        Eccentricities and sources, one band after the other.
     """
+    reaches = [*(band for band in BOUND_BANDS if band < largest_eccentricity_ratio)]
+    reaches.append(largest_eccentricity_ratio)
+    shares, turns = even_shares(STATES, 2)
+    lows = [0.0, *reaches[:-1]]
+    chi = np.concatenate(
+        [high - 0.5 * (high - low) * shares**2 for low, high in zip(lows, reaches, strict=True)]
+    )
+    half = STATES // 2
+    around = np.concatenate([TURN * turns[:half], _beside(grooves, turns[half:])])
+    theta = np.tile(around, len(reaches))
+    sense = np.tile([1.0, -1.0], len(chi) // 2)
+    e = chi * np.stack([np.cos(theta), np.sin(theta)])
+    return reaches, e, sense * np.stack([np.sin(theta), -np.cos(theta)])
 
-    def __init__(self, grooves: tuple[Groove, ...], largest_eccentricity_ratio: float) -> None:
-        self.reaches = [*(band for band in BOUND_BANDS if band < largest_eccentricity_ratio)]
-        self.reaches.append(largest_eccentricity_ratio)
-        shares, turns = even_shares(STATES, 2)
-        lows = [0.0, *self.reaches[:-1]]
-        chi = np.concatenate(
-            [high - 0.5 * (high - low) * shares**2 for low, high in zip(lows, self.reaches, strict=True)]
-        )
-        half = STATES // 2
-        around = np.concatenate([TURN * turns[:half], _beside(grooves, turns[half:])])
-        theta = np.tile(around, len(self.reaches))
-        sense = np.tile([1.0, -1.0], len(chi) // 2)
-        self.e = chi * np.stack([np.cos(theta), np.sin(theta)])
-        self.w = sense * np.stack([np.sin(theta), -np.cos(theta)])
 
-    def bounds(self, table: GrooveMapTable, exact: Array) -> Array:
-        """Return the bounds of a map; see `GrooveMapTable`.
+def groove_bounds(table: GrooveMapTable, states: tuple[list[float], Array, Array], exact: Array) -> Array:
+    """Return the bounds of a map; see `GrooveMapTable`.
 
-        Parameters
-        ----------
-        table : GrooveMapTable
-        exact : ndarray, shape (13, n)
-            What `reference` and `bound_losses` return at all states.
-        """
-        kernel = GrooveMapKernel(
-            table.coefficients, table.reach, table.log_center, table.crowding, 0.0, table.slenderness
-        )
-        found = kernel.force(self.e, self.w).values, kernel.jacobian(self.e, self.w).values
-        errors = (
-            *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),
-            *loss_errors(table.loss_kernel(0.0), self.e, self.w, exact[10:]),
-        )
-        worst = (each.reshape(len(self.reaches), -1).max(axis=1) for each in errors)
-        return np.stack([self.reaches, *(MARGIN * each for each in worst)], axis=1)
+    Parameters
+    ----------
+    table : GrooveMapTable
+    states
+        Of `bound_states`.
+    exact : ndarray, shape (13, n)
+        What `reference` and `bound_losses` return at all states.
+    """
+    reaches, e, w = states
+    kernel = GrooveMapKernel(
+        table.coefficients, table.reach, table.log_center, table.crowding, 0.0, table.slenderness
+    )
+    found = kernel.force(e, w).values, kernel.jacobian(e, w).values
+    errors = (
+        *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),
+        *loss_errors(table.loss_kernel(0.0), e, w, exact[10:]),
+    )
+    worst = (each.reshape(len(reaches), -1).max(axis=1) for each in errors)
+    return np.stack([reaches, *(MARGIN * each for each in worst)], axis=1)
 
 
 def _beside(grooves: tuple[Groove, ...], shares: Array) -> Array:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,8 +19,7 @@ from ...native import GrooveMapKernel
 from ...native.loss_kernels import GrooveLossKernel
 from ..films.finite_volumes import are_counts, require_cells
 from ..films.geometry import STEPS, TURN, AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
-from ..films.kernel_film import KernelFilm
-from ..films.law import FilmLosses, kernel_losses, require_film, static_rate
+from ..films.law import FilmLosses, KernelFilm, kernel_losses, require_film, static_rate
 from ..films.map_table import cached_table, table_path, told
 from . import groove_map as groove_build
 from .groove_map import VERSION, GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
@@ -32,14 +30,6 @@ SAME = 2e-9
 
 GROOVED_RANGE = (0.05, 20.0)
 """Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
-
-
-class _Key(NamedTuple):
-    """What decides the content of a map."""
-
-    openings: AlignedOpenings
-    slenderness: float
-    resolution: Resolution
 
 
 @quantities
@@ -144,7 +134,7 @@ class GroovedMapFilm(KernelFilm):
 
     def loss_kernel(self, slenderness: float) -> GrooveLossKernel:
         """Return shear and flow of the map in compiled code; see `FilmOptions`."""
-        return _loss_kernel(self, float(slenderness))
+        return _kernels(self, float(slenderness))[1]
 
     def tabulated(self, slenderness: float) -> GroovedMapFilm:
         """Return this film with its table; see `FilmOptions`."""
@@ -176,37 +166,35 @@ class GroovedMapFilm(KernelFilm):
             return self.table
         key = self._key(slenderness)
         path = cache_path(*key)
-        telling = told(report, f"length/diameter {key.slenderness:.6g}", path.parent)
+        telling = told(report, f"length/diameter {key[1]:.6g}", path.parent)
         return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
 
     def making_time(self, slenderness: float) -> float:
         """Return about how long making the map takes on this machine [s]; 0 where it is there, or on disk."""
         if self.table is not None:
             return 0.0
-        key = self._key(slenderness)
-        return 0.0 if cache_path(*key).is_file() else expected_time(key.openings, key.resolution)
+        openings, rounded, resolution = self._key(slenderness)
+        made = cache_path(openings, rounded, resolution).is_file()
+        return 0.0 if made else expected_time(openings, resolution)
 
-    def _key(self, slenderness: float) -> _Key:
+    def _key(self, slenderness: float) -> tuple[AlignedOpenings, float, Resolution]:
+        """Return what decides the content of a map: openings, length/diameter and resolution."""
         # So that L/D = 1/3 and its nine digits share a map.
         rounded = float(f"{slenderness:.9g}")
         resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
-        return _Key(aligned_openings(self.geometry), rounded, resolution)
+        return aligned_openings(self.geometry), rounded, resolution
 
     def _kernel(self, slenderness: float) -> GrooveMapKernel:
-        return _kernel(self, float(slenderness))
+        return _kernels(self, float(slenderness))[0]
 
 
 @lru_cache(maxsize=64)
-def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
-    table = film.built_table(slenderness)
-    axis = aligned_openings(film.geometry).axis
+def _kernels(film: GroovedMapFilm, slenderness: float) -> tuple[GrooveMapKernel, GrooveLossKernel]:
+    """Return the compiled film of a bearing, and its losses."""
+    table, axis = film.built_table(slenderness), aligned_openings(film.geometry).axis
     numbers = table.crowding, axis, table.slenderness
-    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
-
-
-@lru_cache(maxsize=64)
-def _loss_kernel(film: GroovedMapFilm, slenderness: float) -> GrooveLossKernel:
-    return film.built_table(slenderness).loss_kernel(aligned_openings(film.geometry).axis)
+    film_kernel = GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
+    return film_kernel, table.loss_kernel(axis)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

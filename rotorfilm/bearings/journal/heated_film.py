@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,11 +21,26 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Readable
 from ..films.finite_volumes import require_cells
-from ..films.mass_conserving import Fluidity
-from ..oil import Cooling, Oil
+from ..films.mass_conserving import (
+    FILM,
+    ConservedFilm,
+    ConservedState,
+    Fluidity,
+    circular_gap,
+    conserved_cells,
+)
 from .bearing import FilmAtRest, JournalBearing
-from .energy_equation import AdiabaticWalls, Heating, HeatSolution, MeanTemperature, WallResponse, Walls
-from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells
+from .energy_equation import (
+    AdiabaticWalls,
+    FilmProfile,
+    Heating,
+    HeatSolution,
+    MeanTemperature,
+    WallResponse,
+    Walls,
+)
+from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells, film_weight, in_cells, through
+from .jfo_film import JFOFilm, jfo_state
 from .reynolds_film import ReynoldsFilm
 
 # Film and temperature solved in turn until both rest: what films with a field share (T2 and T3).
@@ -38,18 +54,7 @@ SETTLED, ONE_NODE = 1e-5, 2e-3
 """Largest relative change of force and power, and of position/clearance, of the last round then."""
 
 
-@runtime_checkable
-class FilmProfile(Protocol):
-    """What a film knows of the temperature across it: `MeanTemperature` or `LayeredTemperature`."""
-
-    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
-        """Return the shape of the temperature of some cells (N, M)."""
-
-    def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity flows."""
-
-    def warm(self, heating: Heating) -> HeatSolution:
-        """Return the temperature of a film."""
+State = TypeVar("State", bound="HeatedState")
 
 
 class HeatRounds:
@@ -69,7 +74,7 @@ class HeatRounds:
 
     def _require_heat(self) -> None:
         """Raise InputError where a field breaks its rule."""
-        oil_and_cooling(self.bearing)
+        _ = self.bearing.cooled
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
 
@@ -86,7 +91,18 @@ class HeatRounds:
     @property
     def supply_temperature(self) -> float:
         """Temperature of the fresh oil [K]."""
-        return oil_and_cooling(self.bearing)[1].supply_temperature
+        return self.bearing.cooled[1].supply_temperature
+
+    @property
+    def _volumetric_heat(self) -> float:
+        """Heat capacity of fresh oil per volume [J/(m^3 K)]."""
+        return float(self.bearing.cooled[0].volumetric_heat(self.supply_temperature))
+
+    @property
+    def _heat_unit(self) -> float:
+        """Heat flow [W/K] of oil that flows at 1/s in the units of the film, in both its halves."""
+        bearing = self.bearing
+        return self._volumetric_heat * bearing.clearance * bearing.radius * bearing.film_length
 
     @arguments
     def solve(self, position: ArrayLike, speed: float) -> HeatedState:
@@ -176,14 +192,56 @@ class HeatRounds:
 
     def _viscosity(self, temperature: Array) -> Array:
         """Return the viscosity over that of the bearing."""
-        return oil_and_cooling(self.bearing)[0].law.viscosity(temperature) / self.bearing.film_viscosity
+        return self.bearing.cooled[0].law.viscosity(temperature) / self.bearing.film_viscosity
+
+    def _state(
+        self,
+        state: type[State],
+        done: tuple[Array, float, HeatedState | None, Array, Any],
+        opening: np.ndarray,
+        flow: FilmFlow,
+        warm: HeatSolution,
+        pumped: float,
+        **seen: Any,
+    ) -> State:
+        """Return what a round has found, in SI units.
+
+        `done` is the journal's position and speed, the state before, the temperature of the viscosity and the
+        film; `pumped` the supply's power [W]; what the film says without its heat, and of a state of another
+        kind its own fields, are given by name.
+        """
+        position, speed, before, temperature, film = done
+        T_s, unit = self.supply_temperature, self._heat_unit
+        power = unit * warm.made - pumped
+        return state(
+            position=position,
+            speed=speed,
+            filled=flow.filled,
+            oil_temperature=T_s + warm.oil,
+            bush_temperature=None if warm.bush is None else T_s + warm.bush,
+            journal_temperature=None if warm.journal is None else T_s + warm.journal,
+            maximum_temperature=T_s + float(warm.oil[opening < 0].max()),
+            power_loss=power,
+            friction_torque=power / speed,
+            heat=HeatAccount(
+                made=unit * warm.made,
+                leaked=unit * warm.leaked,
+                drained=unit * warm.drained,
+                into_bush=unit * warm.to_bush,
+                into_journal=unit * warm.to_journal,
+            ),
+            film=film,
+            film_temperature=temperature,
+            rounds=1 if before is None else before.rounds + 1,
+            **seen,
+        )
 
     def _heating(
         self, opening: np.ndarray, flow: FilmFlow, speed: float, temperature: Array, closing: bool
     ) -> Heating:
         """Return what warms a film whose cells have a temperature and openings (N, M), walls left out."""
-        bearing, (oil, cooling) = self.bearing, oil_and_cooling(self.bearing)
-        per_gap = volumetric_heat(bearing) * bearing.clearance**2
+        bearing, (oil, cooling) = self.bearing, self.bearing.cooled
+        per_gap = self._volumetric_heat * bearing.clearance**2
         return Heating(
             opening=opening,
             flow=flow,
@@ -199,10 +257,10 @@ class HeatRounds:
 
     def _walls(self, start: Array, extent: Array) -> WallResponse | None:
         """Return the response of the walls of lines in the units of the heat equations; None without one."""
-        if self.walls.adiabatic:
-            return None
         found = self.walls.response(self.bearing.radius, start, extent)
-        unit = heat_unit(self.bearing)
+        if found is None:
+            return None
+        unit = self._heat_unit
         along = unit / self.bearing.film_length
         return found._replace(
             spread=along * found.spread,
@@ -293,7 +351,7 @@ class HeatedFilm(HeatRounds):
         """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
         e = np.asarray(position) / self.bearing.clearance
         film = self._frozen(e, np.broadcast_to(temperature, self._fresh().shape))
-        return fed_film(film, e, speed, full_gap=oil_and_cooling(self.bearing)[1].full_gap)[0]
+        return fed_film(film, e, speed, full_gap=self.bearing.cooled[1].full_gap)[0]
 
     def _shape(self) -> tuple[int, int]:
         return self._cells(np.zeros(2)).shape
@@ -301,29 +359,29 @@ class HeatedFilm(HeatRounds):
     def _round(
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedState:
-        bearing, e, rounds = self.bearing, position / self.bearing.clearance, 1
-        film, settled = self._frozen(e, temperature), False
-        if before is not None:
-            rounds, settled = before.rounds + 1, before.rounds >= FREE_ROUNDS
-            if settled:
-                empty = before.film.empty if film.cells.held.any() else _before_start(before)
-                film = replace(film, empty=empty)
-        full_gap = oil_and_cooling(bearing)[1].full_gap
+        bearing, e = self.bearing, position / self.bearing.clearance
+        film, settled = self._frozen(e, temperature), before is not None and before.rounds >= FREE_ROUNDS
+        if before is not None and settled:
+            empty = before.film.empty if film.cells.held.any() else _before_start(before)
+            film = replace(film, empty=empty)
+        full_gap = bearing.cooled[1].full_gap
         film, found, flow = fed_film(film, e, speed, full_gap=full_gap, settled=settled)
         cells = film.cells
         opening = np.broadcast_to(cells.opening[:, None], cells.shape)
         heating = self._heating(opening, flow, speed, temperature, closing)
         warm = self.profile.warm(heating._replace(walls=self._walls(cells.start, cells.extent)))
-        seen = FoundFilm(
+        return self._state(
+            HeatedState,
+            (position, speed, before, temperature, film),
+            opening,
+            flow,
+            warm,
+            bearing.force_scale * bearing.clearance * found.pumped(cells),
             force=bearing.force_scale * found.force(cells),
             angle=cells.theta % (2.0 * np.pi),
             axial=0.5 * bearing.length * np.append(0.0, np.cumsum(1.0 / cells.conductance)),
-            pressure=bearing.pressure_scale * np.pad(found.solution.pressure, ((0, 0), (0, 1))),
-            pumped=bearing.force_scale * bearing.clearance * found.pumped(cells),
+            pressure=bearing.pressure_scale * np.pad(found.pressure, ((0, 0), (0, 1))),
             side_flow=bearing.clearance * bearing.radius * bearing.length * flow.side_flow,
-        )
-        return heated_state(
-            bearing, HeatRound(position, speed, rounds, temperature, opening, film, seen, flow, warm)
         )
 
     def _cells(self, eccentricity: Array) -> FilmCells:
@@ -435,84 +493,204 @@ class HeatedState(FilmAtRest):
     rounds: int
 
 
-class FoundFilm(NamedTuple):
-    """What a film says without its heat, in units of `HeatedState`; `pumped` is the supply's power [W]."""
-
-    force: Array
-    angle: Array
-    axial: Array
-    pressure: Array
-    pumped: float
-    side_flow: float
+# A film that conserves its oil with its temperature over it, or over and across it (T2 and T3).
 
 
-class HeatRound(NamedTuple):
-    """One round of film and heat: the journal, the temperature of its viscosity, and what it found."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeatedJFOState(HeatedState):
+    """A film that conserves its oil with its temperature, for a journal at rest; `filled` is its oil content.
 
-    position: Array
-    speed: float
-    rounds: int
-    temperature: Array
-    opening: np.ndarray
-    film: Any
-    found: FoundFilm
-    flow: FilmFlow
-    warm: HeatSolution
+    Attributes
+    ----------
+    inflow, arriving : ndarray, shape (openings,) [m3/s]
+        Oil that leaves each opening for the film, and that arrives there, in the order of
+        `FilmGeometry.openings`; a circumferential groove is the last.
+    opening_temperature : ndarray, shape (openings,) [K]
+        Of what leaves it: the oil that arrives, as much as goes on, mixed with fresh oil.
+    drawn_in : float [m3/s]
+        Oil that enters through both ends, of the temperature of the supply.
+    """
 
-
-def oil_and_cooling(bearing: JournalBearing) -> tuple[Oil, Cooling]:
-    """Return oil and cooling of a bearing; InputError if one of them is not given."""
-    oil, cooling = bearing.oil, bearing.cooling
-    if oil is None or cooling is None:
-        raise InputError(f"oil and cooling must be given for a film that warms, got {oil!r} and {cooling!r}")
-    return oil, cooling
-
-
-def volumetric_heat(bearing: JournalBearing) -> float:
-    """Return the heat capacity of fresh oil per volume [J/(m^3 K)]."""
-    oil, cooling = oil_and_cooling(bearing)
-    return float(oil.volumetric_heat(cooling.supply_temperature))
+    inflow: Array
+    arriving: Array
+    opening_temperature: Array
+    drawn_in: float
 
 
-def heat_unit(bearing: JournalBearing) -> float:
-    """Return the heat flow [W/K] of oil that flows at 1/s in the units of the film, in both its halves."""
-    return volumetric_heat(bearing) * bearing.clearance * bearing.radius * bearing.film_length
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class HeatedJFOFilm(HeatRounds):
+    """The film of a `JFOFilm` with oil and cooling, its temperature a field.
+
+    As `HeatedFilm`, but the heat goes with the oil that the film conserves: through film and cavity, out of
+    the ends, and back to grooves, pockets and holes. There what arrives, less the share that the supply
+    replaces, mixes with the fresh oil that the balance of the opening asks for. An opening with a given flow
+    replaces none: all that arrives goes on with the oil of the pump.
+
+    Parameters
+    ----------
+    film : JFOFilm
+        Of a bearing with oil and cooling; of these it takes supply temperature and carry-over. What fills
+        the cavity is known, so that `full_gap` has no part.
+    walls : Walls
+        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
+    profile : FilmProfile
+        `MeanTemperature()`, or `LayeredTemperature(...)` for the temperature across the film too.
+
+    Raises
+    ------
+    InputError
+        If the bearing lacks oil or cooling, or another argument breaks its rule.
+
+    Examples
+    --------
+    >>> from rotorfilm import Cooling, Groove, Oil
+    >>> top = Groove(center="90 deg", width="20 deg", length="40 mm")
+    >>> size = dict(radius=0.05, length=0.05, clearance=75e-6)
+    >>> warm = dict(oil=Oil.iso_vg(46), cooling=Cooling(supply_temperature=318.15))
+    >>> bearing = JournalBearing(**size, **warm, grooves=(top,), supply_pressure=2e5)
+    >>> film = HeatedJFOFilm(film=JFOFilm(bearing=bearing, cells=(72, 8)))
+    >>> state = film.solve(position=[20e-6, -30e-6], speed=314.2)
+    >>> round(state.maximum_temperature - 273.15)
+    78
+    """
+
+    film: JFOFilm
+    walls: Walls = field(default_factory=AdiabaticWalls)
+    profile: FilmProfile = field(default_factory=MeanTemperature)
+
+    def __post_init__(self) -> None:
+        require_kind("film", self.film, JFOFilm, "a JFOFilm of a bearing with oil and cooling")
+        self._require_heat()
+
+    @property
+    def bearing(self) -> JournalBearing:
+        """The bearing of the film."""
+        return self.film.bearing
+
+    def cold(self) -> FrozenJFOFilm:
+        """Return the film of fresh oil."""
+        return self._frozen(self._fresh())
+
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenJFOFilm:
+        """Return the film of the viscosity at a temperature [K], the same at all positions and speeds."""
+        return self._frozen(np.broadcast_to(temperature, self._fresh().shape))
+
+    def _shape(self) -> tuple[int, int]:
+        lines, along = conserved_cells(self.bearing.geometry, *self.film.cells).opening.shape
+        return lines, along
+
+    def _round(
+        self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
+    ) -> HeatedJFOState:
+        bearing, frozen = self.bearing, self._frozen(temperature)
+        film = frozen.film
+        cells, start = film.cells, np.roll(film.cells.face, 1)
+        state = film.solve(circular_gap(cells, position / bearing.clearance), 0.5 * speed)
+        seen = jfo_state(frozen.bearing, film, state, position, frozen.cavitation_pressure)
+        (inflow, arriving), pumped = frozen.supplied(state)
+        flow = conserved_flow(film, state)
+        heating = self._heating(cells.opening, flow, speed, temperature, closing)
+        warm = self.profile.warm(
+            heating._replace(
+                walls=self._walls(start, cells.extent),
+                carry_over=None if self.film.supply_flow is not None else heating.carry_over,
+            )
+        )
+        return self._state(
+            HeatedJFOState,
+            (position, speed, before, temperature, frozen),
+            cells.opening,
+            flow,
+            warm,
+            pumped,
+            **{name: getattr(seen, name) for name in ("force", "angle", "axial", "pressure", "side_flow")},
+            inflow=inflow,
+            arriving=arriving,
+            opening_temperature=self.supply_temperature + warm.openings,
+            drawn_in=seen.drawn_in,
+        )
+
+    def _frozen(self, temperature: Array) -> FrozenJFOFilm:
+        """Return the film of the viscosity that oil has at a temperature."""
+        given = self.film
+        return FrozenJFOFilm(
+            bearing=given.bearing.at_temperature(self.supply_temperature),
+            cells=given.cells,
+            supply_flow=given.supply_flow,
+            cavitation_pressure=given.cavitation_pressure,
+            submerged=given.submerged,
+            fluidity=self.profile.fluidity(self._viscosity(temperature)),
+        )
 
 
-def heated_state(bearing: JournalBearing, done: HeatRound) -> HeatedState:
-    """Return what a round has found, in SI units."""
-    return HeatedState(**state_fields(bearing, done))
+# Where the oil of a film goes that conserves it: what `film_flow` has for Reynolds' rupture.
 
 
-def state_fields(bearing: JournalBearing, done: HeatRound) -> dict[str, Any]:
-    """Return the fields of the state that a round has found."""
-    found, warm = done.found, done.warm
-    T_s, unit = oil_and_cooling(bearing)[1].supply_temperature, heat_unit(bearing)
-    made = unit * warm.made
-    power = made - found.pumped
-    return {
-        "position": done.position,
-        "speed": done.speed,
-        "force": found.force,
-        "angle": found.angle,
-        "axial": found.axial,
-        "pressure": found.pressure,
-        "filled": done.flow.filled,
-        "oil_temperature": T_s + warm.oil,
-        "bush_temperature": None if warm.walls is None else T_s + warm.walls.bush,
-        "journal_temperature": None if warm.walls is None else T_s + warm.walls.journal,
-        "maximum_temperature": T_s + float(warm.oil[done.opening < 0].max()),
-        "power_loss": power,
-        "friction_torque": power / done.speed,
-        "side_flow": found.side_flow,
-        "heat": HeatAccount(
-            made=made,
-            leaked=unit * warm.leaked,
-            drained=unit * warm.drained,
-            into_bush=unit * warm.to_bush,
-            into_journal=unit * warm.to_journal,
-        ),
-        "film": done.film,
-        "film_temperature": done.temperature,
-        "rounds": done.rounds,
-    }
+def conserved_flow(film: ConservedFilm, state: ConservedState) -> FilmFlow:
+    """Return the flow of a steady film on N lines of M cells.
+
+    All oil is that of the film's own balance: what openings give, what comes back to them, what is drawn in.
+    The power of the pressure has in it what oil loses that strikes the start of a film, so that all of it is
+    that of the shaft and of the supply, to roundoff.
+    """
+    cells, equations, (P, theta, full, *_) = film.cells, state.equations, state.solution
+    opening = cells.opening != FILM
+    upstream = np.roll(theta, -1, axis=0) if equations.backward else theta
+    rise = np.roll(P, -1, axis=0) - P
+    dragged = equations.wedge * upstream * cells.width
+    pressed = -equations.around * rise * cells.width
+    axial = equations.along[:, None] * equations.conductance * film.falls(state)
+    axial[opening[:, -1], -1] = 0.0
+    central = equations.along * equations.center * (equations.center_pressure - P[:, 0])
+    from_groove = central if cells.grooved else None
+    entering, leaving = through(dragged + pressed, axial, from_groove)
+    weight = film_weight(full > 0, opening)
+    struck = equations.wedge * (1.0 - upstream) * rise * cells.width
+    power = in_cells(struck - pressed * rise, axial[:, :-1] * (P[:, :-1] - P[:, 1:]), weight)
+    power[:, -1] += axial[:, -1] * (P[:, -1] - equations.end_pressure)
+    power[:, 0] += central * (equations.center_pressure - P[:, 0])
+    climbing = state.gap.face[:, None] * rise * cells.width
+    return FilmFlow(
+        dragged=dragged,
+        pressed=pressed,
+        axial=axial,
+        entering=entering,
+        leaving=leaving,
+        filled=np.where(opening, 0.0, np.clip(theta, 0.0, 1.0)),
+        full=(full > 0) & ~opening,
+        shear=film.sheared_area(state),
+        dissipation=12.0 * power,
+        climb=in_cells(climbing, np.zeros((len(P), len(cells.width) - 1)), weight),
+        central=from_groove,
+    )
+
+
+# The film that conserves its oil with a given viscosity field: `JFOFilm` at frozen temperature.
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrozenJFOFilm(JFOFilm):
+    """A `JFOFilm` whose cells keep their viscosity: at rest, in vibration, and its losses.
+
+    `start`, `step` and `native`, and so `simulate` and `export_fmu`, refuse it: they know one viscosity.
+
+    Parameters
+    ----------
+    fluidity : Fluidity
+        Of the oil in each cell, over that of the bearing.
+    """
+
+    fluidity: Fluidity
+
+    @cached_property
+    def film(self) -> ConservedFilm:
+        """The film without dimensions; see `ConservedFilm`."""
+        return replace(super().film, fluidity=self.fluidity)
+
+    def at_temperature(self, temperature: float) -> NoReturn:
+        """Raise InputError: the temperature of each cell is given already."""
+        raise InputError(
+            f"temperature must not be set on a film of frozen temperature, got {temperature!r}: "
+            "take that of the JFOFilm"
+        )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Number
-from typing import Any, ClassVar, Protocol, Self, cast
+from typing import Any, ClassVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,122 +37,12 @@ from ..films.mass_conserving import (
 from ..films.mass_conserving_steps import FilmInMotion, OilNumbers, SteppedFilm, slow_motion, speed_slope
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
-from ..oil.heat_balance import FilmHeat, balance_temperature, fed_temperature, film_heat
+from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
 from ..reaction import ReducedCoefficients, coefficients_of
 from .bearing import FilmAtRest, JournalBearing, fitted_bearing
 from .reynolds_film import ReynoldsFilm
 
-# What a film that conserves its oil takes from the shaft, its flows at openings, the balance of its heat.
-
-
-class _Film(Protocol):
-    """What `JFOHeat` is mixed into: see `JFOFilm`."""
-
-    @property
-    def bearing(self) -> JournalBearing: ...
-
-    @property
-    def film(self) -> ConservedFilm: ...
-
-    @property
-    def supply_flow(self) -> float | None: ...
-
-    @property
-    def cavitation_pressure(self) -> float: ...
-
-    def at_temperature(self, temperature: float) -> Self: ...
-
-    def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses: ...
-
-    def _at_rest(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
-    ) -> tuple[Array, ConservedState]: ...
-
-
-class JFOHeat:
-    """Losses of a `JFOFilm`, and the temperature of the oil of its bearing."""
-
-    def losses(self: _Film, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
-        """Return power loss, torques and oil flow of a journal at rest, openings in the order of `inflow`.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        velocity : array_like, shape (2,) [m/s]
-            Not but 0.
-        speed : float [rad/s]
-
-        Raises
-        ------
-        InputError, FilmContactError, ConvergenceError
-            As `force`.
-        """
-        q, state = self._at_rest(position, velocity, speed)
-        return film_losses(self.bearing, self.film, state, q)
-
-    @property
-    def is_warming(self: _Film) -> bool:
-        """Whether the temperature of the film is left to the heat balance."""
-        return self.bearing.is_warming
-
-    @property
-    def cooled(self: _Film) -> tuple[Oil, Cooling]:
-        """Oil and cooling of its bearing; InputError if one of them is not given."""
-        return self.bearing.cooled
-
-    def coldest(self: _Film) -> float:
-        """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
-        return self.bearing.coldest()
-
-    def balanced(self) -> None:
-        """Return None: nothing has the temperature of the balance at every state."""
-        return
-
-    def in_time(self) -> None:
-        """Raise InputError: over time it has no temperature."""
-        raise InputError("film must be a law with a heat balance over time, as MapFilm, got JFOFilm")
-
-    def balanced_temperature(self: _Film, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
-        """Return the temperature at which the heat of the film balances at one state [K].
-
-        The oil that leaves, enters and comes back to the openings is what the film conserves.
-
-        Parameters and errors are those of `losses`.
-        """
-        oil, cooling = self.bearing.cooled
-
-        def heat(temperature: float) -> FilmHeat:
-            film = self.at_temperature(temperature)
-            found = film_heat(film.losses(position, velocity, speed), film.bearing.film_viscosity, cooling)
-            # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
-            return found if self.supply_flow is None else found._replace(flow=found.side_flow)
-
-        if self.bearing.supply_pressure == 0.0 and self.supply_flow is None and not self.cavitation_pressure:
-            return balance_temperature(heat(cooling.coldest), oil, cooling)
-        return fed_temperature(heat, oil, cooling)
-
-
-def film_losses(
-    bearing: JournalBearing, film: ConservedFilm, state: ConservedState, position: Array
-) -> BearingLosses:
-    """Return losses and flows of a steady film in SI units, those of a groove all round last.
-
-    The power is that of the shaft and what the pressure of the openings puts in; the torque on the bush
-    differs from that on the journal by the moment of the force.
-    """
-    speed, flow_unit = 2.0 * state.rate, bearing.clearance * bearing.radius * bearing.film_length
-    torque = bearing.force_scale * bearing.clearance * film.shear(state)
-    force = bearing.force_scale * film.force(state)
-    inflow, arriving = (flow_unit * flow for flow in opening_flows(film, state))
-    pressure = bearing.pressure_scale * (opening_pressure(film, state) - film.supply.end_pressure)
-    return BearingLosses(
-        power_loss=torque * speed + float(pressure @ (inflow - arriving)),
-        friction_torque=torque,
-        bush_torque=torque - float(position[0] * force[1] - position[1] * force[0]),
-        side_flow=flow_unit * film.flows(state).out,
-        inflow=inflow,
-        arriving=arriving,
-    )
+# What a film that conserves its oil takes from the shaft, and its flows at openings.
 
 
 def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
@@ -200,7 +90,7 @@ def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm(JFOHeat, SteppedFilm):
+class JFOFilm(SteppedFilm):
     """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
 
     Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
@@ -283,7 +173,18 @@ class JFOFilm(JFOHeat, SteppedFilm):
     @property
     def numbers(self) -> OilNumbers:
         """What its kernel has besides the film."""
-        return oil_numbers(self.bearing, self.supply_flow, self.cavitation_pressure)
+        bearing = self.bearing
+        # Openings that end in the bearing are at the supply.
+        supplied = np.array([span.share < 1.0 for span in bearing.geometry.openings()], dtype=bool)
+        pressed = self.supply_flow is None and (supplied.any() or bearing.geometry.circumferential)
+        return OilNumbers(
+            radius=bearing.radius,
+            viscosity=bearing.film_viscosity,
+            cavitation_pressure=self.cavitation_pressure,
+            supplied=supplied,
+            supply_pressure=bearing.supply_pressure if pressed else None,
+            supply_flow=self.supply_flow,
+        )
 
     @cached_property
     def film(self) -> ConservedFilm:
@@ -417,6 +318,88 @@ class JFOFilm(JFOHeat, SteppedFilm):
     def settled(self, found: Any) -> Any:
         """Return an equilibrium as it is."""
         return found
+
+    def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
+        """Return power loss, torques and oil flow of a journal at rest, openings in the order of `inflow`.
+
+        The power is that of the shaft and what the pressure of the openings puts in; the torque on the bush
+        differs from that on the journal by the moment of the force.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        velocity : array_like, shape (2,) [m/s]
+            Not but 0.
+        speed : float [rad/s]
+
+        Raises
+        ------
+        InputError, FilmContactError, ConvergenceError
+            As `force`.
+        """
+        q, state = self._at_rest(position, velocity, speed)
+        found = jfo_state(self.bearing, self.film, state, q, self.cavitation_pressure)
+        (inflow, arriving), pumped = self.supplied(state)
+        torque, force = found.friction_torque, found.force
+        return BearingLosses(
+            power_loss=found.power_loss + pumped,
+            friction_torque=torque,
+            bush_torque=torque - float(q[0] * force[1] - q[1] * force[0]),
+            side_flow=found.side_flow,
+            inflow=inflow,
+            arriving=arriving,
+        )
+
+    def supplied(self, state: ConservedState) -> tuple[tuple[Array, Array], float]:
+        """Return what leaves the openings and arrives there [m3/s], and what their pressure puts in [W].
+
+        The flows are in the order of `opening_flows`.
+        """
+        film, bearing, (_, volume) = self.film, self.bearing, self.scales
+        inflow, arriving = (volume * flow for flow in opening_flows(film, state))
+        pressure = bearing.pressure_scale * (opening_pressure(film, state) - film.supply.end_pressure)
+        return (inflow, arriving), float(pressure @ (inflow - arriving))
+
+    @property
+    def is_warming(self) -> bool:
+        """Whether the temperature of the film is left to the heat balance."""
+        return self.bearing.is_warming
+
+    @property
+    def cooled(self) -> tuple[Oil, Cooling]:
+        """Oil and cooling of its bearing; InputError if one of them is not given."""
+        return self.bearing.cooled
+
+    def coldest(self) -> float:
+        """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
+        return self.bearing.coldest()
+
+    def balanced(self) -> None:
+        """Return None: nothing has the temperature of the balance at every state."""
+        return
+
+    def in_time(self) -> None:
+        """Raise InputError: over time it has no temperature."""
+        raise InputError("film must be a law with a heat balance over time, as MapFilm, got JFOFilm")
+
+    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
+        """Return the temperature at which the heat of the film balances at one state [K].
+
+        The oil that leaves, enters and comes back to the openings is what the film conserves.
+
+        Parameters and errors are those of `losses`.
+        """
+        oil, cooling = self.bearing.cooled
+
+        def heat(temperature: float) -> FilmHeat:
+            film = self.at_temperature(temperature)
+            found = film_heat(film.losses(position, velocity, speed), film.bearing.film_viscosity, cooling)
+            # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
+            return found if self.supply_flow is None else found._replace(flow=found.side_flow)
+
+        if self.bearing.supply_pressure == 0.0 and self.supply_flow is None and not self.cavitation_pressure:
+            return balance_temperature(heat(cooling.coldest), oil, cooling)
+        return fed_temperature(heat, oil, cooling)
 
     @property
     def _per_length(self) -> float:
@@ -559,21 +542,6 @@ def oil_supply(
         flow=np.full(count, flow),
         end_pressure=end,
         center_pressure=end + geometry.supply,
-    )
-
-
-def oil_numbers(bearing: JournalBearing, supply_flow: float | None, cavitation_pressure: float) -> OilNumbers:
-    """Return what the kernel of a film has besides it; openings that end in the bearing are at the supply."""
-    geometry = bearing.geometry
-    supplied = np.array([span.share < 1.0 for span in geometry.openings()], dtype=bool)
-    pressed = supply_flow is None and (supplied.any() or geometry.circumferential)
-    return OilNumbers(
-        radius=bearing.radius,
-        viscosity=bearing.film_viscosity,
-        cavitation_pressure=cavitation_pressure,
-        supplied=supplied,
-        supply_pressure=bearing.supply_pressure if pressed else None,
-        supply_flow=supply_flow,
     )
 
 

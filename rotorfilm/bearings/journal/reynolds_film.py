@@ -30,8 +30,7 @@ from ..films.finite_volumes import (
     ring_spans,
 )
 from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmStart, FreeStart
-from ..films.kernel_film import KernelFilm
-from ..films.law import FilmLosses, gap_shear, plain_losses, require_film, static_rate
+from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 
 
 @quantities
@@ -280,7 +279,7 @@ class ShortFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow in closed form, with slopes; see `FilmOptions`."""
         require_film(e.reshape(2, -1))
-        return plain_losses(ShortLossKernel(), e, w)
+        return kernel_losses(ShortLossKernel(), e, w)
 
     def loss_kernel(self, slenderness: float) -> LossKernel:
         """Return shear and flow in compiled code."""

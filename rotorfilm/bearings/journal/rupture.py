@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
@@ -277,14 +277,78 @@ def ruptured_arc(
     """
     edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
     end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
-    slope = _slope(chi, turn, start, end, slenderness, basis)
+    _, by_end, by_start, by_chi, by_turn = _slope(chi, turn, start, end, slenderness, basis)
     free = end < start + TURN
-    safe = np.where(free, slope.by_end, 1.0)
-    end_chi = np.where(free, -slope.by_chi / safe, 0.0)
-    end_turn = np.where(free, -(slope.by_turn + slope.by_start * start_turn) / safe, start_turn)
-    end_start = np.where(free, -slope.by_start / safe, 1.0)
+    safe = np.where(free, by_end, 1.0)
+    end_chi = np.where(free, -by_chi / safe, 0.0)
+    end_turn = np.where(free, -(by_turn + by_start * start_turn) / safe, start_turn)
+    end_start = np.where(free, -by_start / safe, 1.0)
     still = np.zeros_like(chi)
     return FilmArc(start, end, still, end_chi, start_turn, end_turn, still - 1.0, -end_start)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class SlitArc:
+    """A film that starts at a feed slit fixed in the bearing, theta_1 of Sussi & Fridman (1978), (20).
+
+    It starts at gamma_1 = theta_1 - pi - phi from the line of maximum film, phi being the attitude of the
+    journal. The force then depends on the attitude, and its derivative by it has the term that the paper's
+    (31) lacks. The film goes from the slit in the sense of rotation.
+
+    Parameters
+    ----------
+    slit : float [rad]
+        Where the film starts, from the x axis toward y.
+    extent : float or None [rad]
+        Angle to a second slit where the film ends, from 0.001 to 2 pi, from the first toward y whatever the
+        rotation. None: the film ends where the pressure leaves with no slope, condition (38), as of
+        `ReynoldsArc`.
+
+    Raises
+    ------
+    InputError
+        If an angle is not a finite number or the extent is out of range.
+    """
+
+    slit: float
+    extent: float | None = None
+
+    def __post_init__(self) -> None:
+        require_number("slit", self.slit)
+        if self.extent is not None:
+            FixedArc(extent=self.extent)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the end depends on the direction of the source."""
+        return self.extent is None
+
+    def shortcoming(self, basis: Basis) -> str:
+        """Return a warning as `ReynoldsArc`, or as `FixedArc` between two slits."""
+        rule = ReynoldsArc() if self.extent is None else FixedArc(extent=self.extent)
+        return rule.shortcoming(basis)
+
+    def in_mirror(self) -> SlitArc:
+        """Return the arc in a mirror, y to -y."""
+        return replace(self, slit=-self.slit - (self.extent or 0.0))
+
+    def arc(
+        self, chi: Array, turn: Array, slenderness: float, basis: Basis, attitude: Array | float = 0.0
+    ) -> FilmArc:
+        """Return the ends of the film and their derivatives.
+
+        Raises
+        ------
+        ConvergenceError
+            If the slit lies where the source draws the film apart and no arc from there satisfies the
+            condition of its end.
+        """
+        start = np.mod(self.slit - math.pi - attitude + np.zeros_like(turn), 2.0 * math.pi)
+        still = np.zeros_like(start)
+        if self.extent is None:
+            return ruptured_arc(chi, turn, start, still, slenderness, basis)
+        return FilmArc(start, start + self.extent, still, still, still, still, still - 1.0, still - 1.0)
 
 
 def _measured(basis: Basis) -> str:
@@ -299,22 +363,12 @@ def _measured(basis: Basis) -> str:
     return f"{label} as with it, but single states up to four times the force"
 
 
-class EndSlope(NamedTuple):
-    """R = H^3 u' at the end of an arc and its derivatives, each of shape (B,)."""
-
-    value: Array
-    by_end: Array
-    by_start: Array
-    by_chi: Array
-    by_turn: Array
-
-
 def _rupture_angle(
     chi: Array, turn: Array, start: Array, edge: Array, slenderness: float, basis: Basis
 ) -> Array:
     """Return the end where R = 0, by Newton's method kept inside a shrinking bracket."""
 
-    def slope(which: Index, end: Array) -> EndSlope:
+    def slope(which: Index, end: Array) -> tuple[Array, ...]:
         return _slope(chi[which], turn[which], start[which], end, slenderness, basis)
 
     low, high = _bracket(slope, start, edge)
@@ -323,11 +377,11 @@ def _rupture_angle(
     for _ in range(ITERATIONS):
         if not live.size:
             return end
-        here, there = end[live], slope(live, end[live])
-        low[live] = np.where(there.value <= 0.0, here, low[live])
-        high[live] = np.where(there.value > 0.0, here, high[live])
+        here, (value, by_end, *_) = end[live], slope(live, end[live])
+        low[live] = np.where(value <= 0.0, here, low[live])
+        high[live] = np.where(value > 0.0, here, high[live])
         with np.errstate(divide="ignore", invalid="ignore"):
-            newton = here - there.value / there.by_end
+            newton = here - value / by_end
         inside = (newton >= low[live]) & (newton <= high[live])
         end[live] = np.where(inside, newton, 0.5 * (low[live] + high[live]))
         live = live[np.abs(end[live] - here) > STEP * np.maximum(1.0, np.abs(here))]
@@ -336,17 +390,19 @@ def _rupture_angle(
     )
 
 
-def _bracket(slope: Callable[[Index, Array], EndSlope], start: Array, edge: Array) -> tuple[Array, Array]:
+def _bracket(
+    slope: Callable[[Index, Array], tuple[Array, ...]], start: Array, edge: Array
+) -> tuple[Array, Array]:
     """Return ends between which R first rises through zero; both one turn past the start if it never does.
 
     The root lies past the edge of the half circle that drives pressure, but a basis that is too coarse for
     a narrow bearing may put it before.
     """
     every = np.arange(len(start))
-    before = slope(every, edge).value > 0.0
+    before = slope(every, edge)[0] > 0.0
     low, high = np.where(before, start + SHORTEST * (edge - start), edge), edge.copy()
     live = np.flatnonzero(before)
-    drawn = live[slope(live, low[live]).value > 0.0]
+    drawn = live[slope(live, low[live])[0] > 0.0]
     if drawn.size:
         raise ConvergenceError(
             "start must lie where the source drives pressure for an end with dp/dgamma = 0 to exist, "
@@ -358,13 +414,17 @@ def _bracket(slope: Callable[[Index, Array], EndSlope], start: Array, edge: Arra
         if not live.size:
             break
         high[live] = (edge + stage * stride)[live]
-        live = live[slope(live, high[live]).value <= 0.0]
+        live = live[slope(live, high[live])[0] <= 0.0]
         low[live] = high[live]
     return low, high
 
 
-def _slope(chi: Array, turn: Array, start: Array, end: Array, slenderness: float, basis: Basis) -> EndSlope:
-    """Return R and its derivatives in coordinates with M = 1, where b = (k^2 K + 1)^-1 <X g>.
+def _slope(
+    chi: Array, turn: Array, start: Array, end: Array, slenderness: float, basis: Basis
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Return R = H^3 u' at the end and its derivatives by end, start, chi and turn, (B,) each.
+
+    In coordinates with M = 1, where b = (k^2 K + 1)^-1 <X g>.
 
     The coordinates are held while differentiating; c = (k^2 K + 1)^-1 e, with e = S - <S>/<1> at the end.
     """
@@ -387,7 +447,7 @@ def _slope(chi: Array, turn: Array, start: Array, end: Array, slenderness: float
     X_b, S_b = (np.einsum("bxi,bi->bx", F, b) for F in (here.X, here.S))
     X_c, S_c = (np.einsum("bxi,bi->bx", F, c) for F in (here.X, here.S))
     change = X_c * (root * np.cos(angle) - X_b) - k2 * S_c * S_b - S_b * root / total[:, None]
-    return EndSlope(
+    return (
         value,
         _dot(b, X_end) + boundary(end, X_end, S_end),
         -boundary(start, X_start, S_start),
@@ -438,7 +498,7 @@ def film_nodes(chi: Array, start: Array, end: Array, count: int) -> FilmNodes:
     """
     m = (2.0 * chi / (1.0 + chi))[:, None]
     y1, y2 = ellipkinc(0.5 * start, m[:, 0]), ellipkinc(0.5 * end, m[:, 0])
-    abscissa, gauss = _gauss_legendre(count)
+    abscissa, gauss = gauss_legendre(count)
     half = 0.5 * (y2 - y1)[:, None]
     sn, cn, _, amplitude = ellipj(0.5 * (y1 + y2)[:, None] + half * abscissa, m)
     ratio = ((1.0 - chi) / (1.0 + chi))[:, None]
@@ -460,8 +520,18 @@ def quadrature_gram(chi: Array, start: Array, end: Array) -> tuple[Array, Array]
 
 
 @cache
-def _gauss_legendre(count: int) -> tuple[Array, Array]:
+def gauss_legendre(count: int) -> tuple[Array, Array]:
+    """Return the Gauss nodes in [-1, 1] and their weights, shape (count,) each."""
     return np.polynomial.legendre.leggauss(count)
+
+
+def integrated_legendre(x: Array, count: int) -> tuple[Array, Array]:
+    """Return `count` integrated Legendre polynomials, zero at -1 and 1, and their slopes, (N, count) each."""
+    legendre = np.polynomial.legendre.legvander(x, count + 1)
+    k = np.arange(1.0, count + 1.0)
+    norm = np.asarray(np.sqrt(k + 0.5))
+    value = np.asarray(norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0), dtype=float)
+    return value, np.asarray(norm * legendre[:, 1:-1], dtype=float)
 
 
 # Coupling functions of the splitting method and their integrals over the film's arc.
@@ -490,6 +560,8 @@ DEPENDENT = 1e-10
 class CouplingIntegrals(NamedTuple):
     """Integrals over one arc, batch axis first, in coordinates with M = 1.
 
+    Or those of the pair X = (sin, cos) as it is, whose source is M itself.
+
     Attributes
     ----------
     K : ndarray, shape (B, n, n)
@@ -498,7 +570,7 @@ class CouplingIntegrals(NamedTuple):
     M_turn, K_turn : ndarray, shape (B, n, n)
         Derivatives with respect to the direction of the source, which moves the ends only.
     source : ndarray, shape (B, n, 2)
-        Coordinates of (sin gamma, cos gamma).
+        <X_i (sin gamma, cos gamma)>.
     """
 
     K: Array
@@ -509,18 +581,7 @@ class CouplingIntegrals(NamedTuple):
     source: Array
 
 
-class PairIntegrals(NamedTuple):
-    """M and K of the pair (sin, cos) as they stand, with derivatives, each of shape (B, 2, 2)."""
-
-    M: Array
-    K: Array
-    M_chi: Array
-    K_chi: Array
-    M_turn: Array
-    K_turn: Array
-
-
-def pair_integrals(chi: Array, arc: FilmArc) -> PairIntegrals:
+def pair_integrals(chi: Array, arc: FilmArc) -> CouplingIntegrals:
     """Return M, K and their derivatives for X = (sin, cos), in closed form."""
     gram, gram_chi = arc_gram(chi, arc.start, arc.end)
     mean = gram[:, 0, :] / gram[:, :1, 0]
@@ -529,53 +590,38 @@ def pair_integrals(chi: Array, arc: FilmArc) -> PairIntegrals:
     centered[:, :, 0] -= mean @ ANTIDERIVATIVES.T
     transposed = centered.swapaxes(-1, -2)
     M_chi, K_chi = SIN_COS @ gram_chi @ SIN_COS.T, centered @ gram_chi @ transposed
-    M_turn, K_turn = np.zeros((2, len(chi), 2, 2))
-    for end in arc_ends(chi, arc):
-        functions = np.stack([np.ones_like(chi), 1.0 + np.cos(end.gamma), np.sin(end.gamma)], -1)
-        by_X = _outer(functions @ SIN_COS.T, end.weight)
-        by_S = _outer(np.einsum("bij,bj->bi", centered, functions), end.weight)
-        M_chi, K_chi = M_chi + end.by_chi * by_X, K_chi + end.by_chi * by_S
-        M_turn, K_turn = M_turn + end.by_turn * by_X, K_turn + end.by_turn * by_S
-    M, K = SIN_COS @ gram @ SIN_COS.T, centered @ gram @ transposed
-    return PairIntegrals(M, K, M_chi, K_chi, M_turn, K_turn)
+
+    def at(gamma: Array) -> tuple[Array, Array]:
+        functions = np.stack([np.ones_like(chi), 1.0 + np.cos(gamma), np.sin(gamma)], -1)
+        return functions @ SIN_COS.T, np.einsum("bij,bj->bi", centered, functions)
+
+    changes = _with_ends(chi, arc, at, M_chi, K_chi)
+    return CouplingIntegrals(centered @ gram @ transposed, *changes, SIN_COS @ gram @ SIN_COS.T)
 
 
-class ArcEnd(NamedTuple):
-    """One end of an arc: angle, H^-3 with the sign of an outward motion, and rates of shape (B, 1, 1)."""
-
-    gamma: Array
-    weight: Array
-    by_chi: Array
-    by_turn: Array
-
-
-def arc_ends(chi: Array, arc: FilmArc) -> tuple[ArcEnd, ArcEnd]:
-    """Return the first and the last end of an arc."""
-    ends = (
+def _with_ends(
+    chi: Array, arc: FilmArc, at: Callable[[Array], tuple[Array, Array]], M_chi: Array, K_chi: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Return M_chi, K_chi, M_turn, K_turn with what the ends of an arc add: X and S- are `at` an angle."""
+    M_turn, K_turn = np.zeros((2, *K_chi.shape))
+    for sign, gamma, chi_rate, turn_rate in (
         (-1.0, arc.start, arc.start_chi, arc.start_turn),
         (1.0, arc.end, arc.end_chi, arc.end_turn),
-    )
-    first, last = (
-        ArcEnd(
-            gamma,
-            sign * (1.0 + chi * np.cos(gamma)) ** -3.0,
-            by_chi[:, None, None],
-            by_turn[:, None, None],
-        )
-        for sign, gamma, by_chi, by_turn in ends
-    )
-    return first, last
+    ):
+        weight = sign * (1.0 + chi * np.cos(gamma)) ** -3.0
+        by_X, by_S = (_outer(functions, weight) for functions in at(gamma))
+        by_chi, by_turn = chi_rate[:, None, None], turn_rate[:, None, None]
+        M_chi, K_chi = M_chi + by_chi * by_X, K_chi + by_chi * by_S
+        M_turn, K_turn = M_turn + by_turn * by_X, K_turn + by_turn * by_S
+    return M_chi, K_chi, M_turn, K_turn
 
 
-def whitened(pair: PairIntegrals) -> CouplingIntegrals:
+def whitened(pair: CouplingIntegrals) -> CouplingIntegrals:
     """Return the integrals of a pair in coordinates in which M = 1."""
-    lower = np.asarray(np.linalg.cholesky(pair.M), dtype=np.float64)
+    lower = np.asarray(np.linalg.cholesky(pair.source), dtype=np.float64)
     inverse = np.linalg.inv(lower)
-    K, M_chi, K_chi, M_turn, K_turn = (
-        inverse @ matrix @ inverse.swapaxes(-1, -2)
-        for matrix in (pair.K, pair.M_chi, pair.K_chi, pair.M_turn, pair.K_turn)
-    )
-    return CouplingIntegrals(K, M_chi, K_chi, M_turn, K_turn, lower.swapaxes(-1, -2))
+    matrices = (inverse @ matrix @ inverse.swapaxes(-1, -2) for matrix in pair[:5])
+    return CouplingIntegrals(*matrices, lower.swapaxes(-1, -2))
 
 
 class WhitenedFunctions(NamedTuple):
@@ -658,13 +704,8 @@ def coupling_integrals(chi: Array, arc: FilmArc, basis: Basis) -> CouplingIntegr
     here = whitened_functions(chi, arc.start, arc.end, basis)
     X, S = here.X.swapaxes(-1, -2), here.S.swapaxes(-1, -2)
     K, M_chi, K_chi = S @ here.S, X @ (here.log_slope * here.X), S @ (here.log_slope * here.S)
-    M_turn, K_turn = np.zeros((2, *K.shape))
-    for end in arc_ends(chi, arc):
-        X_end, S_end = here.at(end.gamma, basis)
-        by_X, by_S = _outer(X_end, end.weight), _outer(S_end, end.weight)
-        M_chi, K_chi = M_chi + end.by_chi * by_X, K_chi + end.by_chi * by_S
-        M_turn, K_turn = M_turn + end.by_turn * by_X, K_turn + end.by_turn * by_S
-    return CouplingIntegrals(K, M_chi, K_chi, M_turn, K_turn, here.coordinates[:, :, :2])
+    changes = _with_ends(chi, arc, lambda gamma: here.at(gamma, basis), M_chi, K_chi)
+    return CouplingIntegrals(K, *changes, here.coordinates[:, :, :2])
 
 
 def _functions(half_sine: Array, half_cosine: Array, gamma: Array, basis: Basis) -> tuple[Array, Array]:
@@ -702,15 +743,8 @@ CLOSED_FORM_LIMIT = 0.9
 """Eccentricity ratio above which the closed form cancels on an arc that misses the minimum film."""
 
 
-class ArcGram(NamedTuple):
-    """Gram matrix over an arc and its chi-derivative at a fixed arc, each of shape (B, 3, 3)."""
-
-    gram: Array
-    gram_chi: Array
-
-
-def arc_gram(chi: Array, start: Array, end: Array) -> ArcGram:
-    """Return the Gram matrix of (1, w, sin), w = 1 + cos gamma, over [start, end].
+def arc_gram(chi: Array, start: Array, end: Array) -> tuple[Array, Array]:
+    """Return the Gram matrix of (1, w, sin), w = 1 + cos gamma, over [start, end], and its chi-derivative.
 
     Parameters
     ----------
@@ -724,7 +758,7 @@ def arc_gram(chi: Array, start: Array, end: Array) -> ArcGram:
     misses = (chi > CLOSED_FORM_LIMIT) & (to_minimum >= end - start)
     if np.any(misses):
         gram[misses], gram_chi[misses] = quadrature_gram(chi[misses], start[misses], end[misses])
-    return ArcGram(gram, gram_chi)
+    return gram, gram_chi
 
 
 # Closed arc integrals of the products of (1, 1 + cos gamma, sin gamma) over H^3.

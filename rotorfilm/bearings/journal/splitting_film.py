@@ -15,7 +15,6 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,18 +23,18 @@ from ...core.errors import InputError, ValidityWarning, require_kind, warn_user
 from ...core.inputs import quantities
 from ...core.model import Array
 from ..films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
-from .complementarity import gauss_weights, trial_functions
+from .complementarity import trial_functions
 from .rupture import (
     Basis,
     CouplingIntegrals,
     FilmArc,
     FilmNodes,
     FixedArc,
-    PairIntegrals,
     Rupture,
     attitude_of,
     coupling_integrals,
     film_nodes,
+    gauss_legendre,
     pair_integrals,
     whitened,
 )
@@ -170,19 +169,20 @@ def galerkin_response(integrals: CouplingIntegrals, axial: AxialSum) -> PolarRes
     )
 
 
-def first_order_response(pair: PairIntegrals, axial: AxialSum) -> PolarResponse:
+def first_order_response(pair: CouplingIntegrals, axial: AxialSum) -> PolarResponse:
     """Return A = (K_11, K_21)^T phi(lambda)/lambda (1, M_12/M_11), lambda = K_11/M_11, and its derivatives.
 
     With the single function sin gamma the source enters only through <sin g>, so A has rank one.
     """
-    ratio = pair.K[:, 0, 0] / pair.M[:, 0, 0]
+    M = pair.source
+    ratio = pair.K[:, 0, 0] / M[:, 0, 0]
     gain = axial.value(ratio) / ratio
     gain_slope = (axial.slope(ratio) - gain) / ratio
-    column, row = pair.K[:, :, 0], pair.M[:, 0, :] / pair.M[:, :1, 0]
+    column, row = pair.K[:, :, 0], M[:, 0, :] / M[:, :1, 0]
 
     def change(dM: Array, dK: Array) -> Array:
-        d_ratio = (dK[:, 0, 0] - ratio * dM[:, 0, 0]) / pair.M[:, 0, 0]
-        d_row = (dM[:, 0, :] - row * dM[:, :1, 0]) / pair.M[:, :1, 0]
+        d_ratio = (dK[:, 0, 0] - ratio * dM[:, 0, 0]) / M[:, 0, 0]
+        d_row = (dM[:, 0, :] - row * dM[:, :1, 0]) / M[:, :1, 0]
         by_gain = _dyad(gain_slope * d_ratio, column, row)
         return by_gain + _dyad(gain, dK[:, :, 0], row) + _dyad(gain, column, d_row)
 
@@ -378,7 +378,7 @@ def spectral_response(
     """
     dgamma = nodes.weight[0] * nodes.film[0] ** 3
     f, slope = trial_functions(degree, nodes.gamma.shape[1])
-    slope = slope * (gauss_weights(nodes.gamma.shape[1]) / dgamma)[:, None]
+    slope = slope * (gauss_legendre(nodes.gamma.shape[1])[1] / dgamma)[:, None]
     sine, cosine = 2.0 * nodes.half_sine[0] * nodes.half_cosine[0], nodes.cosine[0]
     f, slope = _balanced(f, slope, nodes.film[0], chi * sine)
     heft = (dgamma * nodes.film[0] ** 3)[:, None]
@@ -443,19 +443,6 @@ COALESCENCE = 1e-5
 """Relative gap below which a divided difference is taken as the derivative at the midpoint."""
 
 
-class AxialSum(Protocol):
-    """A function phi of lambda with its derivative and its first divided difference."""
-
-    def value(self, ratio: Array) -> Array:
-        """Return phi(ratio)."""
-
-    def slope(self, ratio: Array) -> Array:
-        """Return d phi / d ratio."""
-
-    def divided(self, ratio: Array) -> Array:
-        """Return phi[lambda_i, lambda_j] of ratios (B, n), shape (B, n, n)."""
-
-
 class FiniteAxialSum:
     """The sum over the first `modes` odd axial modes."""
 
@@ -508,6 +495,10 @@ class FullAxialSum:
         value = self.value(ratio)
         rise = value[:, :, None] - value[:, None, :]
         return np.where(close, self.slope(middle), rise / np.where(close, 1.0, gap))
+
+
+AxialSum = FiniteAxialSum | FullAxialSum
+"""A function phi of lambda with its derivative and its first divided difference."""
 
 
 def axial_sum(modes: int | None, slenderness: float) -> AxialSum:

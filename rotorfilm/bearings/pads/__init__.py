@@ -10,8 +10,8 @@ if TYPE_CHECKING:
         SETS,
         Lobe as Lobe,
         LobedBearing as LobedBearing,
-        LobeShare,
         lobe_set as lobe_set,
+        lobe_share,
     )
     from .pad_bearing import PadBearing as PadBearing
     from .pad_build import PadResolution
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
         PressureDamBearing as PressureDamBearing,
         Recess as Recess,
         RecessedPad as RecessedPad,
-        RecessedPads as RecessedPads,
         pressure_dam_pads as pressure_dam_pads,
     )
     from .tilting_bearing import (
@@ -35,7 +34,8 @@ if TYPE_CHECKING:
         TiltedPads as TiltedPads,
         TiltingPadBearing as TiltingPadBearing,
         TiltingPadsAtRest,
+        differenced_slopes,
+        even_pivots as even_pivots,
     )
-    from .tilting_pads import TiltingPads as TiltingPads, differenced_slopes, even_pivots as even_pivots
 else:
     show(__name__)

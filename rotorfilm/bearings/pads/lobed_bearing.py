@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,12 +25,12 @@ from ...native import JournalKernel, Status
 from ...native.film_kernels import LobesKernel
 from ...native.spec import NativeSpec, journal_spec
 from ..films.geometry import TURN
-from ..films.kernel_film import BoundKernel
+from ..films.law import BoundKernel
 from ..films.map_fit import matrix_sizes
 from ..reaction import FilmReaction, broadcast_state
-from .pad_bearing import SPEED, PadBearing, PadSlopes, PadUnderJournal, heat_slopes_of_pads, losses_of_pads
+from .pad_bearing import SPEED, WEDGE, PadBearing, PadUnderJournal, heat_slopes_of_pads, losses_of_pads
 from .pad_build import DIRECTIONS, FLOOR
-from .pad_film import PadFilm, PadMapFilm, film_for_preload, require_pad_film, warn_beyond_map
+from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
 from .pad_table import LossyPadFilm
 
 # A fixed pad with a center of curvature of its own, and the usual sets of them by name.
@@ -40,14 +39,14 @@ from .pad_table import LossyPadFilm
 DEGREE = math.pi / 180.0
 
 
+@dataclass(frozen=True, kw_only=True)
 class OwnCenter:
-    """An arc about a center of curvature of its own; the fields are those of a subclass."""
+    """An arc about a center of curvature of its own; see `Lobe`."""
 
-    if TYPE_CHECKING:
-        start: float
-        extent: float
-        preload: float
-        offset: float
+    start: float
+    extent: float
+    preload: float = 0.0
+    offset: float = 0.5
 
     def _require_curve(self) -> None:
         if not 0.0 <= require_number("preload", self.preload) < 1.0:
@@ -92,11 +91,6 @@ class Lobe(OwnCenter):
         If an argument breaks its rule.
     """
 
-    start: float
-    extent: float
-    preload: float = 0.0
-    offset: float = 0.5
-
     def __post_init__(self) -> None:
         require_each(self, require_finite, "start", "extent")
         if not 0.0 < self.extent < math.pi:
@@ -117,23 +111,17 @@ class Lobe(OwnCenter):
         return np.asarray(1.0 - along * np.cos(place) - across * np.sin(place))
 
 
-class _Set(NamedTuple):
-    """Equal lobes all round: their number, the angle of the middle of the first, and the usual shape."""
-
-    number: int
-    first: float
-    extent: float
-    offset: float
-
-
 SETS = {
-    "elliptical": _Set(2, 90.0 * DEGREE, 160.0 * DEGREE, 0.5),
-    "three_lobe": _Set(3, 90.0 * DEGREE, 100.0 * DEGREE, 0.5),
-    "four_lobe": _Set(4, 0.0, 75.0 * DEGREE, 0.5),
-    "offset_halves": _Set(2, 90.0 * DEGREE, 160.0 * DEGREE, 1.0),
-    "tapered_land": _Set(3, 90.0 * DEGREE, 100.0 * DEGREE, 1.0),
+    "elliptical": (2, 90.0 * DEGREE, 160.0 * DEGREE, 0.5),
+    "three_lobe": (3, 90.0 * DEGREE, 100.0 * DEGREE, 0.5),
+    "four_lobe": (4, 0.0, 75.0 * DEGREE, 0.5),
+    "offset_halves": (2, 90.0 * DEGREE, 160.0 * DEGREE, 1.0),
+    "tapered_land": (3, 90.0 * DEGREE, 100.0 * DEGREE, 1.0),
 }
-"""The usual sets of lobes; for a load along -y, those of an elliptical bearing take it on a pad."""
+"""The usual sets of equal lobes all round: their number, the middle of the first, extent [rad] and offset.
+
+For a load along -y, those of an elliptical bearing take it on a pad.
+"""
 
 PRELOAD = 0.5
 """Of the usual sets, unless another is said."""
@@ -177,13 +165,13 @@ def lobe_set(
     """
     if name not in SETS:
         raise InputError(f"name of a set of lobes must be one of {sorted(SETS)}, got {name!r}")
-    usual = SETS[name]
-    arc = usual.extent if extent is None else extent
-    share = usual.offset if offset is None else offset
-    step = TURN / usual.number
-    first = usual.first + turned - 0.5 * arc
+    number, middle, usual_extent, usual_offset = SETS[name]
+    arc = usual_extent if extent is None else extent
+    share = usual_offset if offset is None else offset
+    first = middle + turned - 0.5 * arc
     lobes = tuple(
-        Lobe(start=first + k * step, extent=arc, preload=preload, offset=share) for k in range(usual.number)
+        Lobe(start=first + k * (TURN / number), extent=arc, preload=preload, offset=share)
+        for k in range(number)
     )
     require_apart(lobes)
     return lobes
@@ -199,10 +187,6 @@ def require_apart(lobes: tuple[Lobe, ...]) -> None:
 
 
 # The bearing of fixed pads, each about a center of curvature of its own, in SI units.
-
-
-_WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
-"""-z^ x, which makes the wedge of an eccentricity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,8 +266,8 @@ class LobedBearing(FilmReaction, PadBearing):
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
         super().__post_init__()
-        object.__setattr__(self, "film", film_for_preload(self.film, self.preloads))
-        require_pad_film(self.film, self.extents, self.slenderness)
+        film = fitted_pad_film(self.film, self.preloads, self.extents, self.slenderness)
+        object.__setattr__(self, "film", film)
 
     @property
     def preloads(self) -> tuple[float, ...]:
@@ -332,30 +316,27 @@ class LobedBearing(FilmReaction, PadBearing):
             return None
         state = broadcast_state(position, velocity, speed)
         self.bound_film.force(*state)  # raises where the journal touches
-        pads = [self._under(lobe, *state).pad for lobe in self.lobes]
+        pads = [self._under(lobe, *state) for lobe in self.lobes]
         return losses_of_pads(self, self.film, pads, state, full_gap=self.full_gap(full_gap))
 
     def _under(
         self, lobe: Lobe, position: Array, velocity: Array, speed: Array, *, slopes: bool = False
-    ) -> PadSlopes:
+    ) -> PadUnderJournal:
         """Return a lobe and the journal on it and, of one state, its slopes if asked for."""
         c, scale, turns = self.clearance, self.force_scale, 0.5 * speed.ravel()
         pad = PadUnderJournal(lobe.extent, lobe.middle, np.empty(0), np.empty(0))
         back = pad.turning.T
         e = back @ (position.reshape(2, -1) / c - np.array(lobe.center)[:, None])
-        w = back @ velocity.reshape(2, -1) / c + turns * (_WEDGE @ e)
+        w = back @ velocity.reshape(2, -1) / c + turns * (WEDGE @ e)
         film = self.film.kernel(lobe.extent, self.slenderness)
         pad = pad._replace(eccentricity=e, force=scale * film.force(e, w).values)
         if not slopes:
-            return PadSlopes(pad, np.empty(0), np.empty(0))
+            return pad
         none = np.zeros((2, 1))
         de = np.hstack([back / c, np.zeros((2, 3))])
-        dw = np.hstack([turns * _WEDGE @ back / c, back / c, none]) + 0.5 * np.outer(_WEDGE @ e, SPEED)
+        dw = np.hstack([turns * WEDGE @ back / c, back / c, none]) + 0.5 * np.outer(WEDGE @ e, SPEED)
         by = scale * film.jacobian(e, w).values[..., 0]
-        return PadSlopes(pad, de, by[:, :2] @ de + by[:, 2:] @ dw)
-
-    def film_at_unit_viscosity(self) -> None:
-        """Return no film for the loops in C over warm films, which know one film only."""
+        return pad._replace(eccentricity_slopes=de, force_slopes=by[:, :2] @ de + by[:, 2:] @ dw)
 
     def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
@@ -385,46 +366,41 @@ class LobedBearing(FilmReaction, PadBearing):
             kernel = self.film.table(extent, self.slenderness).kernel()
             tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
         rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
-        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
-        dimensions = {**lengths, "viscosity": self.film_viscosity}
-        return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
+        return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, self.dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
-        """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
-        if not isinstance(self.film, PadMapFilm):
-            return self
-        tables = tuple(self.film.table(extent, self.slenderness) for extent in dict.fromkeys(self.extents))
-        return replace(self, film=replace(self.film, tables=tables))
+        """Return this bearing with a film that carries the maps it needs; see `model.Reaction`."""
+        return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
 
 
 # What the verified bounds of the maps of single pads leave open of a bearing of fixed ones at rest.
 
 
-class LobeShare:
-    """What the bound of the map of one pad leaves open at rest: of its force [N], stiffness, damping.
+def lobe_share(
+    bearing: LobedBearing, film: PadMapFilm, lobe: Lobe, position: Array, speed: float
+) -> tuple[float, float, float]:
+    """Return what the bound of the map of one pad leaves open at rest: of its force [N], stiffness, damping.
 
     The bounds are relative to force and matrices, or to `FLOOR` of their largest values over all directions.
     """
-
-    def __init__(
-        self, bearing: LobedBearing, film: PadMapFilm, lobe: Lobe, position: Array, speed: float
-    ) -> None:
-        table = film.table(lobe.extent, bearing.slenderness)
-        kernel, c, half = table.kernel(), bearing.clearance, 0.5 * speed
-        cos, sin = math.cos(lobe.middle), math.sin(lobe.middle)
-        e = np.array([[cos, sin], [-sin, cos]]) @ (position / c - np.array(lobe.center))
-        w = half * np.array([e[1], -e[0]])
-        size = float(np.hypot(*w))
-        angle = np.append(np.arctan2(w[1], w[0]), (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS)
-        places = np.repeat(e[:, None], angle.size, axis=1)
-        around = np.stack([np.cos(angle), np.sin(angle)])
-        forces = size * np.hypot(*kernel.force(places, around).values)
-        # The slopes in the place are of degree one in the source, those in the source of degree zero.
-        by_e, by_w = matrix_sizes(kernel.jacobian(places, around).values) * np.array([[size], [1.0]])
-        own, by_e, by_w = (max(each[0], FLOOR * each.max()) for each in (forces, by_e, by_w))
-        least = float(lobe.least_film(position / c))
-        open_force, open_slopes = (table.bound(least, slopes=each) for each in (False, True))
-        scale = bearing.force_scale
-        self.force = open_force * scale * own
-        self.stiffness = open_slopes * scale / c * (by_e + abs(half) * by_w)
-        self.damping = open_slopes * scale / c * by_w
+    table = film.table(lobe.extent, bearing.slenderness)
+    kernel, c, half = table.kernel(), bearing.clearance, 0.5 * speed
+    cos, sin = math.cos(lobe.middle), math.sin(lobe.middle)
+    e = np.array([[cos, sin], [-sin, cos]]) @ (position / c - np.array(lobe.center))
+    w = half * np.array([e[1], -e[0]])
+    size = float(np.hypot(*w))
+    angle = np.append(np.arctan2(w[1], w[0]), (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS)
+    places = np.repeat(e[:, None], angle.size, axis=1)
+    around = np.stack([np.cos(angle), np.sin(angle)])
+    forces = size * np.hypot(*kernel.force(places, around).values)
+    # The slopes in the place are of degree one in the source, those in the source of degree zero.
+    by_e, by_w = matrix_sizes(kernel.jacobian(places, around).values) * np.array([[size], [1.0]])
+    own, by_e, by_w = (max(each[0], FLOOR * each.max()) for each in (forces, by_e, by_w))
+    least = float(lobe.least_film(position / c))
+    open_force, open_slopes = (table.bound(least, slopes=each) for each in (False, True))
+    scale = bearing.force_scale
+    return (
+        open_force * scale * own,
+        open_slopes * scale / c * (by_e + abs(half) * by_w),
+        open_slopes * scale / c * by_w,
+    )

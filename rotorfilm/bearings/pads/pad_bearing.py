@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, cast
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import InputError, require_each, require_positive
 from ...core.model import Array
 from ...core.results import BearingLosses
 from ..films.geometry import TURN
 from ..oil import Cooling, Oil
-from ..oil.heat_balance import flow_slopes, require_lubricant
-from ..oil.heated_bearing import WarmBearing
+from ..oil.heated_bearing import WarmBearing, flow_slopes, require_lubricant
 from .pad_table import LossyPadFilm, PadFlows, gap_shear_of_pad, gap_slopes_of_pad
 
 _ROUNDOFF = 5e-14
@@ -105,13 +104,31 @@ class PadBearing(WarmBearing):
         return self.assembled_clearance / (1.0 - self.preloads[0])
 
     @property
+    def dimensions(self) -> dict[str, float]:
+        """Radius, length, clearance of a pad [m] and viscosity [Pa s], for compiled bearings."""
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        return {**lengths, "viscosity": self.film_viscosity}
+
+    @property
     def bore_clearance(self) -> float:
         """Clearance c_b of the assembled bearing [m], that of the pads with most preload."""
         return self.clearance * (1.0 - max(self.preloads))
 
+    def film_at_unit_viscosity(self) -> None:
+        """Return no film for the loops in C over warm films, which know one film only."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Raise InputError: of pads, the heat of lobes alone has slopes."""
+        kind = type(self).__name__
+        raise InputError(f"bearing must have slopes of its heat, as a LobedBearing, got a {kind}")
+
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff leaves of the force [N], as pads press each other; see `NoisyReaction`."""
+        """Return what roundoff leaves of the force [N], as pads press each other; see `model.Reaction`."""
         return _ROUNDOFF * self.force_scale * abs(speed)
+
+
+WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
+"""-z^ x, which makes the wedge of an eccentricity."""
 
 
 # Power loss, torques and oil flow of a bearing made of pads, from shear and flow of each.
@@ -130,12 +147,16 @@ class PadUnderJournal(NamedTuple):
         Journal from the pad's center of curvature, in clearances of the pad.
     force : ndarray, shape (2, n) [N]
         Of its film on the journal.
+    eccentricity_slopes, force_slopes : ndarray, shape (2, 5), or None [1/m ...], [N/m ...]
+        Derivatives of both by x, y, vx, vy, speed, of one state, n = 1; None where they are not asked for.
     """
 
     extent: float
     middle: float
     eccentricity: Array
     force: Array
+    eccentricity_slopes: Array | None = None
+    force_slopes: Array | None = None
 
     @property
     def start(self) -> float:
@@ -147,33 +168,6 @@ class PadUnderJournal(NamedTuple):
         """Matrix (2, 2) from its frame to that of the bearing."""
         c, s = np.cos(self.middle), np.sin(self.middle)
         return np.array([[c, -s], [s, c]])
-
-
-class Placed(Protocol):
-    """A pad by its place."""
-
-    @property
-    def start(self) -> float:
-        """Angle of its first end [rad]."""
-
-
-class BearingFlow(NamedTuple):
-    """What the films of all pads do at n states.
-
-    Attributes
-    ----------
-    drag : ndarray, shape (n,) [N m]
-        Torque on the journal.
-    force : ndarray, shape (2, n) [N]
-        On the journal.
-    into, out : ndarray, shape (pads, n) [1/s]
-        Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
-    """
-
-    drag: Array
-    force: Array
-    into: Array
-    out: Array
 
 
 def losses_of_pads(
@@ -218,20 +212,40 @@ def losses_of_pads(
         drag += per_shear * shear + 0.5 * bearing.clearance * cross(pad.eccentricity, pad.force)
         force += pad.turning @ pad.force
     into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
-    return collected_losses(bearing, pads, BearingFlow(drag, force, into, out), state)
+    starts = [pad.start for pad in pads]
+    return collected_losses(bearing, starts, drag, force, (into, out), state)
 
 
 def collected_losses(
-    bearing: PadBearing, pads: Sequence[Placed], flow: BearingFlow, state: tuple[Array, Array, Array]
+    bearing: PadBearing,
+    starts: Sequence[float],
+    drag: Array,
+    force: Array,
+    flows: tuple[Array, Array],
+    state: tuple[Array, Array, Array],
 ) -> BearingLosses:
-    """Return the losses of a bearing from what the films of its pads do; see `losses_of_pads`."""
+    """Return the losses of a bearing from what the films of its pads do at n states; see `losses_of_pads`.
+
+    Parameters
+    ----------
+    bearing : PadBearing
+    starts : sequence of float [rad]
+        Angles of the first ends of the pads.
+    drag : ndarray, shape (n,) [N m]
+        Torque on the journal.
+    force : ndarray, shape (2, n) [N]
+        On the journal.
+    flows : (ndarray, ndarray), shape (pads, n) [1/s]
+        Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
+    state
+        As of `losses_of_pads`.
+    """
     position, velocity, speed = state
     shape, omega = speed.shape, speed.ravel()
-    drag, force, into, out = flow
     q, v = position.reshape(2, -1), velocity.reshape(2, -1)
     unit = bearing.clearance * bearing.radius * bearing.length
     inflow, arriving = (
-        unit * rows.reshape(len(pads), *shape) for rows in behind_pads(pads, into, out, omega >= 0.0)
+        unit * rows.reshape(len(starts), *shape) for rows in behind_pads(starts, *flows, omega >= 0.0)
     )
     return BearingLosses(
         power_loss=_number(drag * omega - (force * v).sum(axis=0), shape),
@@ -251,14 +265,14 @@ def flows_of_pads(
     for extent in dict.fromkeys(pad.extent for pad in pads):
         alike = [k for k, pad in enumerate(pads) if pad.extent == extent]
         e = np.concatenate([pads[k].eccentricity for k in alike], axis=1)
-        together = film.losses(extent, slenderness).at(e, np.tile(rate, len(alike)))
+        together = film.losses(extent, slenderness)(e, np.tile(rate, len(alike)))
         parts = [np.split(row, len(alike), axis=-1) for row in together if row is not None]
         found |= {k: PadFlows(*(part[number] for part in parts)) for number, k in enumerate(alike)}
     return [found[k] for k in range(len(pads))]
 
 
 def behind_pads(
-    pads: Sequence[Placed], into: Array, out: Array, forward: NDArray[np.bool_]
+    starts: Sequence[float], into: Array, out: Array, forward: NDArray[np.bool_]
 ) -> tuple[Array, Array]:
     """Return what leaves each opening and what arrives there, from what enters pads and leaves their ends.
 
@@ -266,14 +280,14 @@ def behind_pads(
 
     Parameters
     ----------
-    pads : sequence of Placed
+    starts : sequence of float [rad]
+        Angles of the first ends of the pads.
     into, out : ndarray, shape (pads, ...)
     forward : ndarray of bool
         Whether oil runs in the sense of +theta.
     """
-    starts = [pad.start % TURN for pad in pads]
-    order = sorted(range(len(pads)), key=starts.__getitem__)
-    following = np.empty(len(pads), dtype=int)
+    order = np.argsort([start % TURN for start in starts], kind="stable")
+    following = np.empty(len(starts), dtype=int)
     following[order] = np.roll(order, -1)
     return np.where(forward, into[following], into), np.where(forward, out, out[following])
 
@@ -295,26 +309,10 @@ SPEED = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
 """Derivative of the speed by the state x, y, vx, vy, speed."""
 
 
-class PadSlopes(NamedTuple):
-    """A pad under a journal in one state, and what of it moves with the state.
-
-    Attributes
-    ----------
-    pad : PadUnderJournal
-        One state, n = 1.
-    eccentricity, force : ndarray, shape (2, 5) [1/m ...], [N/m ...]
-        Derivatives by x, y, vx, vy, speed in the frame of its middle.
-    """
-
-    pad: PadUnderJournal
-    eccentricity: Array
-    force: Array
-
-
 def heat_slopes_of_pads(
     bearing: PadBearing,
     film: LossyPadFilm,
-    pads: Sequence[PadSlopes],
+    pads: Sequence[PadUnderJournal],
     state: tuple[Array, Array, float],
     cooling: Cooling,
 ) -> Array:
@@ -333,12 +331,12 @@ def heat_slopes_of_pads(
         If the film law has no slopes of its losses.
     """
     _, velocity, speed = state
-    places = [one.pad for one in pads]
-    flows = flows_of_pads(film, bearing.slenderness, places, np.array([0.5 * speed]))
+    flows = flows_of_pads(film, bearing.slenderness, pads, np.array([0.5 * speed]))
     per_shear = bearing.film_viscosity * bearing.radius**3 * bearing.length / bearing.clearance
     torque, by_state, force, by_force = 0.0, np.zeros(5), np.zeros(2), np.zeros((2, 5))
     into, out = np.zeros((2, len(pads), 5))
-    for k, ((pad, de, dF), of) in enumerate(zip(pads, flows, strict=True)):
+    for k, (pad, of) in enumerate(zip(pads, flows, strict=True)):
+        de, dF = cast(Array, pad.eccentricity_slopes), cast(Array, pad.force_slopes)
         if of.slopes is None:
             raise InputError(f"film must have slopes of its losses, as PadMapFilm, got {film!r}")
         slopes = of.slopes[:, :, 0]
@@ -358,8 +356,8 @@ def heat_slopes_of_pads(
     unit = bearing.clearance * bearing.radius * bearing.length
     forward = np.array(speed >= 0.0)
     entering = np.stack([of.inflow[0] for of in flows]), np.stack([of.arriving[0] for of in flows])
-    rates = behind_pads(places, *entering, forward)
-    slopes_behind = behind_pads(places, into, out, forward)
+    starts = [pad.start for pad in pads]
+    rates, slopes_behind = behind_pads(starts, *entering, forward), behind_pads(starts, into, out, forward)
     side = unit * (slopes_behind[0] - slopes_behind[1]).sum(axis=0)
     by_flows = flow_slopes(*rates, cooling.carry_over)
     replaced = sum(by @ slopes for by, slopes in zip(by_flows, slopes_behind, strict=True))

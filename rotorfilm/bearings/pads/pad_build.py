@@ -26,11 +26,11 @@ from ..films.finite_volumes import (
 )
 from ..films.geometry import TURN, Complementarity, FilmGeometry, Pad
 from ..films.map_fit import (
-    BATCH,
     MARGIN,
+    batches,
     cores,
     even_shares,
-    made_pieces,
+    made_groups,
     matrix_sizes,
     quintic_coefficients,
     state_errors,
@@ -204,21 +204,25 @@ def _rotation(angle: float) -> Array:
     return np.array([[c, -s], [s, c]])
 
 
-class _PadSolver:
-    """M of one pad for angles of the source above 0, phi [rad], ascending."""
+def pad_exponents(
+    extent: float, slenderness: float, cells: tuple[int, int], phi: Array
+) -> Callable[[Array], Array]:
+    """Return a function of a place e: M of one pad and its derivatives by e there, (3, D).
 
-    def __init__(self, extent: float, slenderness: float, cells: tuple[int, int], phi: Array) -> None:
-        films = [seen_film(extent, slenderness, cells, angle) for angle in phi.tolist()]
-        whole = sum(film.turn == 0.0 for film in films)
-        self._parts = [(films[0], phi[:whole])] if whole else []
-        self._parts += [(films[k], phi[k : k + 1]) for k in range(whole, len(films))]
-        self._vanishing = 5.0 * np.log(np.cos(phi) + np.sin(0.5 * extent))
+    The angles of the source, phi [rad], are above 0 and ascend.
+    """
+    films = [seen_film(extent, slenderness, cells, angle) for angle in phi.tolist()]
+    whole = sum(film.turn == 0.0 for film in films)
+    parts = [(films[0], phi[:whole])] if whole else []
+    parts += [(films[k], phi[k : k + 1]) for k in range(whole, len(films))]
+    vanishing = 5.0 * np.log(np.cos(phi) + np.sin(0.5 * extent))
 
-    def exponents(self, e: Array) -> Array:
-        """Return M and its derivatives by e at a place, (3, D)."""
-        found = np.concatenate([film.levels(e, phi) for film, phi in self._parts], axis=1)
-        found[0] -= self._vanishing
+    def exponents(e: Array) -> Array:
+        found = np.concatenate([film.levels(e, angles) for film, angles in parts], axis=1)
+        found[0] -= vanishing
         return found
+
+    return exponents
 
 
 def build_pad_table(
@@ -244,16 +248,13 @@ def build_pad_table(
         If the search for a ruptured zone does not end.
     """
     *counts, count_phi = resolution.nodes
-    solver = _PadSolver(
-        extent, slenderness, resolution.cells, node_angles(extent, count_phi)[count_phi // 2 :]
-    )
+    angles = node_angles(extent, count_phi)[count_phi // 2 :]
+    exponents = pad_exponents(extent, slenderness, resolution.cells, angles)
     states = pad_states(extent, resolution.u_range, resolution.y_end)
-    nodes = [partial(solver.exponents, e) for e in node_places(extent, *resolution.places).reshape(2, -1).T]
+    nodes = [partial(exponents, e) for e in node_places(extent, *resolution.places).reshape(2, -1).T]
     checks = _checks(extent, slenderness, resolution.cells, states)
     columns, loss_checks = _loss_pieces(extent, slenderness, resolution.cells)
-    pieces: list[Sequence[Callable[[], Array]]] = [nodes, checks, columns, loss_checks]
-    answers = iter(made_pieces([one for group in pieces for one in group], report, TITLE))
-    levels, exact, losses, exact_losses = ([next(answers) for _ in group] for group in pieces)
+    levels, exact, losses, exact_losses = made_groups((nodes, checks, columns, loss_checks), report, TITLE)
     half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
     coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
     for axis in range(3):
@@ -299,9 +300,7 @@ def _loss_pieces(
     finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]))
     places = [loss_places(extent, column) for column in range(LOSS_CELLS[1])]
     columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
-    e, rate = loss_states(extent)
-    parts = [slice(k, k + BATCH) for k in range(0, len(rate), BATCH)]
-    return columns, [partial(grid_losses, finer, e[:, part], rate[part]) for part in parts]
+    return columns, [partial(grid_losses, finer, *some) for some in batches(*loss_states(extent))]
 
 
 def _checks(
@@ -309,10 +308,7 @@ def _checks(
 ) -> list[Callable[[], Array]]:
     """Return the pieces of work, in the order of the states, that solve them on twice the cells."""
     finer = 2 * cells[0], 2 * cells[1]
-    return [
-        partial(_solved, extent, slenderness, finer, states.e[:, k : k + BATCH], states.phi[k : k + BATCH])
-        for k in range(0, len(states.phi), BATCH)
-    ]
+    return [partial(_solved, extent, slenderness, finer, *some) for some in batches(states.e, states.phi)]
 
 
 def _solved(extent: float, slenderness: float, cells: tuple[int, int], e: Array, phi: Array) -> Array:
@@ -410,7 +406,7 @@ def loss_errors_of_pad(table: PadMapTable, e: Array, rate: Array, exact: Array) 
     exact : ndarray, shape (3, n)
         What `pad_losses.grid_losses` returns of them.
     """
-    found = np.stack(table.loss_map().at(e, rate)[:3])
+    found = np.stack(table.flows(e, rate)[:3])
     shear, *flows = np.abs(found - exact)
     return np.stack([shear / exact[0], np.max(flows, axis=0)])
 

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial
 from pathlib import Path
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from ...core.errors import InputError, require_kind, require_number, warn_user
 from ...core.inputs import quantities
+from ...core.model import Array
 from ...core.progress import Report, silent
 from ...core.sources import source_digest
 from ...native.film_kernels import FilmKernel
 from ...native.pad_kernels import PadMapKernel
 from ..films.finite_volumes import require_cells
-from ..films.kernel_film import continued
+from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
 from . import pad_build
 from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
-from .pad_table import VERSION, PadGridLosses, PadLossMap, PadMapTable
+from .pad_table import VERSION, PadFlows, PadMapTable, grid_flows
 
 SAME = 2e-9
 """Relative difference of extent and length/diameter below which a map is that of a pad."""
@@ -68,10 +69,13 @@ class PadMapFilm:
         Cells and nodes of the map.
     tables : tuple of PadMapTable
         Maps that are there already: for pads of these shapes nothing is built nor looked for.
+    much_preload : bool
+        Set by the bearing: whether a pad has a preload above 0.5, for which the default map is another one.
     """
 
     resolution: PadResolution = FINE
     tables: tuple[PadMapTable, ...] = ()
+    much_preload: bool = field(default=False, repr=False)
 
     def table(self, extent: float, slenderness: float, report: Report = silent) -> PadMapTable:
         """Return the map of a pad: a given one, the one on disk, or a new one, which is then kept.
@@ -90,7 +94,7 @@ class PadMapFilm:
         InputError
             If an argument breaks its rule.
         """
-        return self._given(extent, slenderness) or pad_table(extent, slenderness, self.resolution, report)
+        return self._given(extent, slenderness) or pad_table(extent, slenderness, self.own_resolution, report)
 
     def require_shape(self, extent: float, slenderness: float) -> None:
         """Raise InputError where there can be no map of pads of an extent [rad] and length/diameter."""
@@ -104,27 +108,28 @@ class PadMapFilm:
                 return table
         return None
 
-    def losses(self, extent: float, slenderness: float) -> PadLossMap:
+    @property
+    def own_resolution(self) -> PadResolution:
+        """Cells and nodes of the map of these pads; the default ones go by their preload."""
+        return NEAR if self.much_preload and self.resolution == FINE else self.resolution
+
+    def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest from its maps; see `LossyPadFilm`."""
-        return _loss_map(self, float(extent), float(slenderness))
+        return _kept(self, float(extent), float(slenderness))[0].flows
 
     def making_time(self, extent: float, slenderness: float) -> float:
         """Return about how long making the map of a pad takes [s]; 0 where it is on disk."""
-        return making_time(extent, slenderness, self.resolution)
+        return making_time(extent, slenderness, self.own_resolution)
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
-        return _map_kernel(self, float(extent), float(slenderness))
+        return _kept(self, float(extent), float(slenderness))[1]
 
 
 @lru_cache(maxsize=64)
-def _map_kernel(film: PadMapFilm, extent: float, slenderness: float) -> FilmKernel:
-    return film.table(extent, slenderness).kernel()
-
-
-@lru_cache(maxsize=64)
-def _loss_map(film: PadMapFilm, extent: float, slenderness: float) -> PadLossMap:
-    return film.table(extent, slenderness).loss_map()
+def _kept(film: PadMapFilm, extent: float, slenderness: float) -> tuple[PadMapTable, PadMapKernel]:
+    table = film.table(extent, slenderness)
+    return table, table.kernel()
 
 
 @quantities
@@ -155,26 +160,38 @@ class PadGridFilm:
         """Return the compiled film of a pad; see `PadFilm`."""
         return pad_grid(extent, slenderness, self.cells)
 
-    def losses(self, extent: float, slenderness: float) -> PadGridLosses:
+    def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest; see `LossyPadFilm`."""
-        return PadGridLosses(pad_grid(extent, slenderness, self.cells))
+        return partial(grid_flows, pad_grid(extent, slenderness, self.cells))
 
 
-def film_for_preload(film: PadFilm, preloads: Iterable[float]) -> PadFilm:
-    """Return a film; in place of the default map that of `NEAR` where a pad has much preload.
+def fitted_pad_film(
+    film: PadFilm, preloads: Sequence[float], extents: Sequence[float], slenderness: float
+) -> PadFilm:
+    """Return a film law for pads of these preloads, extents [rad] and length/diameter.
 
-    The range of a map is in clearances of a pad, of which the assembled clearance is a small part then.
+    The range of a map is in clearances of a pad, of which the assembled clearance is a small part where a pad
+    has much preload: there the default map goes on to thinner films. What is default stays so, that pads of
+    another preload choose anew.
+
+    Raises
+    ------
+    InputError
+        If `film` is no film law of such pads.
     """
-    much = max(preloads) > MUCH_PRELOAD
-    return PadMapFilm(resolution=NEAR) if much and film == PadMapFilm() else film
-
-
-def require_pad_film(film: PadFilm, extents: Iterable[float], slenderness: float) -> None:
-    """Raise InputError unless `film` is a film law of pads of these extents [rad] and length/diameter."""
     require_kind("film", film, PadFilm, "a film law of pads, as PadMapFilm()")
-    if isinstance(film, PadMapFilm):
-        for extent in extents:
-            film.require_shape(extent, slenderness)
+    if not isinstance(film, PadMapFilm):
+        return film
+    for extent in extents:
+        film.require_shape(extent, slenderness)
+    return replace(film, much_preload=max(preloads) > MUCH_PRELOAD)
+
+
+def with_pad_tables(film: PadFilm, extents: Sequence[float], slenderness: float) -> PadFilm:
+    """Return a film law that carries the maps of pads of these extents [rad]; see `model.Reaction`."""
+    if not isinstance(film, PadMapFilm):
+        return film
+    return replace(film, tables=tuple(film.table(extent, slenderness) for extent in dict.fromkeys(extents)))
 
 
 def warn_beyond_map(least_films: Iterable[float], kernel: FilmKernel) -> None:
@@ -199,19 +216,6 @@ DIGITS = 9
 """Of extent and length/diameter, so that pads of one shape share a map."""
 
 
-class _Shape(NamedTuple):
-    """What decides the content of a map."""
-
-    extent: float
-    slenderness: float
-    resolution: PadResolution
-
-    @property
-    def path(self) -> Path:
-        """Where the map lies; the name is a digest of all that decides its content."""
-        return table_path("pad", (VERSION, source_digest(pad_build.__name__), *self))
-
-
 def is_pad_mappable(extent: float, slenderness: float) -> bool:
     """Return whether there can be a map of pads of an extent [rad] and length/diameter."""
     return EXTENTS[0] <= extent <= EXTENTS[1] and SLENDERNESSES[0] <= slenderness <= SLENDERNESSES[1]
@@ -227,19 +231,19 @@ def require_mappable(extent: float, slenderness: float) -> None:
             raise InputError(f"{name} must be {low} to {high} for a map of a pad, got {value!r}")
 
 
-def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Shape:
+Shape = tuple[float, float, PadResolution]
+"""Extent, length/diameter and resolution: what decides the content of a map."""
+
+
+def _map_file(extent: float, slenderness: float, resolution: PadResolution) -> tuple[Shape, Path]:
+    """Return the shape of a map, and where it lies; the name is a digest of all that decides its content."""
     require_mappable(extent, slenderness)
-    return _Shape(_rounded(extent), _rounded(slenderness), resolution.checked())
+    shape = _rounded(extent), _rounded(slenderness), resolution.checked()
+    return shape, table_path("pad", (VERSION, source_digest(pad_build.__name__), *shape))
 
 
 def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
-
-
-@lru_cache(maxsize=64)
-def pad_map_kernel(extent: float, slenderness: float, resolution: PadResolution = FINE) -> PadMapKernel:
-    """Return the compiled film on one pad in its own frame from its map; the arguments are of `pad_table`."""
-    return pad_table(extent, slenderness, resolution).kernel()
 
 
 def pad_table(
@@ -267,12 +271,12 @@ def pad_table(
     InputError
         If an argument breaks its rule.
     """
-    shape = _shape(extent, slenderness, resolution)
-    of = f"{shape.extent:.6g} rad, length/diameter {shape.slenderness:.6g}"
-    telling = told(report, of, shape.path.parent)
-    return cached_table(PadMapTable, shape.path, lambda: build_pad_table(*shape, telling))
+    shape, path = _map_file(extent, slenderness, resolution)
+    telling = told(report, f"{shape[0]:.6g} rad, length/diameter {shape[1]:.6g}", path.parent)
+    return cached_table(PadMapTable, path, lambda: build_pad_table(*shape, telling))
 
 
 def making_time(extent: float, slenderness: float, resolution: PadResolution = FINE) -> float:
     """Return about how long making the map takes on this machine [s]; 0 where it is on disk."""
-    return 0.0 if _shape(extent, slenderness, resolution).path.is_file() else expected_time(resolution)
+    _, path = _map_file(extent, slenderness, resolution)
+    return 0.0 if path.is_file() else expected_time(resolution)

@@ -13,6 +13,7 @@ Beside it are shear and flow of the film (`pad_losses.py`).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol, Self, runtime_checkable
 
@@ -118,9 +119,9 @@ class PadMapTable(StoredTable):
         errors = self.bounds[self.bounds[:, 0] <= least_film, column]
         return float(errors[0]) if len(errors) else np.inf
 
-    def loss_map(self) -> PadLossMap:
-        """Return shear and flow of the pad under journals at rest."""
-        return PadLossMap(self.losses, self.extent)
+    def flows(self, eccentricity: Array, rate: Array) -> PadFlows:
+        """Return shear and flow of the pad under journals at rest; see `LossyPadFilm`."""
+        return map_flows(self.losses, self.extent, eccentricity, rate)
 
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
@@ -221,102 +222,76 @@ class PadFlows(NamedTuple):
     slopes: Array | None = None
 
 
-class PadLosses(Protocol):
-    """Shear and flow of the films on pads of one shape."""
-
-    def at(self, eccentricity: Array, rate: Array) -> PadFlows:
-        """Return those at eccentricities (2, n) for oil that runs at the rates (n,) [1/s]."""
-
-
 @runtime_checkable
 class LossyPadFilm(Protocol):
     """A film law of pads that knows shear and flow, as `PadMapFilm` and `PadGridFilm` do."""
 
-    def losses(self, extent: float, slenderness: float) -> PadLosses:
-        """Return shear and flow of pads of this extent [rad] and length/diameter."""
+    def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
+        """Return shear and flow of pads of this extent [rad] and length/diameter, under journals at rest.
+
+        It is a function of eccentricities (2, n) and of the rates (n,) [1/s] at which the oil runs.
+        """
 
 
-@dataclass(frozen=True, eq=False)
-class PadLossMap:
-    """Shear and flow of pads of one shape from their maps.
+def map_flows(coefficients: Array, extent: float, eccentricity: Array, rate: Array) -> PadFlows:
+    """Return shear and flow of pads of one extent [rad] from their maps, with slopes; see `LossyPadFilm`.
 
-    Parameters
-    ----------
-    coefficients : ndarray, shape (3, cells over X + 5, cells over theta)
-        Quintic B-spline coefficients; over theta those centered on the nodes.
-    extent : float [rad]
-        Angle that a pad covers.
+    The quintic B-spline coefficients, (3, cells over X + 5, cells over theta), are over theta those centered
+    on the nodes.
     """
-
-    coefficients: Array
-    extent: float
-
-    def at(self, eccentricity: Array, rate: Array) -> PadFlows:
-        """Return shear and flow with slopes; see `PadLosses`."""
-        sense = np.where(rate < 0.0, -1.0, 1.0)
-        e = eccentricity * np.stack([np.ones_like(sense), sense])
-        values, by_e = self._forward(e)
-        by_e[:, 1] *= sense
-        size = np.stack([np.ones_like(sense), np.abs(rate), np.abs(rate)])
-        by_rate = np.stack([np.zeros_like(sense), sense * values[1], sense * values[2]])
-        slopes = np.concatenate([size[:, None] * by_e, by_rate[:, None]], axis=1)
-        shear, into, out = size * values
-        return PadFlows(shear, into, out, slopes)
-
-    def _forward(self, e: Array) -> tuple[Array, Array]:
-        """Return shear and flows of oil that runs forward at 1/s, (3, n), and slopes by e, (3, 2, n)."""
-        theta, chi = np.arctan2(e[1], e[0]), np.hypot(*e)
-        reach, reach_slope = loss_reach(theta, self.extent)
-        x = np.minimum(chi / reach, LARGEST)
-        within = chi < LARGEST * reach
-        values, by_x, by_theta = self._splines(x, theta)
-        by_x *= within
-        # On the arc the film goes on to the wall.
-        place = np.where(np.abs(theta) <= 0.5 * self.extent, np.minimum(chi, 1.0 - 1e-12), x)
-        moves = within | (place > x)
-        gap = (1.0 - place) * (1.0 + place)
-        values[0] /= np.sqrt(gap)
-        by_x[0] = by_x[0] / np.sqrt(gap) + values[0] * place / gap * moves
-        by_theta[0] /= np.sqrt(gap)
-        by_chi = by_x / reach
-        around = (by_theta - by_x * x * reach_slope / reach) / np.maximum(chi, NEAR)
-        c, s = np.cos(theta), np.sin(theta)
-        return values, np.stack([by_chi * c - around * s, by_chi * s + around * c], axis=1)
-
-    def _splines(self, x: Array, theta: Array) -> tuple[Array, Array, Array]:
-        """Return the splines, (3, n), and their derivatives by x and theta."""
-        cells_x, count = self.coefficients.shape[1] - 5, self.coefficients.shape[2]
-        end = stretch(LARGEST)
-        u = np.minimum(stretch(x) / end * cells_x, cells_x * (1.0 - 1e-15))
-        cell, v = np.divmod(np.stack([u, theta / TURN % 1.0 * count]), 1.0)
-        rows = cell[0].astype(int) + np.arange(6)[:, None]
-        columns = (cell[1].astype(int) + np.arange(-2, 4)[:, None]) % count
-        near = self.coefficients[:, rows[:, None], columns[None]]
-        weights = [(spline_weights(each), spline_slopes(each)) for each in v]
-        (by_u, slope_u), (by_v, slope_v) = weights
-        per_x = cells_x / end * (1.0 - 0.5 * x * x) / ((1.0 - x) * (1.0 + x)) ** 1.25
-        sums = [(by_u, by_v), (slope_u * per_x, by_v), (by_u, slope_v * (count / TURN))]
-        values, by_x, by_theta = (np.einsum("in,jn,kijn->kn", *pair, near) for pair in sums)
-        return values, by_x, by_theta
+    sense = np.where(rate < 0.0, -1.0, 1.0)
+    e = eccentricity * np.stack([np.ones_like(sense), sense])
+    values, by_e = _forward(coefficients, extent, e)
+    by_e[:, 1] *= sense
+    size = np.stack([np.ones_like(sense), np.abs(rate), np.abs(rate)])
+    by_rate = np.stack([np.zeros_like(sense), sense * values[1], sense * values[2]])
+    slopes = np.concatenate([size[:, None] * by_e, by_rate[:, None]], axis=1)
+    shear, into, out = size * values
+    return PadFlows(shear, into, out, slopes)
 
 
-@dataclass(frozen=True)
-class PadGridLosses:
-    """Shear and flow of pads of one shape from their two-dimensional film.
+def _forward(coefficients: Array, extent: float, e: Array) -> tuple[Array, Array]:
+    """Return shear and flows of oil that runs forward at 1/s, (3, n), and slopes by e, (3, 2, n)."""
+    theta, chi = np.arctan2(e[1], e[0]), np.hypot(*e)
+    reach, reach_slope = loss_reach(theta, extent)
+    x = np.minimum(chi / reach, LARGEST)
+    within = chi < LARGEST * reach
+    values, by_x, by_theta = _splines(coefficients, x, theta)
+    by_x *= within
+    # On the arc the film goes on to the wall.
+    place = np.where(np.abs(theta) <= 0.5 * extent, np.minimum(chi, 1.0 - 1e-12), x)
+    moves = within | (place > x)
+    gap = (1.0 - place) * (1.0 + place)
+    values[0] /= np.sqrt(gap)
+    by_x[0] = by_x[0] / np.sqrt(gap) + values[0] * place / gap * moves
+    by_theta[0] /= np.sqrt(gap)
+    by_chi = by_x / reach
+    around = (by_theta - by_x * x * reach_slope / reach) / np.maximum(chi, NEAR)
+    c, s = np.cos(theta), np.sin(theta)
+    return values, np.stack([by_chi * c - around * s, by_chi * s + around * c], axis=1)
 
-    Parameters
-    ----------
-    film : RingKernel
-        Of such a pad in its own frame.
-    """
 
-    film: RingKernel
+def _splines(coefficients: Array, x: Array, theta: Array) -> tuple[Array, Array, Array]:
+    """Return the splines, (3, n), and their derivatives by x and theta."""
+    cells_x, count = coefficients.shape[1] - 5, coefficients.shape[2]
+    end = stretch(LARGEST)
+    u = np.minimum(stretch(x) / end * cells_x, cells_x * (1.0 - 1e-15))
+    cell, v = np.divmod(np.stack([u, theta / TURN % 1.0 * count]), 1.0)
+    rows = cell[0].astype(int) + np.arange(6)[:, None]
+    columns = (cell[1].astype(int) + np.arange(-2, 4)[:, None]) % count
+    near = coefficients[:, rows[:, None], columns[None]]
+    weights = [(spline_weights(each), spline_slopes(each)) for each in v]
+    (by_u, slope_u), (by_v, slope_v) = weights
+    per_x = cells_x / end * (1.0 - 0.5 * x * x) / ((1.0 - x) * (1.0 + x)) ** 1.25
+    sums = [(by_u, by_v), (slope_u * per_x, by_v), (by_u, slope_v * (count / TURN))]
+    values, by_x, by_theta = (np.einsum("in,jn,kijn->kn", *pair, near) for pair in sums)
+    return values, by_x, by_theta
 
-    def at(self, eccentricity: Array, rate: Array) -> PadFlows:
-        """Return shear and flow; see `PadLosses`."""
-        sense = np.where(rate < 0.0, -1.0, 1.0)
-        found = grid_losses(self.film, eccentricity, sense)
-        return PadFlows(found[0], np.abs(rate) * found[1], np.abs(rate) * found[2])
+
+def grid_flows(film: RingKernel, eccentricity: Array, rate: Array) -> PadFlows:
+    """Return shear and flow of pads of one shape from their two-dimensional film; see `LossyPadFilm`."""
+    shear, into, out = grid_losses(film, eccentricity, np.where(rate < 0.0, -1.0, 1.0))
+    return PadFlows(shear, np.abs(rate) * into, np.abs(rate) * out)
 
 
 def grid_losses(film: RingKernel, e: Array, rate: Array) -> Array:

@@ -35,7 +35,7 @@ from ..films.finite_volumes import are_counts
 from ..films.geometry import TURN, FilmGeometry, Pad
 from ..reaction import KernelReaction, broadcast_state
 from .lobed_bearing import OwnCenter
-from .pad_bearing import BearingFlow, PadBearing, collected_losses, cross
+from .pad_bearing import PadBearing, collected_losses, cross
 
 # A fixed pad with its own center of curvature, and a recess in it.
 
@@ -105,10 +105,6 @@ class RecessedPad(OwnCenter):
         If a number breaks its rule, or the recess leaves the pad.
     """
 
-    start: float
-    extent: float
-    preload: float = 0.0
-    offset: float = 0.5
     recess: Recess | None = None
 
     def __post_init__(self) -> None:
@@ -150,17 +146,26 @@ class RecessedPad(OwnCenter):
         return angle
 
 
-# Bearings of pads with recesses by their numbers: geometry, clearances, and the compiled film.
+# The pressure dam bearing in SI units: the film on the grids of its pads, its losses and its heat.
 
 
-DIMENSIONS = ("radius", "length", "clearance", "film_viscosity")
-"""What the compiled film is given besides the pads."""
+PARAMETERS = (
+    ("radius", "m", "bearing radius"),
+    ("length", "m", "axial length"),
+    ("clearance", "m", "radial clearance of a pad"),
+    ("viscosity", "Pa.s", "dynamic viscosity"),
+)
+"""Names, units and meanings of what a simulator may set in the compiled bearing."""
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class RecessedPads(PadBearing):
-    """Fixed pads around a journal, any of which may have a recess.
+class PressureDamBearing(PadBearing, KernelReaction):
+    """A bearing of fixed pads, any of which may have a recess: pressure dam, step, relief track.
+
+    x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
+    Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
+    with ambient pressure, 0, at all edges of the pads and where it ruptures.
 
     Dimensions, clearance and lubricant are given as to every `PadBearing`.
 
@@ -178,6 +183,30 @@ class RecessedPads(PadBearing):
     ------
     InputError
         As a `PadBearing`, and if another value breaks its rule or pads overlap.
+
+    Notes
+    -----
+    With d the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, D the depth of
+    the recess over c_p, H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p - (speed/2) z^ x e and
+    z from the middle, 0, to the end, 1, of the bearing,
+
+        (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
+
+    P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and what flows across a step is the
+    difference of the Couette flow of both sides. Derivatives are those of the discrete film, the edge of the
+    ruptured zone held, where its pressure and slope vanish; the damping matrix is symmetric. Left out are
+    losses and inertia at the step, turbulence in a deep recess, inlet pressure and hot oil from pad to pad.
+    The force is of degree one in velocity and speed together: there is no map of it over the source alone.
+
+    Examples
+    --------
+    >>> from rotorfilm import PressureDamBearing, pressure_dam_pads
+    >>> pads = pressure_dam_pads(depth="61 um", end="145 deg", share=0.75)
+    >>> bearing = PressureDamBearing(
+    ...     diameter="25.4 mm", length="25.4 mm", pad_clearance="55.9 um", viscosity=0.0524, pads=pads
+    ... )
+    >>> bearing.force(position=[0.0, -1e-5], velocity=[0.0, 0.0], speed=837.8).shape
+    (2,)
     """
 
     pads: tuple[RecessedPad, ...]
@@ -212,7 +241,7 @@ class RecessedPads(PadBearing):
     def kernel_on(self, extrapolated: bool) -> DamKernel:
         """Return the films in compiled code, extrapolated from two grids or not."""
         self.require_temperature()
-        return DamKernel(self.rows, [float(getattr(self, name)) for name in DIMENSIONS], extrapolated)
+        return DamKernel(self.rows, list(self.dimensions.values()), extrapolated)
 
     @cached_property
     def rows(self) -> Array:
@@ -263,55 +292,6 @@ class RecessedPads(PadBearing):
         if status == Status.NO_MEMORY:
             raise MemoryError("no memory for the film of a pad")
         raise ConvergenceError(f"the search for the ruptured zone of a pad must end, and did not: {said}")
-
-
-# The pressure dam bearing in SI units: the film on the grids of its pads, its losses and its heat.
-
-
-PARAMETERS = (
-    ("radius", "m", "bearing radius"),
-    ("length", "m", "axial length"),
-    ("clearance", "m", "radial clearance of a pad"),
-    ("viscosity", "Pa.s", "dynamic viscosity"),
-)
-"""Names, units and meanings of what a simulator may set in the compiled bearing."""
-
-
-@quantities
-@dataclass(frozen=True, kw_only=True)
-class PressureDamBearing(RecessedPads, KernelReaction):
-    """A bearing of fixed pads, any of which may have a recess: pressure dam, step, relief track.
-
-    x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
-    Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
-    with ambient pressure, 0, at all edges of the pads and where it ruptures.
-
-    Its parameters are those of `RecessedPads` and of every `PadBearing`.
-
-    Notes
-    -----
-    With d the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, D the depth of
-    the recess over c_p, H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p - (speed/2) z^ x e and
-    z from the middle, 0, to the end, 1, of the bearing,
-
-        (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
-
-    P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and what flows across a step is the
-    difference of the Couette flow of both sides. Derivatives are those of the discrete film, the edge of the
-    ruptured zone held, where its pressure and slope vanish; the damping matrix is symmetric. Left out are
-    losses and inertia at the step, turbulence in a deep recess, inlet pressure and hot oil from pad to pad.
-    The force is of degree one in velocity and speed together: there is no map of it over the source alone.
-
-    Examples
-    --------
-    >>> from rotorfilm import PressureDamBearing, pressure_dam_pads
-    >>> pads = pressure_dam_pads(depth="61 um", end="145 deg", share=0.75)
-    >>> bearing = PressureDamBearing(
-    ...     diameter="25.4 mm", length="25.4 mm", pad_clearance="55.9 um", viscosity=0.0524, pads=pads
-    ... )
-    >>> bearing.force(position=[0.0, -1e-5], velocity=[0.0, 0.0], speed=837.8).shape
-    (2,)
-    """
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
@@ -378,26 +358,15 @@ class PressureDamBearing(RecessedPads, KernelReaction):
         e = states[:2] / c - centers[:, :, None]
         pressed = np.stack([cross(*pair) for pair in zip(e, force, strict=True)]) + steps
         shear = (gap if self.full_gap(full_gap) else streamers) * turning
-        flow = BearingFlow(
-            drag=scale * c * (shear + 0.5 * pressed).sum(axis=0),
-            force=scale * force.sum(axis=0),
-            into=flows[:, 0],
-            out=flows[:, 1],
-        )
-        return collected_losses(self, self.pads, flow, (q, v, omega))
+        drag = scale * c * (shear + 0.5 * pressed).sum(axis=0)
+        through, starts = (flows[:, 0], flows[:, 1]), [pad.start for pad in self.pads]
+        return collected_losses(self, starts, drag, scale * force.sum(axis=0), through, (q, v, omega))
 
     def _losses_at(self, state: Array) -> Array:
         found, status = self.kernel.losses(state)
         if status:
             self.report(status, state.tolist())
         return found
-
-    def film_at_unit_viscosity(self) -> None:
-        """Return no film for the loops in C over warm films, which know one film only."""
-
-    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
-        """Raise InputError: the heat of pads with recesses has no slopes."""
-        raise InputError("bearing must have slopes of its heat, as a LobedBearing, got pads with recesses")
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; a subclass has none."""
@@ -492,21 +461,13 @@ LOSSES = 7
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
 
-class RecessCells(NamedTuple):
-    """Cells of a pad: before, along and behind the recess, and over half the length beside it and beyond."""
-
-    around: tuple[int, int, int]
-    along: tuple[int, int]
-
-
-def cell_counts(pad: RecessedPad, cells: tuple[int, int]) -> RecessCells:
-    """Return how the cells around and along a pad fall on both sides of the edges of its recess.
+def cell_counts(pad: RecessedPad, cells: tuple[int, int]) -> tuple[list[int], list[int]]:
+    """Return the cells of a pad before, in and behind its recess, and along the half length in and off it.
 
     In proportion, to multiples of 2, so that half as many have the edges on nodes too.
     """
-    before, within, behind = _divided(np.diff(pad.edges).tolist(), cells[0])
-    inner, outer = _divided([_share(pad), 1.0 - _share(pad)], cells[1])
-    return RecessCells((before, within, behind), (inner, outer))
+    along = _divided([_share(pad), 1.0 - _share(pad)], cells[1])
+    return _divided(np.diff(pad.edges).tolist(), cells[0]), along
 
 
 def _divided(sizes: list[float], cells: int) -> list[int]:
@@ -517,16 +478,16 @@ def _divided(sizes: list[float], cells: int) -> list[int]:
 
 def pad_rows(pads: Sequence[RecessedPad], cells: tuple[int, int]) -> Array:
     """Return the pads as the kernel reads them, shape (pads, COLUMNS)."""
-    return np.array([_row(pad, cell_counts(pad, cells)) for pad in pads])
+    return np.array([_row(pad, *cell_counts(pad, cells)) for pad in pads])
 
 
 def pad_places(pad: RecessedPad, cells: tuple[int, int]) -> tuple[Array, Array]:
     """Return angles of the lines of a pad [rad] and places of its nodes along half the length, with ends."""
-    counts = cell_counts(pad, cells)
-    return _nodes(pad.edges, counts.around), _nodes((0.0, _share(pad), 1.0), counts.along)
+    around, along = cell_counts(pad, cells)
+    return _nodes(pad.edges, around), _nodes((0.0, _share(pad), 1.0), along)
 
 
-def _nodes(edges: tuple[float, ...], counts: tuple[int, ...]) -> Array:
+def _nodes(edges: tuple[float, ...], counts: list[int]) -> Array:
     """Return the nodes of a grid, equally spaced between edges."""
     pieces = [
         np.linspace(first, last, count, endpoint=False)
@@ -541,11 +502,11 @@ def _share(pad: RecessedPad) -> float:
     return 1.0 if pad.recess is None or pad.recess.depth == 0.0 else pad.recess.share
 
 
-def _row(pad: RecessedPad, counts: RecessCells) -> list[float]:
+def _row(pad: RecessedPad, around: list[int], along: list[int]) -> list[float]:
     depth = 0.0 if pad.recess is None else pad.recess.depth
     _, first, last, _ = pad.edges
     arc = [pad.start, pad.extent, pad.preload, pad.closest]
-    return [*arc, first, last, depth, _share(pad), *counts.around, *counts.along]
+    return [*arc, first, last, depth, _share(pad), *around, *along]
 
 
 class PadPressure(NamedTuple):

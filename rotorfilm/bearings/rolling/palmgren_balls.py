@@ -81,7 +81,7 @@ class PalmgrenBalls(StaticReaction):
         """Accept every position: balls push back wherever the shaft goes."""
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
         constant, damping = self.constant, self.damping
 
         def tangent(

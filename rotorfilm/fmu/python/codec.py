@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ...core.errors import FmuError
-from ...core.model import Portable
 
 PLAIN_DTYPES = {"|b1", "<i4", "<i8", "<u4", "<u8", "<f4", "<f8"}
 """Array types that JSON numbers hold exactly."""
@@ -25,7 +24,7 @@ SHOWN = 50
 def encode(value: Any, name: str = "model") -> Any:
     """Return `value` as JSON data from which `decode` makes an equal value.
 
-    What is `Portable` goes with what it would otherwise make on first use.
+    What has a method `portable` goes with what it would otherwise make on first use.
 
     Parameters
     ----------
@@ -118,7 +117,7 @@ def _encode_array(array: np.ndarray, name: str) -> dict[str, Any]:
 
 
 def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
-    value = value.portable() if isinstance(value, Portable) else value
+    value = value.portable() if hasattr(value, "portable") else value
     cls = type(value)
     if cls.__module__ == "__main__" or "<locals>" in cls.__qualname__:
         raise FmuError(

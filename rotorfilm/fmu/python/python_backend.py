@@ -32,7 +32,7 @@ LIBRARY = {
     f"{PACKAGE}.native",
     f"{PACKAGE}.bearings.films.mass_conserving_steps",
     f"{PACKAGE}.bearings.rolling.ball_element",
-    f"{PACKAGE}.bearings.pads.tilting_pads",
+    f"{PACKAGE}.bearings.pads.tilting_bearing",
 }
 """What a module imports that calls the compiled library."""
 

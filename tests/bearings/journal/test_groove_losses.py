@@ -18,7 +18,7 @@ from rotorfilm.bearings.journal.groove_map import (
     opened_film,
     opening_runs,
 )
-from rotorfilm.bearings.oil.heat_balance import balance_temperature, effective_flow
+from rotorfilm.bearings.oil.heated_bearing import balance_temperature, effective_flow
 
 SPEED = 100.0 * np.pi
 COOLING = Cooling(

@@ -20,7 +20,7 @@ from rotorfilm import (
     equilibrium,
     heat_numbers,
 )
-from rotorfilm.bearings.oil.heat_balance import carried_share, effective_flow, flow_slopes
+from rotorfilm.bearings.oil.heated_bearing import carried_share, effective_flow, flow_slopes
 
 OIL = Oil.iso_vg(100)
 COOLING = Cooling(supply_temperature=310.25)
@@ -213,11 +213,12 @@ def test_effective_flow_of_openings():
 def test_carried_share_is_a_smooth_minimum(carry_over):
     rng = np.random.default_rng(4)
     inflow, arriving = np.exp(rng.uniform(-3.0, 3.0, (2, 400)))
-    found, x = carried_share(inflow, arriving, carry_over), carry_over * arriving / inflow
-    assert (found.share <= np.minimum(x, 1.0)).all()
-    np.testing.assert_allclose(found.share, np.minimum(x, 1.0), atol=0.05 * np.log(2.0))
-    assert (found.by_arriving >= 0.0).all()
-    assert (found.by_inflow <= 0.0).all()
+    x = carry_over * arriving / inflow
+    share, by_inflow, by_arriving = carried_share(inflow, arriving, carry_over)
+    assert (share <= np.minimum(x, 1.0)).all()
+    np.testing.assert_allclose(share, np.minimum(x, 1.0), atol=0.05 * np.log(2.0))
+    assert (by_arriving >= 0.0).all()
+    assert (by_inflow <= 0.0).all()
     flows = np.stack([inflow, arriving])
     for k, slope in enumerate(flow_slopes(inflow, arriving, carry_over)):
         step = 1e-5 * flows * (np.arange(2) == k)[:, None]
@@ -280,5 +281,5 @@ def test_numbers_of_heat_are_their_definitions():
     assert found.nahme == pytest.approx(thinning * OIL.viscosity(T) * (speed * 0.05) ** 2 / 0.13, rel=1e-12)
     with pytest.raises(InputError, match=r"^position must be off the center, .*, got \(0.0, 0.0\)"):
         heat_numbers(bearing, (0.0, 0.0), speed)
-    with pytest.raises(InputError, match=r"^bearing must be a Cooled, with .*, got 'film'"):
+    with pytest.raises(InputError, match=r"^bearing must be a WarmBearing, with .*, got 'film'"):
         heat_numbers("film", position, speed)

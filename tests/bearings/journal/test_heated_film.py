@@ -282,7 +282,7 @@ def test_film_starts_where_there_is_oil():
     cells, empty = state.film.cells, state.film.empty
     assert empty.any()
     free = dataclasses.replace(state.film, empty=np.zeros_like(empty))
-    more = free.solve(POSITION / c, np.zeros(2), OMEGA).solution.pressure
+    more = free.solve(POSITION / c, np.zeros(2), OMEGA).pressure
     assert more[empty].max() > 0.0
     assert (state.pressure[:, :-1][empty] == 0.0).all()
     ruptured = (state.filled < 1.0) & ~cells.held[:, None]

@@ -66,7 +66,7 @@ def test_layers_make_the_heat_of_their_velocity():
         walls=None,
     )
     heat = layer_heat(heating, layer_shares(np.ones(shape)))
-    P, H = found.solution.pressure, thickness(e, cells.theta)
+    P, H = found.pressure, thickness(e, cells.theta)
     around = (np.roll(P, -1, axis=0) - np.roll(P, 1, axis=0)) / (cells.gap + np.roll(cells.gap, 1))[:, None]
     nodes = np.append(0.0, np.cumsum(1.0 / cells.conductance))[: P.shape[1]]
     along = np.gradient(P, nodes, axis=1) / cells.slenderness
@@ -76,7 +76,7 @@ def test_layers_make_the_heat_of_their_velocity():
     cubed = 144.0 * H**3 * (around**2 + along**2)[..., None] * square
     both = 12.0 * speed * H * around[..., None] * (high**2 - low**2)
     exact = width * (cubed + both + speed**2 / H / LAYERS)
-    inside = found.solution.full & np.roll(found.solution.full, 1, 0) & np.roll(found.solution.full, -1, 0)
+    inside = found.full & np.roll(found.full, 1, 0) & np.roll(found.full, -1, 0)
     inside[:, [0, -2, -1]] = False
     assert inside.sum() > 500
     scale = exact[inside].mean(axis=1, keepdims=True)

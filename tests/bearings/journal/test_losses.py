@@ -62,17 +62,17 @@ def test_pressure_flow_dissipates_what_the_source_does_on_the_force(cavitation):
     # Sum of conductance (difference of pressure)^2 over all faces, with cells of our own: -F . w.
     film, slenderness = ReynoldsFilm(cells=(64, 8), cavitation=cavitation), 0.7
     e, w = np.array([0.5, -0.3]), np.array([-0.4, 0.9])
-    solved, grid = film._kernel(slenderness).field(e, w), film.grids(slenderness)[1][0]
+    theta, face, P, _ = film._kernel(slenderness).field(e, w)
+    grid = film.grids(slenderness)[1][0]
 
     def cubed(angle):
         return (1.0 - e[0] * np.cos(angle) - e[1] * np.sin(angle)) ** 3
 
     turn = 2.0 * np.pi
-    step = (np.roll(solved.theta, -1) - solved.theta) % turn
-    cell = (solved.face - np.roll(solved.face, 1)) % turn
-    P = solved.pressure
-    around = (cubed(solved.face) / step * (np.roll(P, -1, axis=0) - P).T ** 2).T @ grid.width
-    along = np.diff(P, axis=1, append=0.0) ** 2 @ grid.conductance * cubed(solved.theta) * cell
+    step = (np.roll(theta, -1) - theta) % turn
+    cell = (face - np.roll(face, 1)) % turn
+    around = (cubed(face) / step * (np.roll(P, -1, axis=0) - P).T ** 2).T @ grid.width
+    along = np.diff(P, axis=1, append=0.0) ** 2 @ grid.conductance * cubed(theta) * cell
     work = 12.0 * (around.sum() + along.sum() / slenderness**2)
     assert work == pytest.approx(-film.force(e, w, slenderness) @ w, rel=1e-11)
 

@@ -57,4 +57,4 @@ def test_walls_name_what_breaks_a_rule():
         BushRing(outer_radius=OUTER, transfer=-1.0)
     with pytest.raises(InputError, match="bush_temperature must be finite and positive"):
         HeldWalls(bush_temperature=0.0, journal_temperature=300.0)
-    assert AdiabaticWalls().adiabatic
+    assert AdiabaticWalls().response(R, START, EXTENT) is None

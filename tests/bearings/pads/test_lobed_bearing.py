@@ -1,5 +1,7 @@
 """Bearings of fixed pads: published coefficients, symmetries, and the reference figures of several grids."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from rotorfilm import (
     LobedBearing,
     Pad,
     PadGridFilm,
+    PadMapFilm,
     ReynoldsFilm,
     Sprung,
     TiltingPadBearing,
@@ -18,6 +21,7 @@ from rotorfilm import (
     equilibrium,
     lobe_set,
 )
+from rotorfilm.bearings.pads import PadResolution
 
 DEGREE = np.pi / 180.0
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 300.0
@@ -274,3 +278,18 @@ def test_light_loads_on_preloaded_lobes_move_the_journal_in_proportion(name):
         far = np.hypot(*heavy.position)
         np.testing.assert_allclose(at.position / load, heavy.position, rtol=0.0, atol=1e-3 * far)
         assert at.residual < 1e-8 / load
+
+
+def test_a_default_map_is_chosen_anew_for_another_preload():
+    size = {"radius": 0.05, "length": 0.05, "pad_clearance": 1e-4, "viscosity": 0.02}
+    tilting = TiltingPadBearing(**size, pivots=(0.0, 2.0, 4.0), extent=1.2, preload=0.3)
+    lobed = LobedBearing(**size, lobes=lobe_set("elliptical", preload=0.3))
+    for plain, other in (
+        (tilting, {"preload": 0.7}),
+        (lobed, {"lobes": lobe_set("elliptical", preload=0.7)}),
+    ):
+        near = replace(plain, **other)
+        assert near.film != plain.film
+        assert replace(near, **{name: getattr(plain, name) for name in other}) == plain
+        chosen = PadMapFilm(resolution=PadResolution(cells=(48, 4)))
+        assert replace(plain, film=chosen, **other).film.own_resolution == chosen.resolution

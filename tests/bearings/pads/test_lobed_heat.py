@@ -24,7 +24,7 @@ from rotorfilm import (
     lobe_set,
     simulate,
 )
-from rotorfilm.bearings.oil.heat_balance import heat_surplus
+from rotorfilm.bearings.oil.heated_bearing import heat_surplus
 from rotorfilm.bearings.pads.pad_bearing import behind_pads
 from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
 
@@ -259,8 +259,8 @@ def test_openings_lie_behind_their_pads_in_whatever_order(film):
     one, other = of.losses(*state), mixed.losses(*state)
     np.testing.assert_allclose(other.inflow, one.inflow[[2, 0, 1]], rtol=1e-12)
     np.testing.assert_allclose(other.arriving, one.arriving[[2, 0, 1]], rtol=1e-12)
-    pads = [of._under(lobe, *(np.array(part) for part in state)).pad for lobe in lobes]
-    into, out = behind_pads(pads, np.arange(3.0), 10.0 + np.arange(3.0), np.array(True))
+    starts = [lobe.start for lobe in lobes]
+    into, out = behind_pads(starts, np.arange(3.0), 10.0 + np.arange(3.0), np.array(True))
     np.testing.assert_array_equal(into, [1.0, 2.0, 0.0])
     np.testing.assert_array_equal(out, [10.0, 11.0, 12.0])
 

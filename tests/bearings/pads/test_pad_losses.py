@@ -37,7 +37,7 @@ def places(extent, count, most=0.9, seed=1):
 
 def test_map_is_the_film_on_its_own_cells(table):
     e, rate = places(table.extent, 200)
-    found, film = table.loss_map().at(e, rate), pad_grid(table.extent, table.slenderness, CELLS)
+    found, film = table.flows(e, rate), pad_grid(table.extent, table.slenderness, CELLS)
     shear, into, out = grid_losses(film, e, np.sign(rate))
     relative = np.abs(found.shear / shear - 1.0)
     flows = np.abs(np.stack([found.inflow, found.arriving]) / np.abs(rate) - [into, out]).max(axis=0)
@@ -49,9 +49,9 @@ def test_map_is_the_film_on_its_own_cells(table):
 
 def test_film_on_finer_cells_is_within_the_bounds_at_other_states(table):
     e, rate = places(table.extent, 60, most=LARGEST, seed=5)
-    found = table.loss_map().at(e, rate)
+    found = table.flows(e, rate)
     finer = PadGridFilm(cells=(2 * CELLS[0], 2 * CELLS[1])).losses(table.extent, table.slenderness)
-    exact, film = finer.at(e, rate), least_film(e, table.extent)
+    exact, film = finer(e, rate), least_film(e, table.extent)
     shear, flow = np.array([table.loss_bound(each) for each in film]).T
     assert np.all(np.abs(found.shear / exact.shear - 1.0) <= shear)
     for name in ("inflow", "arriving"):
@@ -70,27 +70,27 @@ def test_states_of_the_bounds_lie_off_the_pad_and_in_both_senses(table):
 
 def test_reversed_oil_is_the_mirror_image(table):
     e, rate = places(table.extent, 30)
-    for film in (table.loss_map(), PadGridFilm(cells=CELLS).losses(table.extent, table.slenderness)):
-        one, other = film.at(e, rate), film.at(e * [[1.0], [-1.0]], -rate)
+    for film in (table.flows, PadGridFilm(cells=CELLS).losses(table.extent, table.slenderness)):
+        one, other = film(e, rate), film(e * [[1.0], [-1.0]], -rate)
         for row, mirrored in zip(one[:3], other[:3], strict=True):
             np.testing.assert_allclose(row, mirrored, rtol=1e-9, atol=1e-9)
 
 
 def test_slopes_are_those_of_the_map(table):
     e, rate = places(table.extent, 50)
-    film, step = table.loss_map(), 1e-6
-    slopes = film.at(e, rate).slopes
+    film, step = table.flows, 1e-6
+    slopes = film(e, rate).slopes
     for axis in range(3):
         move = step * np.eye(3)[axis][:, None]
         ahead, behind = (
-            np.stack(film.at(e + side * move[:2], rate + side * move[2])[:3]) for side in (1.0, -1.0)
+            np.stack(film(e + side * move[:2], rate + side * move[2])[:3]) for side in (1.0, -1.0)
         )
         change = (ahead - behind) / (2.0 * step)
         np.testing.assert_allclose(slopes[:, axis], change, rtol=1e-6, atol=1e-6 * np.abs(change).max())
 
 
 def test_concentric_pad_is_full_and_carries_the_mean_flow(table):
-    found = table.loss_map().at(np.zeros((2, 1)), np.array([5.0]))
+    found = table.flows(np.zeros((2, 1)), np.array([5.0]))
     np.testing.assert_allclose(found.shear, table.extent, rtol=3e-3)
     np.testing.assert_allclose([found.inflow[0], found.arriving[0]], 5.0, rtol=3e-3)
 
@@ -143,9 +143,7 @@ def test_slopes_of_splines_are_those_of_a_smooth_function():
 def test_map_film_tells_the_maps_of_its_table(table):
     film = PadMapFilm(tables=(table,))
     e, rate = places(table.extent, 5)
-    found, kept = (
-        each.at(e, rate) for each in (film.losses(table.extent, table.slenderness), table.loss_map())
-    )
+    found, kept = (each(e, rate) for each in (film.losses(table.extent, table.slenderness), table.flows))
     np.testing.assert_array_equal(found.shear, kept.shear)
     again = PadMapTable.from_bytes(table.to_bytes())
     np.testing.assert_array_equal(again.losses, table.losses)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table
-from rotorfilm.bearings.pads.pad_film import making_time, pad_map_kernel, pad_table
+from rotorfilm.bearings.pads.pad_film import PadMapFilm, pad_table
 from rotorfilm.bearings.pads.pad_table import PadMapTable
 from rotorfilm.core.errors import InputError, RotorfilmError
 
@@ -22,9 +22,7 @@ def made():
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
-    pad_map_kernel.cache_clear()
-    yield tmp_path
-    pad_map_kernel.cache_clear()
+    return tmp_path
 
 
 def test_bytes_are_the_table(made, tmp_path):
@@ -88,13 +86,14 @@ def test_map_is_made_once_for_a_shape_and_again_after_damage(folder, caplog):
 
 
 def test_first_use_is_logged_and_its_time_is_told_beforehand(folder, caplog):
-    assert making_time(1.1, 0.5, COARSE) > 0.0
-    kernel = pad_map_kernel(1.1, 0.5, COARSE)
+    film = PadMapFilm(resolution=COARSE)
+    assert film.making_time(1.1, 0.5) > 0.0
+    kernel = film.kernel(1.1, 0.5)
     (record,) = caplog.records
     assert "making the map of the pad, about " in record.getMessage()
     assert record.getMessage().endswith(f"1.1 rad, length/diameter 0.5; it will be kept in {folder}")
-    assert making_time(1.1, 0.5, COARSE) == 0.0
-    assert pad_map_kernel(1.1, 0.5, COARSE) is kernel
+    assert film.making_time(1.1, 0.5) == 0.0
+    assert film.kernel(1.1, 0.5) is kernel
 
 
 def test_name_in_the_cache_tells_what_decides_the_content(folder):

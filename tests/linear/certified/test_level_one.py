@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.analysis.api617 import Screening, border_ratio, in_region_b, screened
+from rotorfilm.analysis.api617 import border_ratio, in_region_b, screened
 
 MASS, LENGTH, DIAMETER, SPEED = 400.0, 1.2, 0.11, 1200.0
 STIFFNESS, DAMPING = 6e7, 1.2e5
@@ -174,7 +174,7 @@ def test_border_of_region_b():
     ],
 )
 def test_criteria(margin, least, ratio, density, reasons):
-    said = list(screened(Screening(margin, least, ratio, density)))
+    said = list(screened(margin, least, ratio, density))
     assert len(said) == len(reasons)
     assert all(reason in text for reason, text in zip(reasons, said, strict=True))
 

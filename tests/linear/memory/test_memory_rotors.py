@@ -1,7 +1,5 @@
 """Flexible rotors on films that remember: the equations at each exponent, and a rigid journal as a limit."""
 
-from typing import NamedTuple
-
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
@@ -28,7 +26,7 @@ from rotorfilm import (
 )
 from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
 from rotorfilm.analysis.frequency_dependent import rotor_growing
-from rotorfilm.analysis.speed_events import Critical, Start, value_rate, whirl_of
+from rotorfilm.analysis.speed_events import CRITICAL, Start, value_rate, whirl_of
 from rotorfilm.bearings.pads.pad_build import PadResolution
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
@@ -148,16 +146,6 @@ def test_a_rotor_in_few_shapes_is_the_whole_one(films):
         assert step < 3.0 * few.error * abs(s)
 
 
-class Turning(NamedTuple):
-    """Bearings whose K and C all change with the speed, as `whirl_of` asks for them."""
-
-    reaction: dict
-
-    @property
-    def turning(self):
-        return self.reaction
-
-
 PADS = {
     name: TiltingPadBearing(
         radius=0.05,
@@ -175,15 +163,15 @@ PADS = {
 
 @pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_a_critical_speed_on_pads_has_their_stiffness_at_the_exponent():
-    rotor, films = shaft(2), Turning(PADS)
+    rotor = shaft(2)
     first = critical_speeds(rotor, PADS, [140.0, 155.0])[0]
     start = Start(first.speed * 1.01, 1j * first.speed, np.ones(len(rotor.structure.weight), dtype=complex))
-    whirl, _ = whirl_of(Critical(), rotor, films, start)
+    whirl, _ = whirl_of(CRITICAL, rotor, PADS, PADS, start)
     assert whirl.at.speed == pytest.approx(first.speed, rel=1e-8)
     assert imbalance(pad_equations(rotor, whirl.at, whirl.value), whirl.right) < 1e-9
     near = [rotor_modes(rotor, PADS, first.speed * share, 400.0).eigenvalues for share in (0.999, 1.001)]
     low, high = (values[np.argmin(np.abs(values - whirl.value))] for values in near)
-    rate = value_rate(rotor.structure, whirl, films)
+    rate = value_rate(rotor.structure, whirl, PADS)
     assert rate == pytest.approx((high - low) / (0.002 * first.speed), rel=0.01)
 
 

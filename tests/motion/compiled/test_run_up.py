@@ -131,8 +131,8 @@ def test_bands_of_speed_do_not_matter(monkeypatch):
 def test_stretches_end_at_kinks_and_where_the_speed_leaves_a_band():
     profile = SpeedProfile(times=(-1.0, 1.0, 2.0, 4.0), speeds=(-10.0, 10.0, 10.0, -10.0))
     found = list(stretches(take_apart(both(overhung(profile), SPRINGS)), 3.5, bands=2))
-    assert [one.end for one in found] == pytest.approx([0.5, 1.0, 2.0, 2.5, 3.0, 3.5])
-    assert [one.speed for one in found] == pytest.approx([2.5, 7.5, 10.0, 7.5, 2.5, -2.5])
+    assert [end for end, _ in found] == pytest.approx([0.5, 1.0, 2.0, 2.5, 3.0, 3.5])
+    assert [speed for _, speed in found] == pytest.approx([2.5, 7.5, 10.0, 7.5, 2.5, -2.5])
 
 
 def test_a_constant_speed_is_one_stretch():

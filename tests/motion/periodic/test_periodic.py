@@ -154,4 +154,4 @@ def test_a_short_step_is_no_rest_while_forces_are_left():
     )
     mounted = mount(RigidRotor(mass=5.0, speed=100.0), {"": spring})
     with pytest.raises(EquilibriumError):
-        rest_of(mounted, modal_rotor(take_apart(mounted), 100.0), np.zeros(2))
+        rest_of(mounted, modal_rotor(take_apart(mounted), 100.0))

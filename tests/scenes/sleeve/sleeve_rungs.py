@@ -82,3 +82,7 @@ def sleeve_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="N s/m",
         remarks=sleeve_remarks(sleeve, scene.lubricant.properties, scene.speed),
     )
+
+
+LADDERS = {"damping": sleeve_ladder}
+"""What a scene with a sleeve may be asked."""

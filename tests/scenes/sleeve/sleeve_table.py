@@ -1,37 +1,36 @@
-"""`[sleeve]` of a scene."""
+"""`[sleeve]` of a scene, and its models for FMUs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-from ..reading import Quantity
+from ...core.errors import InputError
+from ..families import SceneModels
+from ..reading import Taking, fields_of, made_from
 from .sleeve_bearing import ViscousSleeve
+
+if TYPE_CHECKING:
+    from ..scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)
-class SleeveTable:
-    """`[sleeve]`: a viscous sleeve.
-
-    Parameters
-    ----------
-    radius : float [m]
-        A file may give `diameter` instead.
-    length : float [m]
-    clearance : float [m]
-    viscosity : float [Pa s]
-    """
-
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    length: Annotated[float, Quantity("m")]
-    clearance: Annotated[float, Quantity("m")]
-    viscosity: Annotated[float, Quantity("Pa.s")]
+@fields_of(ViscousSleeve, without=("short",))
+class SleeveTable(Taking):
+    """`[sleeve]`: a viscous sleeve."""
 
     def __post_init__(self) -> None:
         self.build()
 
     def build(self) -> ViscousSleeve:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        return ViscousSleeve(
-            radius=self.radius, length=self.length, clearance=self.clearance, viscosity=self.viscosity
-        )
+        return made_from(ViscousSleeve, self)
+
+
+def sleeve_models(scene: Scene) -> SceneModels:
+    """Return the sleeve of a scene and its rotor, at rest in the center."""
+    if scene.rigid_rotor is None:
+        raise InputError("rigid_rotor is required for FMUs, got no such table")
+    rotor = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
+    sleeve = scene.table("sleeve").build()
+    return SceneModels("sleeve", sleeve, rotor, {}, scene.macro_step, scene.duration)

@@ -21,7 +21,7 @@ from ....core.files import write_whole
 from ....core.model import Array
 from ...films.law import film_flow, film_shear
 from ...films.map_fit import node_eccentricities, periodic_quintic_coefficients, quintic_coefficients
-from ...films.map_table import MapTable, stretch
+from ...films.map_table import MapTable, stretch, unstretch
 from .map_film import CROWDING, LossTable
 from .map_potential import Source, default_resolution, film_ends, potential
 
@@ -44,24 +44,12 @@ class TableAxes(NamedTuple):
     @property
     def chi(self) -> Array:
         """Eccentricity ratios of the X nodes, shape (I,)."""
-        return eccentricity_ratio(self.X)
+        return unstretch(self.X)
 
     @property
     def shape(self) -> tuple[int, int, int]:
         """Shape (K, I, J) of a field."""
         return self.log_slenderness.size, self.X.size, self.T.size
-
-
-def stretched_eccentricity(chi: Array) -> Array:
-    """Return X = chi/(1 - chi^2)^(1/4)."""
-    return chi / ((1.0 - chi) * (1.0 + chi)) ** 0.25
-
-
-def eccentricity_ratio(X: Array) -> Array:
-    """Return chi(X) = X sqrt(s), where s = sqrt(1 - chi^2) solves s^2 + X^2 s = 1."""
-    X2 = X**2
-    s = 2.0 / (X2 + np.sqrt(X2**2 + 4.0))
-    return np.asarray(X * np.sqrt(s))
 
 
 def universal_axes(
@@ -118,18 +106,7 @@ def load_table(path: Path) -> tuple[TableAxes, dict[str, Array]]:
 def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     """Write axes and fields as plain arrays; a failure leaves the earlier file."""
     content = io.BytesIO()
-    log, error, chi_slope, force_t, force_r = (fields[name] for name in FIELDS)
-    np.savez_compressed(
-        content,
-        X=axes.X,
-        T=axes.T,
-        log_slenderness=axes.log_slenderness,
-        log=log,
-        error=error,
-        chi_slope=chi_slope,
-        force_t=force_t,
-        force_r=force_r,
-    )
+    np.savez_compressed(content, **axes._asdict(), **{name: fields[name] for name in FIELDS})
     write_whole(path, content.getvalue())
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, TypeVar
 
 import numpy as np
 
@@ -16,15 +15,16 @@ from ....core.inputs import quantities
 from ....core.model import Array
 from ....native import MapKernel
 from ....native.loss_kernels import LossKernel, MapLossKernel
-from ...films.kernel_film import KernelFilm
-from ...films.law import FilmLosses, plain_losses, require_film
+from ...films.law import FilmLosses, KernelFilm, kernel_losses, require_film
 from ...films.map_table import MapTable, StoredTable
 
 if TYPE_CHECKING:
     from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 TABLE = "journal_map.bin"
-"""The universal table of the package, in `films/data`."""
+"""The universal table of the package, in `data`."""
+
+Table = TypeVar("Table", bound=StoredTable)
 
 
 @quantities
@@ -91,7 +91,7 @@ class MapFilm(KernelFilm):
         kernel = packaged_kernel(float(slenderness))
         if kernel is None:
             return reference_film(slenderness).losses(e, w, slenderness)
-        return plain_losses(kernel, e, w)
+        return kernel_losses(kernel, e, w)
 
     def loss_kernel(self, slenderness: float) -> LossKernel | None:
         """Return the losses of the tables of the package; None for a bearing beyond them."""
@@ -104,20 +104,19 @@ class MapFilm(KernelFilm):
         return _collapsed(self._table(slenderness), float(slenderness))
 
 
+def packaged(kind: type[Table], name: str) -> Table:
+    """Return a table that comes with the package; RotorfilmError if it is missing or damaged."""
+    try:
+        content = Path(__file__).with_name("data").joinpath(name).read_bytes()
+    except OSError as error:
+        raise RotorfilmError(f"the table {name} of the package is missing: {error}") from error
+    return kind.from_bytes(content)
+
+
 @lru_cache(maxsize=1)
 def packaged_table() -> MapTable:
-    """Return the universal table that comes with the package.
-
-    Raises
-    ------
-    RotorfilmError
-        If it is missing or damaged.
-    """
-    try:
-        content = Path(__file__).with_name("data").joinpath(TABLE).read_bytes()
-    except OSError as error:
-        raise RotorfilmError(f"the map table {TABLE} of the package is missing: {error}") from error
-    return MapTable.from_bytes(content)
+    """Return the universal table of the package; see `packaged` for the errors."""
+    return packaged(MapTable, TABLE)
 
 
 def _table_for(slenderness: float) -> MapTable:
@@ -273,7 +272,7 @@ class LossTable(StoredTable):
         """Return the compiled losses of one bearing; InputError if the table does not hold it."""
         maps = [table.at(slenderness) for table in self.tables]
         coefficients, center = (np.array([m[k] for m in maps]) for k in (0, 2))
-        return MapLossKernel(coefficients, maps[0].reach, center, CROWDING)
+        return MapLossKernel(coefficients, maps[0][1], center, CROWDING)
 
     def to_bytes(self) -> bytes:
         """Return the three tables as bytes, one after the other."""
@@ -288,19 +287,8 @@ class LossTable(StoredTable):
 
 @lru_cache(maxsize=1)
 def packaged_losses() -> LossTable:
-    """Return the table that comes with the package.
-
-    Raises
-    ------
-    RotorfilmError
-        If it is missing or damaged.
-    """
-    package = __package__ or ""
-    try:
-        content = files(package).joinpath("data", LOSS_FILE).read_bytes()
-    except OSError as error:
-        raise RotorfilmError(f"the loss table {LOSS_FILE} of the package is missing: {error}") from error
-    return LossTable.from_bytes(content)
+    """Return the losses of the package; see `packaged` for the errors."""
+    return packaged(LossTable, LOSS_FILE)
 
 
 @lru_cache(maxsize=64)

@@ -18,6 +18,7 @@ from scipy.special import ellipj, ellipkinc
 
 from ....core.errors import ConvergenceError, InputError
 from ....core.model import Array
+from ..rupture import integrated_legendre
 
 # The ruptured film's region: two curved ends in the elliptic variable, mapped to a rectangle.
 
@@ -110,7 +111,7 @@ def region(coefficients: Array, resolution: RitzResolution) -> Region:
 
 
 class RitzFilm(NamedTuple):
-    """Pressure on a region and what follows from it.
+    """Film on a region, and how far its ends are from rest.
 
     Attributes
     ----------
@@ -122,12 +123,14 @@ class RitzFilm(NamedTuple):
         dJ/dchi at fixed region.
     end_slope : ndarray, shape (2, Q)
         Inward slope du/dy at the two ends.
+    area : Region
     """
 
     potential: float
     force: Array
     chi_slope: float
     end_slope: Array
+    area: Region
 
 
 class _Mesh(NamedTuple):
@@ -156,7 +159,7 @@ def solve_region(source: Source, area: Region, resolution: RitzResolution) -> Ri
     force = 12.0 * np.array([np.sum(np.sin(gamma) * pressure), np.sum(np.cos(gamma) * pressure)])
     end_scale = local_film(source, area.end).thickness ** -1.5
     end_slope = end_scale * (end_slopes(resolution.around) @ v @ z.value.T) / mesh.half
-    return RitzFilm(6.0 * float(np.sum(drive * v)), force, _chi_slope(mesh, v, resolution), end_slope)
+    return RitzFilm(6.0 * float(np.sum(drive * v)), force, _chi_slope(mesh, v, resolution), end_slope, area)
 
 
 def _mesh(source: Source, area: Region, resolution: RitzResolution) -> _Mesh:
@@ -314,54 +317,48 @@ def film_ends(source: Source, resolution: RitzResolution) -> tuple[Array, Array]
     [0, 1]; the weights add up to 1.
     """
     # Near the wall ends far from it decide the flow, though they are worth next to nothing of J.
-    ends = local_film(source, _settled(source, resolution, 0.0).area.end).gamma
+    ends = local_film(source, _settled(source, resolution, 0.0)[0].area.end).gamma
     return ends, along(resolution.along).weight
 
 
-def _settled(source: Source, resolution: RitzResolution, negligible: float) -> _Attempt:
+Attempt = tuple[RitzFilm, float, float, Array]
+"""A film on trial ends, its corrected potential, the size of the correction, the next step of the ends."""
+
+
+def _settled(source: Source, resolution: RitzResolution, negligible: float) -> Attempt:
     """Return the film whose ends have come to rest, but for a relative change of J that is negligible."""
     series = np.zeros((2, resolution.shapes))
     series[:, 0] = free_arc(source)
     best = _attempt(source, series, resolution)
     for _ in range(STEPS):
-        if best.size < negligible * abs(best.value):
+        film, value, size, step = best
+        if size < negligible * abs(value):
             break
-        reach = REACH * float(np.mean(best.area.half_width))
-        series = series + np.clip(best.step, -reach, reach)
+        reach = REACH * float(np.mean(film.area.half_width))
+        series = series + np.clip(step, -reach, reach)
         trial = _attempt(source, series, resolution)
         # Where the ends carry next to nothing their slopes sink into roundoff: no step helps any more.
-        if trial.size > best.size:
+        if trial[2] > size:
             break
         best = trial
     return best
 
 
-class _Attempt(NamedTuple):
-    """A film on trial ends: corrected potential, size of the correction, next step."""
-
-    film: RitzFilm
-    area: Region
-    value: float
-    size: float
-    step: Array
-
-
-def _attempt(source: Source, series: Array, resolution: RitzResolution) -> _Attempt:
+def _attempt(source: Source, series: Array, resolution: RitzResolution) -> Attempt:
     area = region(series, resolution)
     if np.any(np.ptp(local_film(source, area.end).gamma, axis=0) > 2.0 * math.pi):
         raise ConvergenceError("the film must leave a dry gap on every circle, got none: bearing too long")
-    film, state = solve_region(source, area, resolution), end_state(source, area)
-    rest, size = remainder(film.end_slope, state, resolution)
-    step = shape_step(film.end_slope, state, resolution)
-    return _Attempt(film, area, film.potential + rest, size, step)
+    film, (curvature, conductance) = solve_region(source, area, resolution), end_state(source, area)
+    rest, size = remainder(film.end_slope, curvature, conductance, resolution)
+    return film, film.potential + rest, size, shape_step(film.end_slope, curvature, resolution)
 
 
-def _result(best: _Attempt) -> Potential:
-    if not best.value < 0.0:
-        raise ConvergenceError(f"the potential must be negative, got {best.value!r}")
-    film, value = best.film, best.value
+def _result(best: Attempt) -> Potential:
+    film, value, size, _ = best
+    if not value < 0.0:
+        raise ConvergenceError(f"the potential must be negative, got {value!r}")
     return Potential(
-        math.log(-value), best.size / -value, film.force / film.potential, film.chi_slope / film.potential
+        math.log(-value), size / -value, film.force / film.potential, film.chi_slope / film.potential
     )
 
 
@@ -406,7 +403,7 @@ class Line(NamedTuple):
 def around(count: int) -> Line:
     """Return `count` functions of xi that vanish at xi = -1 and 1."""
     x, weight = np.polynomial.legendre.leggauss(count + EXTRA_AROUND)
-    return Line(x, weight, *_integrated_legendre(x, count))
+    return Line(x, weight, *integrated_legendre(x, count))
 
 
 @cache
@@ -414,14 +411,14 @@ def along(count: int) -> Line:
     """Return `count` even functions of zeta that vanish at zeta = 1, on [0, 1]."""
     x, weight = np.polynomial.legendre.leggauss(2 * (count + EXTRA_ALONG))
     upper = x > 0.0
-    value, slope = _integrated_legendre(x[upper], 2 * count - 1)
+    value, slope = integrated_legendre(x[upper], 2 * count - 1)
     return Line(x[upper], weight[upper], value[:, ::2], slope[:, ::2])
 
 
 @cache
 def end_slopes(count: int) -> Array:
     """Return the inward slopes of the functions of xi at xi = -1 and 1, shape (2, N)."""
-    _, slope = _integrated_legendre(np.array([-1.0, 1.0]), count)
+    _, slope = integrated_legendre(np.array([-1.0, 1.0]), count)
     return slope * np.array([[1.0], [-1.0]])
 
 
@@ -433,14 +430,6 @@ def end_shapes(along_count: int, shapes: int) -> tuple[Array, Array]:
     slopes = [polynomial.legval(x, polynomial.legder(row)) for row in np.eye(2 * shapes - 1)[::2]]
     values = polynomial.legvander(x, 2 * shapes - 2)[:, ::2]
     return np.asarray(values, dtype=float), np.asarray(np.stack(slopes, -1), dtype=float)
-
-
-def _integrated_legendre(x: Array, count: int) -> tuple[Array, Array]:
-    legendre = np.polynomial.legendre.legvander(x, count + 1)
-    k = np.arange(1.0, count + 1.0)
-    norm = np.asarray(np.sqrt(k + 0.5))
-    value = np.asarray(norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0), dtype=float)
-    return value, np.asarray(norm * legendre[:, 1:-1], dtype=float)
 
 
 # Free ends of a ruptured film: moved until the pressure leaves them without slope.
@@ -456,37 +445,32 @@ FLOOR = 0.02
 """Least curvature in the remainder, relative to the largest at that end: it vanishes with the slope."""
 
 
-class EndState(NamedTuple):
-    """Curvature kappa and conductance C across both ends at the axial nodes, each (2, Q)."""
-
-    curvature: Array
-    conductance: Array
-
-
-def end_state(source: Source, area: Region) -> EndState:
-    """Return the curvature du/dy that complementarity asks for at the ends, and the conductance."""
+def end_state(source: Source, area: Region) -> tuple[Array, Array]:
+    """Return the curvature du/dy that complementarity asks for at the ends, and their conductance, (2, Q)."""
     film = local_film(source, area.end)
     conductance = film.around + film.along * area.slope**2
-    return EndState(source.at(film.gamma) * film.rate / conductance, conductance)
+    return source.at(film.gamma) * film.rate / conductance, conductance
 
 
-def shape_step(slope: Array, state: EndState, resolution: RitzResolution) -> Array:
+def shape_step(slope: Array, curvature: Array, resolution: RitzResolution) -> Array:
     """Return the change of the ends' series (2, S): slope = kappa delta in least squares."""
     value, _ = end_shapes(resolution.along, resolution.shapes)
     root = np.sqrt(along(resolution.along).weight)[:, None]
     outward = (-1.0, 1.0)
     steps = [
         sign * np.linalg.lstsq(root * np.maximum(kappa, 0.0)[:, None] * value, root[:, 0] * m, rcond=1e-8)[0]
-        for sign, m, kappa in zip(outward, slope, state.curvature, strict=True)
+        for sign, m, kappa in zip(outward, slope, curvature, strict=True)
     ]
     return np.stack(steps)
 
 
-def remainder(slope: Array, state: EndState, resolution: RitzResolution) -> tuple[float, float]:
+def remainder(
+    slope: Array, curvature: Array, conductance: Array, resolution: RitzResolution
+) -> tuple[float, float]:
     """Return the change of J by the slopes left at the ends, and the same with all slopes positive."""
     weight = along(resolution.along).weight
-    kappa = np.maximum(state.curvature, FLOOR * state.curvature.max(axis=1, keepdims=True))
-    density = weight * state.conductance * slope**3 / kappa
+    kappa = np.maximum(curvature, FLOOR * curvature.max(axis=1, keepdims=True))
+    density = weight * conductance * slope**3 / kappa
     return -2.0 * float(np.sum(density)), 2.0 * float(np.sum(np.abs(density)))
 
 

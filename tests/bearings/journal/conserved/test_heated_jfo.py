@@ -25,7 +25,7 @@ from rotorfilm import (
     heated_equilibrium,
     simulate,
 )
-from rotorfilm.bearings.oil.heat_balance import carried_share
+from rotorfilm.bearings.oil.heated_bearing import carried_share
 from rotorfilm.charts.film_charts import plot_heated_film
 from rotorfilm.core.errors import FilmContactError, InputError
 
@@ -111,7 +111,7 @@ def test_openings_mix_what_arrives_with_what_their_balance_asks_for(carry_over):
     state = heated(carry_over=carry_over).solve(POSITION, OMEGA)
     per_flow = float(Oil.iso_vg(46).volumetric_heat(T_S))
     given, warm = float(state.inflow[0]), float(state.opening_temperature[0]) - T_S
-    share = carried_share(state.inflow, state.arriving, carry_over).share[0]
+    share = carried_share(state.inflow, state.arriving, carry_over)[0][0]
     assert share == pytest.approx(carry_over * state.arriving[0] / given, rel=1e-4, abs=1e-9)
     arriving = state.heat.drained / per_flow + given * warm  # Q_in (T_in - T_s)
     assert state.arriving[0] * warm == pytest.approx(share * arriving, rel=1e-10, abs=1e-18)

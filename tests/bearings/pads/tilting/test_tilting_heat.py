@@ -15,9 +15,9 @@ from rotorfilm import (
     equilibrium,
     whirl_threshold,
 )
-from rotorfilm.bearings.oil.heat_balance import heat_surplus
+from rotorfilm.bearings.oil.heated_bearing import heat_surplus
 from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
-from rotorfilm.bearings.pads.tilting_pads import directions, turning
+from rotorfilm.bearings.pads.tilting_bearing import directions, turning
 
 DEGREE = np.pi / 180.0
 SPEED, LOAD = 314.0, (300.0, -3000.0)

@@ -19,7 +19,7 @@ from rotorfilm import (
     simulate,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.tilting_pads import directions
+from rotorfilm.bearings.pads.tilting_bearing import directions
 from rotorfilm.core.model import Dynamic, Reaction
 
 SPEED = 300.0

@@ -19,7 +19,7 @@ from rotorfilm import (
     equilibrium,
     even_pivots,
 )
-from rotorfilm.bearings.pads.tilting_pads import TURN, directions
+from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
 
 SPEED = 300.0
 
@@ -117,7 +117,7 @@ def test_rest_is_where_a_search_over_all_tilts_finds_it(tilting):
     def lacking(unknown):
         r, q = unknown[:2], unknown[2:]
         e = np.einsum("kij,i->jk", Q, r) + np.stack([np.full(N, 0.3), q])
-        f = R.T @ film.force(R @ e, R @ (0.5 * TURN @ e)).values
+        f = R.T @ film.force(R @ e, R @ (0.5 * WEDGE @ e)).values
         return np.concatenate([np.einsum("kij,jk->i", Q, f) + load / force, f[1]])
 
     at = equilibrium(bearing, load, SPEED)

@@ -18,7 +18,7 @@ from rotorfilm import (
     even_pivots,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.tilting_pads import TURN, directions
+from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
 
 SPEED = 300.0
 
@@ -88,7 +88,7 @@ def test_pads_follow_where_newtons_steps_go_round_in_circles(tilting):
         rates = bearing.evaluated(tilts, [*place, vx, vy, SPEED]).rates
         shift = np.array([[bearing.preload], [0.0]])
         e = (np.einsum("kij,i->jk", Q, place) + np.stack([none, tilts])) / c + shift
-        w = (np.einsum("kij,i->jk", Q, (vx, vy)) + np.stack([none, rates])) / c + 0.5 * SPEED * TURN @ e
+        w = (np.einsum("kij,i->jk", Q, (vx, vy)) + np.stack([none, rates])) / c + 0.5 * SPEED * WEDGE @ e
         force = bearing.kernel.film.force(e, w).values
         # With pivots in the middle the frames agree: no moment is left.
         assert np.abs(force[0]).max() > 0.0

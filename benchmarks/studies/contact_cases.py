@@ -1,4 +1,9 @@
-"""The published cases of a ball on a lubricated plane, by the published scheme and converged.
+"""The published cases of a ball on a lubricated plane, by the published scheme and converged: ten minutes.
+
+    python benchmarks/studies/contact_cases.py [--cells 40] [--tolerance 1e-4] [--settle 60] [--out FOLDER]
+
+It writes figures 2 to 7 (chart_contact_cases.png), the statements of the text with their verdicts and the
+curves (CSV), and prints the statements.
 
 Panovko (2011), section 4, V = 0.1 and Q0 = 5: implicit Euler with a step of 0.2 on 40 x 40 cells, staggered,
 whose rectangle the paper does not give; the same grid and scheme with short steps of second order, which
@@ -8,17 +13,20 @@ says of its figures is asked of all three.
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
 from functools import partial
 from itertools import pairwise
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 from scipy.signal import find_peaks
 
-from ..bearings.contact import (
+from rotorfilm.bearings.contact import (
     AdaptiveSteps,
     ContactRun,
     ContactScheme,
@@ -31,10 +39,19 @@ from ..bearings.contact import (
     UpwindScheme,
     perturbed,
 )
-from ..core.errors import ConvergenceError
-from ..core.model import Array
-from ..core.progress import Report, silent
-from .contact_precision import PUBLISHED_CELLS, PUBLISHED_STEP, as_published, published_contact
+from rotorfilm.charts import new_figure, save
+from rotorfilm.charts.canvas import legend_beside
+from rotorfilm.core.errors import ConvergenceError
+from rotorfilm.core.model import Array
+from rotorfilm.core.progress import Report, silent
+from rotorfilm.core.results import write_csv
+from rotorfilm.studies.contact_precision import (
+    PUBLISHED_CELLS,
+    PUBLISHED_STEP,
+    as_published,
+    decay_time,
+    published_contact,
+)
 
 # What the text of Panovko (2011), section 4, says of its figures, asked of a solution of the cases.
 
@@ -380,11 +397,8 @@ def _solution(
     return CaseSolution(kind, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
 
 
-# Numbers that describe a run of a point contact: decay time, amplitude, travelling film.
+# Numbers that describe a run of a point contact: amplitude, travelling film.
 
-
-SMALLEST_PEAK = 1e-4
-"""Peaks of delta below which a decay is lost in the errors of the steps."""
 
 SAMPLES = 4001
 """Instants at which a span of time is searched for its extremes."""
@@ -394,16 +408,6 @@ PROMINENT = 0.02
 
 CORE = 0.6
 """Half the length along y = 0 on which the travelling film is followed."""
-
-
-def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
-    """Return the time in which delta's oscillation about `rest` falls by e, from its peaks; 0 if none."""
-    spline = CubicSpline(run.time, run.delta - rest)
-    peaks = spline.derivative().roots(extrapolate=False)
-    peaks = peaks[(peaks > begin) & (peaks < end)]
-    height = np.abs(spline(peaks))
-    peaks, height = peaks[height > SMALLEST_PEAK], height[height > SMALLEST_PEAK]
-    return float(-1.0 / np.polyfit(peaks, np.log(height), 1)[0]) if len(peaks) > 1 else 0.0
 
 
 def amplitude(run: ContactRun, begin: float, end: float = np.inf, name: str = "delta") -> float:
@@ -447,3 +451,115 @@ def wave_height(state: ContactState, rest: ContactState, x: Array) -> float:
 def _between(run: ContactRun, begin: float, end: float, name: str) -> Array:
     begin, end = max(begin, float(run.time[0])), min(end, float(run.time[-1]))
     return np.asarray(CubicSpline(run.time, getattr(run, name))(np.linspace(begin, end, SAMPLES)))
+
+
+# Figures 2 to 7 of the published cases of a ball on a lubricated plane, redrawn.
+
+
+TITLES = {
+    CaseSection.FREE: "figure 3: approach and pressure 20 % too small",
+    CaseSection.STEPPED: "figure 5: load 1.7 from t = 1 to 20",
+    CaseSection.SLOW: "figure 6: load 1 + 0.2 sin t",
+    CaseSection.FAST: "figure 7: load 1 + 0.5 sin(omega t), W = 1",
+}
+
+SHOWN = {SolutionKind.PUBLISHED: ("--", 1.0), SolutionKind.CONVERGED: ("-", 1.6)}
+"""Solutions drawn: line and its width."""
+
+LATEST = 40.0
+"""End of the time axes."""
+
+
+def plot_contact_cases(cases: ContactCases) -> list[Axes]:
+    """Draw figures 2 to 7: published scheme dashed, converged solid."""
+    figure = new_figure(size=(11.5, 17.0))
+    figure.suptitle("Panovko (2011), figures 2 to 7. Solid: converged; dashed: published scheme, dt = 0.2")
+    rows = iter(figure.subplots(6, 2))
+    axes = [*_draw_rest(next(rows), cases)]
+    for section, curves in cases.curves.items():
+        axes += _draw_series(next(rows), cases, section)
+        if section == CaseSection.FREE:
+            axes += _draw_waves(next(rows), cases, curves[-1])
+    return axes
+
+
+def _draw_rest(row: list[Axes], cases: ContactCases) -> list[Axes]:
+    for solution in cases.solutions:
+        _draw_along(row, solution, solution.rest, "C0", None)
+    return _dressed(row, ("figure 2: at rest, y = 0", ""), ("pressure p", "film H"), "x")
+
+
+def _draw_waves(row: list[Axes], cases: ContactCases, heaviest: CaseRun) -> list[Axes]:
+    for solution, run in zip(cases.solutions, heaviest.runs, strict=True):
+        for number, state in enumerate(run.snapshots):
+            _draw_along(row, solution, state, f"C{number}", f"t = {state.t:g}")
+    legend_beside(row[1])
+    return _dressed(row, ("figure 4: case 4.1, W = 1, y = 0", ""), ("pressure p", "film H"), "x")
+
+
+def _draw_along(
+    row: list[Axes], solution: CaseSolution, state: ContactState, color: str, label: str | None
+) -> None:
+    """Draw pressure and film along y = 0."""
+    x: Array = solution.contact.grid.x
+    _draw_cases(row, solution, x, (state.pressure[:, 0], state.thickness[:, 0]), color, label)
+
+
+def _draw_series(row: list[Axes], cases: ContactCases, section: CaseSection) -> list[Axes]:
+    for number, curve in enumerate(cases.curves[section]):
+        for solution, run in zip(cases.solutions, curve.runs, strict=True):
+            early = run.time <= LATEST
+            values = (run.central_film[early], -run.delta[early])
+            _draw_cases(row, solution, run.time[early], values, f"C{number}", curve.name)
+    legend_beside(row[1])
+    return _dressed(row, (TITLES[section], ""), ("central film H0", "approach -delta"), "time")
+
+
+def _draw_cases(
+    row: list[Axes],
+    solution: CaseSolution,
+    abscissa: Array,
+    pair: tuple[Array, Array],
+    color: str,
+    label: str | None,
+) -> None:
+    """Draw a curve of a solution into each of two Axes if it is shown; converged ones have labels."""
+    if solution.kind not in SHOWN:
+        return
+    style, width = SHOWN[solution.kind]
+    shown = label if solution.kind == SolutionKind.CONVERGED else None
+    for axes, values in zip(row, pair, strict=True):
+        axes.plot(abscissa, values, style, color=color, linewidth=width, label=shown)
+
+
+def _dressed(row: list[Axes], titles: tuple[str, str], labels: tuple[str, str], abscissa: str) -> list[Axes]:
+    for axes, title, label in zip(row, titles, labels, strict=True):
+        axes.set(title=title, ylabel=label, xlabel=abscissa)
+        axes.grid(visible=True, alpha=0.3)
+    # Films behind the contact and balls in the air are off the scale of the figures.
+    if abscissa == "x":
+        row[1].set_ylim(0.0, 1.0)
+    return list(row)
+
+
+def main() -> None:
+    """Compute, draw and print the cases."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--cells", type=int, default=40, help="along each side, converged runs")
+    parser.add_argument("--tolerance", type=float, default=1e-4, help="of the steps of converged runs")
+    parser.add_argument("--settle", type=float, default=60.0, help="length of the runs of case 4.3, W = 1")
+    parser.add_argument("--out", type=Path, default=Path("rotorfilm-charts"))
+    given = parser.parse_args()
+    result = contact_cases(given.cells, given.tolerance, given.settle)
+    given.out.mkdir(parents=True, exist_ok=True)
+    save(plot_contact_cases(result)[0], given.out / "chart_contact_cases.png", dpi=110)
+    write_csv(given.out / "chart_contact_cases.csv", result.columns())
+    write_csv(given.out / "chart_contact_curves.csv", result.series())
+    for row in result.statements:
+        print(" | ".join(row))
+
+
+if __name__ == "__main__":
+    main()
