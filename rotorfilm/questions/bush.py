@@ -114,6 +114,7 @@ class BushRun:
     Attributes
     ----------
     bush : MeltingBush
+        Liner and shaft, unworn.
     rule : MeltingRule
         How melting spreads over the contact.
     melting_heat : float [J/m3]
