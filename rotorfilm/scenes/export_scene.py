@@ -71,7 +71,8 @@ def export_scene(
     if heavy or (scene.shaft is not None and not scene.has_film):
         model, step, speed = _damped_rotor(scene) if heavy else _shaft_system(scene, tolerance)
         end = 2.0 * np.pi / (abs(speed) or 1.0)  # a turn: what Python takes for it is some seconds
-        files, parts = {"system": "system"}, {"system": (model, {})}
+        files = {"system": "system"}
+        parts: Mapping[str, tuple[Any, Mapping[str, float]]] = {"system": (model, {})}
     else:
         models = models_of(scene)
         files, parts = models.files, models.parts
@@ -198,7 +199,8 @@ def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
     if table.film is None and not table.needs_length:
         scene = scene.with_tables(damper=replace(table, film=MapSqueeze()))
     models = damper_models(scene)
-    return mount(models.rotor, {"": models.support}), models.step, scene.speed
+    support: Any = models.support
+    return mount(models.rotor, {"": support}), models.step, scene.speed
 
 
 def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:

@@ -200,7 +200,7 @@ def _inside(reader: Reader) -> str:
 
 def _names(reader: Reader) -> Mapping[str, Any]:
     """Return the names that a reader says it takes, if it takes nothing else."""
-    shapes = getattr(reader, "takes", ())
+    shapes: tuple[Any, ...] = getattr(reader, "takes", ())
     return shapes[0] if len(shapes) == 1 and isinstance(shapes[0], Mapping) else {}
 
 

@@ -83,7 +83,8 @@ class PadTable(OiledTable):
         if self.has_lubricant:
             self.build()
         else:  # until `on` gives the oil, the other values are checked beside any viscosity
-            replace(self, viscosity=1.0)
+            table: Any = self
+            replace(table, viscosity=1.0)
 
     def build(self) -> AnyPads:
         """Return the bearing; raise InputError where a value breaks its rule."""

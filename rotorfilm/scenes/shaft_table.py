@@ -321,7 +321,8 @@ class CompressorTable:
 def _with_clearance(bearing: BearingTable, clearance: float) -> BearingTable:
     if bearing.journal is None:
         return bearing
-    return replace(bearing, journal=replace(bearing.journal, clearance=clearance))
+    journal: Any = bearing.journal  # whose clearance is a field of the class that it builds
+    return replace(bearing, journal=replace(journal, clearance=clearance))
 
 
 # `[shaft]`: a flexible rotor, its disks and its bearings.
