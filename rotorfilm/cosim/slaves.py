@@ -392,6 +392,7 @@ class CompiledPartner:
     Parameters
     ----------
     struct : rf_partner
+        The partner as the loop in C has it.
     inputs, outputs : mapping of str to int
         References to set inputs and to get outputs by.
     knowns : mapping of str to int

@@ -385,6 +385,7 @@ class FollowedFilm:
     ----------
     films : RestingFilms
     shaken : ShakenBall
+        The load over time.
     runs : dict
         Extremes of the quantity and the approach [1], by cells and steps over a period.
     """

@@ -56,6 +56,7 @@ class ShaftOrbitRung(ShaftRung):
     Attributes
     ----------
     place : OrbitPlace
+        Where the orbit is asked about, and which of its quantities.
     speed : float [rad/s]
     samples : int
         Over a turn; 0 for the linear orbit.

@@ -18,6 +18,8 @@ class ContactTable(Taking):
 
     Parameters
     ----------
+    mass : float [kg]
+        Of the ball; 0 where it follows its load without inertia.
     load : float [N]
         Of one ball, about which its law is made.
     cells : int

@@ -113,6 +113,8 @@ class DamperTable(Taking):
     ----------
     extent : FullFilm or HalfSommerfeld
         Whether the film carries tension.
+    feed : RadialFeed, AxialFeed or None
+        Besides a supply pressure at a vented back of the cage.
     stiffness : float [N/m]
         Of the retainer springs, which carry the static load; 0 for none.
     supply : DamperSupply or None

@@ -118,6 +118,8 @@ class JournalTable(OiledTable):
         None where `[lubricant]` gives the oil.
     film : FilmLaw, ConservedOil or None
         The film law; if the file does not say, the map where there is one, or what a question needs.
+    pads : tuple of Pad
+        Where there is a bearing wall; empty for the full circumference.
     grooves : tuple of Groove
         Axial grooves, over the whole length or in its middle.
     feed_holes : tuple of FeedHole

@@ -68,6 +68,13 @@ def pad_film_name(film: PadFilm | PressureDamBearing) -> str:
 class PadTable(OiledTable):
     """The table of a bearing made of pads; a family adds its pads, `data`, `film_key` and `build`.
 
+    Attributes
+    ----------
+    data : type of PadData
+        What an answer repeats of the bearing.
+    film_key : str
+        The key that names the film.
+
     Parameters
     ----------
     length : float [m]

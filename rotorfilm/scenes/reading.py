@@ -247,6 +247,7 @@ class Variant:
     tag : str
         That key.
     variants : mapping of str to TableType
+        The dataclasses by the value of that key.
     """
 
     tag: str

@@ -169,6 +169,7 @@ class BearingTable:
         Prefix of its signals.
     node : int
     journal : JournalTable or None
+        A journal bearing at the node.
     stiffness : float [N/m] or 2 x 2 numbers, or None
     damping : float [N s/m] or 2 x 2 numbers
     seal : AnnularSeal or None

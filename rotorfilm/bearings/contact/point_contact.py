@@ -371,6 +371,7 @@ class RollingBall:
     plane_modulus : float [Pa]
         Of the plane; infinite (rigid), as published, by default.
     plane_poisson_ratio : float [1]
+        Of the plane.
 
     Raises
     ------

@@ -41,7 +41,17 @@ DEGREE = math.pi / 180.0
 
 @dataclass(frozen=True, kw_only=True)
 class OwnCenter:
-    """An arc about a center of curvature of its own; see `Lobe`."""
+    """An arc about a center of curvature of its own.
+
+    Parameters
+    ----------
+    start, extent : float [rad]
+        First end of the arc, in the bearing frame from +x towards +y, and the angle that it covers.
+    preload : float [1]
+        Distance of its center of curvature from that of the bearing, in pad clearances.
+    offset : float [1]
+        Share of the arc before the place that is closest to the centered journal.
+    """
 
     start: float
     extent: float

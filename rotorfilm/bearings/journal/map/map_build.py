@@ -107,7 +107,7 @@ def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     """Write axes and fields as plain arrays; a failure leaves the earlier file."""
     content = io.BytesIO()
     arrays = {**axes._asdict(), **{name: fields[name] for name in FIELDS}}
-    np.savez_compressed(content, **arrays)  # type: ignore[arg-type]
+    np.savez_compressed(content, **arrays)
     write_whole(path, content.getvalue())
 
 
