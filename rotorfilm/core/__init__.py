@@ -1,4 +1,4 @@
-"""What all parts share: models, signals, units, errors and results."""
+"""What every part uses: models and signals, units, errors, results, checked files."""
 
 from typing import TYPE_CHECKING
 
@@ -42,5 +42,6 @@ if TYPE_CHECKING:
         WhirlThreshold as WhirlThreshold,
     )
     from .signals import Signal as Signal
+    from .sources import published
 else:
     show(__name__)
