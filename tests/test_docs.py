@@ -83,7 +83,7 @@ def test_every_picture_is_drawn_by_one_command_and_shown():
 
 def test_the_interface_page_shows_every_public_name_once():
     shown_names = Counter(name for names in interface_tasks.tasks().values() for name in names)
-    assert shown_names == Counter(published())
+    assert shown_names == Counter(list(published()))
 
 
 def test_every_task_of_the_interface_page_has_names():
