@@ -9,12 +9,14 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
 import rotorfilm
 from rotorfilm.core.readable import Entry, entries, units
+from rotorfilm.core.sources import published
 
 PACKAGE = Path(rotorfilm.__file__).parent
 
@@ -48,7 +50,7 @@ def exported_names() -> set[str]:
     """Return the names that the package or one of its parts shows: what it imports in its __init__."""
     nodes = [node for path in PACKAGE.rglob("__init__.py") for node in ast.walk(parse(path))]
     relative = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level]
-    return {*rotorfilm.__all__, *(alias.name for node in relative for alias in node.names)}
+    return {*published(), *(alias.name for node in relative for alias in node.names)}
 
 
 def _strings(where: str, node: ast.ClassDef) -> Iterator[Entry]:
@@ -110,7 +112,7 @@ def protocols() -> list[Owner]:
     return [
         _protocol(where, node)
         for where, node in classes()
-        if "Protocol" in map(ast.unparse, node.bases) and node.name in rotorfilm.__all__
+        if "Protocol" in map(ast.unparse, node.bases) and node.name in published()
     ]
 
 
@@ -138,9 +140,10 @@ def escaped(text: str) -> str:
 def _place(where: str) -> str:
     """Return a class, with a link to its page if it has one."""
     name = where.rpartition(".")[2]
-    shown = getattr(rotorfilm, name) if name in rotorfilm.__all__ else None
+    package = published().get(name, "")
+    shown = getattr(import_module(package), name) if package else None
     public = shown is not None and f"{shown.__module__}.{name}" == where
-    return f"{{py:obj}}`~rotorfilm.{name}`" if public else f"`{name}`"
+    return f"{{py:obj}}`~{package}.{name}`" if public else f"`{name}`"
 
 
 def _rows(name: str, said: list[Entry]) -> Iterator[str]:

@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-import rotorfilm
-from rotorfilm.core.sources import homes
+from rotorfilm.core.sources import homes, published
 
 TASKS = {
     "Journal bearings and their films": (
@@ -77,7 +76,10 @@ TASKS = {
 
 def home(name: str) -> str:
     """Return where a public name lives, below the package, as `analysis.whirl.whirl_threshold`."""
-    return f"{homes('rotorfilm')[name].module.partition('.')[2]}.{name}"
+    module = published()[name]
+    while name in homes(module):
+        module, _ = homes(module)[name]
+    return f"{module.partition('.')[2]}.{name}"
 
 
 def fitting(name: str) -> list[tuple[int, str, str]]:
@@ -94,7 +96,7 @@ def fitting(name: str) -> list[tuple[int, str, str]]:
 def tasks() -> dict[str, list[str]]:
     """Return the public names under each heading."""
     found: dict[str, list[str]] = {heading: [] for heading in TASKS}
-    for name in rotorfilm.__all__:
+    for name in sorted(published()):
         fits = fitting(name)
         if not fits:
             raise ValueError(f"TASKS of {Path(__file__).name} must have a place for {home(name)}")
@@ -107,5 +109,5 @@ def write(path: Path) -> None:
     lines = ["Interface", "=========", ""]
     for heading, names in tasks().items():
         lines += [heading, "-" * len(heading), "", ".. autosummary::", "   :toctree: _interface", ""]
-        lines += [f"   rotorfilm.{name}" for name in names] + [""]
+        lines += [f"   {published()[name]}.{name}" for name in names] + [""]
     path.write_text("\n".join(lines))

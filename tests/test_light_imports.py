@@ -11,7 +11,7 @@ import rotorfilm
 FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platformdirs", "pint"}
 """Packages that none of these paths needs."""
 
-OTHER_PARTS = {"motion", "cosim", "comparisons", "charts", "sweeps", "questions", "rotors", "fmu", "cli"}
+OTHER_PARTS = {"cosim", "studies", "charts", "sweeps", "questions", "rotors", "fmu", "cli", "identification"}
 OTHER_FAMILIES = {"bearings.damper", "bearings.contact", "bearings.bush"}
 TABLES = {"bearings.films.map_fit", "bearings.journal.grooved_film"}
 """What makes a map where there is none."""
@@ -25,15 +25,19 @@ bearing.force([3e-5, 0.0], [0.0, 0.0], 100.0)
 SCENE = Path(__file__).parents[1] / "examples" / "friswell.toml"
 
 PATHS = {
-    "import": ("import rotorfilm", {"numpy", "rich"}, {"errors", "model", "bearings"}),
+    "import": ("import rotorfilm", {"numpy", "rich"}, {"analysis", "bearings", "core.errors", "core.model"}),
     "version": (CALL.format(["--version"]), {"numpy", "rich"}, {"cli", "bearings"}),
-    "help": (CALL.format(["--help"]), {"rich"}, OTHER_PARTS - {"cli"} | {"bearings", "scenes", "linear"}),
-    "force": (FORCE, {"rich"}, OTHER_PARTS | OTHER_FAMILIES | TABLES | {"scenes", "linear"}),
+    "help": (CALL.format(["--help"]), {"rich"}, OTHER_PARTS - {"cli"} | {"bearings", "scenes", "analysis"}),
+    "force": (FORCE, {"rich"}, OTHER_PARTS | OTHER_FAMILIES | TABLES | {"scenes", "analysis"}),
     "solve": (
         CALL.format(["solve", str(SCENE)]),
         {"rich.progress"},
+<<<<<<< HEAD
         OTHER_PARTS - {"cli", "rotors"}
         | OTHER_FAMILIES
+=======
+        OTHER_PARTS - {"cli", "rotors", "studies"}
+>>>>>>> manual
         | {
             "analysis.simulate",
             "bearings.rolling",

@@ -112,9 +112,14 @@ class LatePackage(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name == "__version__":
             return installed_version()
-        if name not in homes(self.__name__):
-            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
-        found = getattr(import_module(homes(self.__name__)[name][0]), name)
+        if name in homes(self.__name__):
+            found = getattr(import_module(homes(self.__name__)[name][0]), name)
+        elif self.__name__ == PACKAGE and name in parts():
+            return import_module(f"{PACKAGE}.{name}")
+        else:
+            elsewhere = published().get(name, "") if self.__name__ == PACKAGE else ""
+            hint = f"; it is {elsewhere}.{name}" if elsewhere else ""
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}{hint}")
         vars(self)[name] = found
         return found
 
@@ -156,6 +161,26 @@ def homes(package: str) -> dict[str, tuple[str, bool]]:
         for alias in aliases:
             one = {alias.name: (module, alias.name == alias.asname)}
             found |= homes(module) if alias.name == "*" else one
+    return found
+
+
+@cache
+def parts() -> tuple[str, ...]:
+    """Return the packages right below this one, by their names."""
+    return tuple(sorted(path.parent.name for path in ROOT.glob("*/__init__.py")))
+
+
+INTERFACE = ("analysis", "bearings", "core", "cosim", "fmu", "identification", "rotors", "scenes", "sweeps")
+"""The packages whose names are the interface of rotorfilm; charts and studies have pages of their own."""
+
+
+@cache
+def published() -> dict[str, str]:
+    """Return every public name with the package that a user imports it from, the top level before others."""
+    found: dict[str, str] = {}
+    for package in (PACKAGE, *(f"{PACKAGE}.{part}" for part in INTERFACE)):
+        shown = {name: package for name, home in homes(package).items() if home[1]}
+        found = shown | found
     return found
 
 

@@ -4,7 +4,13 @@ import dataclasses
 
 import numpy as np
 
+from importlib import import_module
+
 import rotorfilm as rf
+from rotorfilm.core import published
+
+PUBLIC = {name: getattr(import_module(package), name) for name, package in published().items()}
+"""Everything that users import, by its name."""
 
 BEARING = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 SHORT_GROOVE = rf.Groove(center=1.0, width=0.2, length=0.01)

@@ -8,11 +8,13 @@ import rotorfilm as rf
 from rotorfilm.core.errors import InputError
 from rotorfilm.core.inputs import is_object, kinds_of, units_of
 
+from .public_objects import PUBLIC
+
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = rf.RigidShaft(
     mass=10.0, diametral_inertia=0.2, polar_inertia=0.1, stations=(("a", -0.1), ("b", 0.1)), speed=9.0
 )
-FUNCTIONS = [one for name in rf.__all__ if inspect.isfunction(one := getattr(rf, name))]
+FUNCTIONS = [one for one in PUBLIC.values() if inspect.isfunction(one)]
 CHECKED = [
     (one, name)
     for one in FUNCTIONS

@@ -13,7 +13,7 @@ from rotorfilm.core.errors import InputError, ValidityWarning
 from rotorfilm.core.inputs import BUILT, units_of
 from rotorfilm.core.units import UNITS, si_name
 
-from .public_objects import BALL, BEARING, MADE
+from .public_objects import BALL, BEARING, MADE, PUBLIC
 
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
@@ -78,12 +78,12 @@ def test_a_string_gives_the_object_that_a_float_gives(one, name, text):
 def test_every_public_constructor_is_among_them():
     taking = {
         name
-        for name in rf.__all__
-        if dataclasses.is_dataclass(made := getattr(rf, name))
+        for name, made in PUBLIC.items()
+        if dataclasses.is_dataclass(made)
         and any(UNITS[si_name(unit)].exponents for unit in units_of(made).values())
     }
     assert taking - RESULTS - SCALED <= {type(one).__name__ for one in MADE}
-    assert all(hasattr(getattr(rf, name).__init__, "__wrapped__") for name in taking - RESULTS - SCALED)
+    assert all(hasattr(PUBLIC[name].__init__, "__wrapped__") for name in taking - RESULTS - SCALED)
     assert len(CASES) > 90
 
 
@@ -271,8 +271,7 @@ def test_a_size_that_is_not_built_is_another_unit(wrong, message):
 
 
 def test_sizes_are_known_arguments_in_their_units():
-    public = [getattr(rf, name) for name in rf.__all__]
-    known = {(name, unit) for one in public if callable(one) for name, unit in units_of(one).items()}
+    known = {(name, unit) for one in PUBLIC.values() if callable(one) for name, unit in units_of(one).items()}
     assert {(name, unit) for name, (unit, _, _) in BUILT.items()} <= known
     assert all(least < most for _, least, most in BUILT.values())
 

@@ -14,6 +14,7 @@ import pytest
 from scipy.integrate import BDF
 
 import rotorfilm
+from rotorfilm import bearings
 from rotorfilm.analysis.continuation import Bifurcation
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.charts.result_charts import PICTURES
@@ -414,7 +415,7 @@ def test_a_bearing_with_openings_tells_its_film():
     openings = {"grooves": (rotorfilm.Groove(center=1.5, width=0.3),)}
     grooved = rotorfilm.JournalBearing(**BEARING, **openings)
     assert "film=GroovedMapFilm(cells=(192, 12)," in repr(grooved)
-    made = eval(repr(grooved), vars(rotorfilm) | {n: getattr(rotorfilm, n) for n in rotorfilm.__all__})
+    made = eval(repr(grooved), {name: getattr(bearings, name) for name in bearings.__all__})
     assert made.fitted_film == grooved.fitted_film
     plain = rotorfilm.JournalBearing(**BEARING)
     assert "film=MapFilm()" in repr(plain)
