@@ -21,8 +21,9 @@ import numpy as np
 from published_pads import ELLIPTICAL, GROOVES, dimensions, largest, rest
 from studies.ross_pads import LUND_THOMSEN
 
-from rotorfilm import LobedBearing, PadGridFilm, lobe_set
-from rotorfilm.charts.canvas import new_figure, save
+from rotorfilm import LobedBearing, lobe_set
+from rotorfilm.bearings import PadGridFilm
+from rotorfilm.charts import new_figure, save
 
 HERE = Path(__file__).parent
 STORED = HERE / "results" / "beside_ross.json"

@@ -18,8 +18,15 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotorfilm import ApproximateShaft, BushReaction, BushWear, LocalMelting, f4k20_bush, published_stage
-from rotorfilm.bearings.bush.melting import approximate_flux, exact_flux
+from rotorfilm import BushReaction, BushWear
+from rotorfilm.bearings import (
+    ApproximateShaft,
+    LocalMelting,
+    approximate_flux,
+    exact_flux,
+    f4k20_bush,
+    published_stage,
+)
 from rotorfilm.charts import new_axes, plot_contact_pressure, plot_critical_speed
 
 BUSH, HEAT, SPEED, END = f4k20_bush(), 1e8, 12.0, 1.0

@@ -21,7 +21,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import rotorfilm.native
-from rotorfilm import BushReaction, BushWear, export_fmu, f4k20_bush
+from rotorfilm import BushReaction, BushWear, export_fmu
+from rotorfilm.bearings import f4k20_bush
 
 HERE = Path(__file__).parent
 NATIVE = Path(rotorfilm.native.__file__).parent

@@ -10,9 +10,9 @@ import warnings
 
 import numpy as np
 
-from rotorfilm import DamperSupply, FiniteSqueeze, FullFilm, JFODamper, PorousDamper, damper_turn
+from rotorfilm import DamperSupply, FiniteSqueeze, FullFilm, JFODamper, PorousDamper, RotorfilmError
+from rotorfilm.bearings import damper_turn
 from rotorfilm.bearings.damper import ExtrapolatedDamper
-from rotorfilm.core.errors import RotorfilmError
 from rotorfilm.questions.damper import damper_ladder
 from rotorfilm.scenes import read_scene
 

@@ -25,15 +25,14 @@ from rotorfilm import (
     JournalBearing,
     ReynoldsFilm,
     RigidRotor,
-    SIExp,
     SIExp3,
-    SIMemory,
     Trajectory,
     cosimulate,
     equilibrium,
     simulate,
 )
 from rotorfilm.bearings.films import mass_conserving_steps as stepped_film
+from rotorfilm.cosim import SIExp, SIMemory
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 314.0
 TURN, TURNS, STEPS = 2.0 * np.pi / SPEED, 8, 384

@@ -20,7 +20,7 @@ from rotorfilm.bearings.films.mass_conserving import (
     Supply,
     step_storage,
 )
-from rotorfilm.bearings.films.mass_conserving_steps import OilMemory, after_step
+from rotorfilm.bearings.films.mass_conserving_steps import OilHistory, after_step
 
 BEGIN, SHUT, END = 0.25, 0.73239, 0.748
 FINE = 25600
@@ -37,7 +37,7 @@ def full_load(t: np.ndarray) -> np.ndarray:
     return 0.0125 - rate / (12.0 * (0.375 + 0.125 * np.cos(4.0 * np.pi * t)) ** 3)
 
 
-def plates(cells: int) -> tuple[ConservedFilm, OilMemory]:
+def plates(cells: int) -> tuple[ConservedFilm, OilHistory]:
     """Return the film, and its memory where the plates are closest."""
     x = np.linspace(-0.5, 0.5, cells + 1)
     opening = np.full((x.size, 1), -1, dtype=np.int32)
@@ -45,10 +45,10 @@ def plates(cells: int) -> tuple[ConservedFilm, OilMemory]:
     grid = ConservedCells(x, np.full(x.size, 1.0 / cells), np.ones(1), opening)
     supply = Supply(np.full(2, 0.0125), np.zeros(2, dtype=bool), np.zeros(2), 0.0, 0.0)
     full, one = np.full((x.size, 1), gap(BEGIN)), np.ones((x.size, 1))
-    return ConservedFilm(grid, np.inf, supply), OilMemory(full, full, 0.0, 0.0 * full, one, one)
+    return ConservedFilm(grid, np.inf, supply), OilHistory(full, full, 0.0, 0.0 * full, one, one)
 
 
-def stepped(film: ConservedFilm, memory: OilMemory, at: Gap, dt: float) -> ConservedState:
+def stepped(film: ConservedFilm, memory: OilHistory, at: Gap, dt: float) -> ConservedState:
     """Return the film after a step, of first order where the memory has no length."""
     ratio = dt / memory.length if memory.length else 1.0
     before = memory.before if memory.length else None

@@ -21,23 +21,22 @@ from time import perf_counter, process_time
 import numpy as np
 from scipy import linalg
 
-from rotorfilm import (
+from rotorfilm import ContactGrid, ConvergenceError, PointContact, reduce_contact
+from rotorfilm.bearings import (
+    HERTZ_LOAD,
     AdaptiveSteps,
-    ContactGrid,
-    ConvergenceError,
     FixedSteps,
-    PointContact,
     SineLoad,
+    SmallMotion,
     StaggeredScheme,
     StepLoad,
     UpwindScheme,
+    ball_transient,
     perturbed,
-    reduce_contact,
-    ride,
 )
 from rotorfilm.bearings.contact import contact_steps
 from rotorfilm.bearings.contact.film_newton import NewtonKrylov
-from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion, stationary
+from rotorfilm.bearings.contact.stationary import stationary
 from rotorfilm.studies import decay_time
 
 
@@ -215,10 +214,10 @@ def print_law():
         full = c.simulate(start, duration=20.0, W=W, load=load, control=FixedSteps(step=0.05))
         middle = perf_counter()
         options = {"mass": W / HERTZ_LOAD, "load": load, "start": start.delta, "duration": 20.0}
-        motion = ride(law, **options, samples=401, rtol=1e-4)
+        motion = ball_transient(law, **options, samples=401, rtol=1e-4)
         middle_again = perf_counter()
         for _ in range(10):
-            ride(law, **options, samples=401, rtol=1e-4)
+            ball_transient(law, **options, samples=401, rtol=1e-4)
         after = middle + 0.1 * (perf_counter() - middle_again)
         error = np.interp(full.time, motion.time, motion["z"]) - full.delta
         rms = np.sqrt(np.mean(error**2) / np.mean((full.delta - rest.delta) ** 2))

@@ -15,7 +15,7 @@ import numpy as np
 from fmpy.fmi2 import FMU2Slave
 from studies.master_cases import BEARING, ROTOR, STEP, PythonGaussSeidel, PythonSIExp3
 
-from rotorfilm.core.errors import CouplingWarning
+from rotorfilm.core import CouplingWarning
 from rotorfilm.cosim import GaussSeidel, SIExp3, cosimulate
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import LawRotor

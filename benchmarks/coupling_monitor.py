@@ -8,7 +8,8 @@ import warnings
 
 from studies.coupling_cases import SPEED, coupling_cases
 
-from rotorfilm.core.errors import CouplingWarning, PartialResultError
+from rotorfilm import PartialResultError
+from rotorfilm.core import CouplingWarning
 from rotorfilm.cosim import InProcessSlave, couple
 
 

@@ -26,17 +26,16 @@ from matplotlib.ticker import NullFormatter
 from rotorfilm import (
     FiniteMapSqueeze,
     FiniteSqueeze,
-    MapSqueeze,
+    FullFilm,
     PorousCage,
     PorousDamper,
-    PublishedSqueeze,
     RigidRotor,
     ShortSqueeze,
     Sprung,
     export_fmu,
     synchronous_orbits,
 )
-from rotorfilm.bearings.films.geometry import FullFilm
+from rotorfilm.bearings import MapSqueeze, PublishedSqueeze
 
 COUNT, LARGEST = 200, 0.9
 C, R = 1e-4, 0.05

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-from rotorfilm.bearings.films.law import FilmLaw
+from rotorfilm.bearings import FilmLaw
 from rotorfilm.bearings.journal import ShortFilm, SpectralArcFilm, SplittingFilm
 from rotorfilm.studies import shortest_time
 

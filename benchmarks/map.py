@@ -17,9 +17,9 @@ from time import perf_counter, process_time
 
 import numpy as np
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
-from rotorfilm.bearings.films.law import FilmLaw
-from rotorfilm.bearings.films.map_fit import cores, tabulate_film
+from rotorfilm import Groove
+from rotorfilm.bearings import FilmGeometry, FilmLaw, aligned_openings, tabulate_film
+from rotorfilm.bearings.films.map_fit import cores
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,

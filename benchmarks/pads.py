@@ -29,14 +29,8 @@ from pathlib import Path
 import numpy as np
 from studies.ross_pads import CASES, CLEARANCE, RADIUS, SPEED, VISCOSITY
 
-from rotorfilm import (
-    LobedBearing,
-    PadGridFilm,
-    TiltingPadBearing,
-    coefficients,
-    equilibrium,
-    even_pivots,
-)
+from rotorfilm import LobedBearing, TiltingPadBearing, coefficients, equilibrium, even_pivots
+from rotorfilm.bearings import PadGridFilm
 from rotorfilm.bearings.pads import Lobe, PadMapFilm
 from rotorfilm.studies import bearing_types, pad_accuracy, pad_rungs
 from rotorfilm.studies.pad_accuracy import compared_bearings, lobe_states

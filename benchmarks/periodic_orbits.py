@@ -26,7 +26,6 @@ from rotorfilm import (
     Disk,
     ElasticMaterial,
     JournalBearing,
-    MountedRotor,
     RigidRotor,
     ShaftElement,
     ShaftRotor,
@@ -37,6 +36,7 @@ from rotorfilm import (
     simulate_rotor,
     whirl_threshold,
 )
+from rotorfilm.rotors import MountedRotor
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 TARGETS = (1e-4, 1e-6)

@@ -20,7 +20,6 @@ import numpy as np
 from rotorfilm import (
     Lobe,
     LobedBearing,
-    PadGridFilm,
     PressureDamBearing,
     TiltingPadBearing,
     coefficients,
@@ -29,6 +28,7 @@ from rotorfilm import (
     lobe_set,
     pressure_dam_pads,
 )
+from rotorfilm.bearings import PadGridFilm
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 300.0
 FILM = PadGridFilm(cells=(192, 16))

@@ -15,11 +15,9 @@ import sys
 
 import numpy as np
 
-from rotorfilm import (
-    BallBearing,
-    ContactGrid,
+from rotorfilm import BallBearing, ContactGrid, PointContact
+from rotorfilm.bearings import (
     EllipticContact,
-    PointContact,
     RaceFilm,
     RoelandsViscosity,
     StaggeredScheme,

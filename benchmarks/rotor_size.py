@@ -26,11 +26,11 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm import LinearBearing
 from rotorfilm.analysis import campbell, critical_speeds, rotor_modes, rotor_threshold, unbalance_response
 from rotorfilm.analysis.rotor_equilibrium import rest
 from rotorfilm.analysis.rotor_matrices import second_order
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.rotors import Disk, ElasticMaterial, ShaftElement, ShaftRotor, Station, Unbalance
 
 SIZES = (12, 48, 201, 999)

@@ -28,17 +28,16 @@ from rotorfilm import (
     Disk,
     ElasticMaterial,
     JournalBearing,
-    MountedRotor,
     RotorfilmError,
     ShaftElement,
     ShaftRotor,
     Station,
-    Support,
     Unbalance,
     mount,
     rotor_equilibrium,
     simulate_rotor,
 )
+from rotorfilm.rotors import MountedRotor, Support
 
 SPEED, TURNS, SAMPLES = 1500.0 * math.pi / 30.0, 20, 401
 TARGETS = (1e-3, 1e-4, 1e-5, 1e-6)

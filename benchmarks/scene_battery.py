@@ -31,8 +31,8 @@ import numpy as np
 from families import FAMILIES
 from families.drawn import Drawn
 
+from rotorfilm import RotorfilmError
 from rotorfilm.core.answers import QuestionAnswer
-from rotorfilm.core.errors import RotorfilmError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.walk import Meter
 from rotorfilm.scenes import read_scene

@@ -18,14 +18,14 @@ from rotorfilm import (
     EndSeal,
     FiniteSqueeze,
     FullFilm,
-    HalfSommerfeld,
     RigidRotor,
     ShortSqueeze,
     Sprung,
     SqueezeFilmDamper,
     synchronous_orbits,
 )
-from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, FullSqueezeFilm, layer_modes
+from rotorfilm.bearings import HalfSommerfeld, layer_modes
+from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, FullSqueezeFilm
 from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia
 
 

@@ -16,23 +16,23 @@ import numpy as np
 from fmpy.fmi2 import FMU2Slave
 
 from rotorfilm import (
+    ContactError,
+    CouplingError,
     Disk,
     ElasticMaterial,
     GaussSeidel,
     JournalBearing,
-    ReducedRotor,
     ShaftElement,
     ShaftRotor,
     SIExp3,
     Station,
-    SteadyRotor,
     Unbalance,
     cosimulate,
     export_fmu,
     mount,
     rotor_equilibrium,
 )
-from rotorfilm.core.errors import ContactError, CouplingError
+from rotorfilm.rotors import ReducedRotor, SteadyRotor
 
 SPEED = 1500.0 * math.pi / 30.0
 TURN = 2.0 * math.pi / SPEED

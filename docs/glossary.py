@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import rotorfilm
+from rotorfilm.core import published
 from rotorfilm.core.readable import Entry, entries, units
-from rotorfilm.core.sources import published
 
 PACKAGE = Path(rotorfilm.__file__).parent
 

@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from rotorfilm.core.sources import homes, published
+from rotorfilm.core import published
+from rotorfilm.core.sources import homes
 
 TASKS = {
     "Journal bearings and their films": (

@@ -30,7 +30,7 @@ rotor = rf.ShaftRotor(
     speed=SPEED,
 )
 impellers = [
-    rf.Impeller(
+    rf.analysis.Impeller(
         power="800 kW", diameter="400 mm", width="12 mm", suction_density=s, discharge_density=1.25 * s
     )
     for s in (15.0, 18.75, 23.44, 29.3, 36.62)
@@ -61,7 +61,7 @@ films = cases["smallest clearance"]
 statics = rf.shaft_statics(rotor)
 print(f"largest bending moment {np.abs(statics.bending_moment).max():.0f} N m")
 rest = rf.rotor_equilibrium(rotor, films, SPEED)
-excited = replace(rotor, unbalances=rf.mode_unbalances(rotor, rest, 1))
+excited = replace(rotor, unbalances=rf.analysis.mode_unbalances(rotor, rest, 1))
 response = rf.unbalance_response(excited, films, np.linspace(2000.0, 16500.0, 30) * RPM)
 print(rf.separation_margins(response, 9000.0 * RPM, SPEED, ["middle_x", "middle_y"]).verdict)
 

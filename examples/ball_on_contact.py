@@ -10,7 +10,8 @@ from time import perf_counter
 import control
 import numpy as np
 
-from rotorfilm import ContactGrid, FixedSteps, RollingBall, SineLoad, export_fmu, moving_contact, reduce_ball
+from rotorfilm import ContactGrid, RollingBall, export_fmu, reduce_ball
+from rotorfilm.bearings import FixedSteps, SineLoad, moving_contact
 from rotorfilm.cosim import open_fmu
 
 ball = RollingBall(

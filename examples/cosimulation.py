@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from rotorfilm import CouplingError
 from rotorfilm.analysis import simulate
-from rotorfilm.core.errors import CouplingError, CouplingWarning
+from rotorfilm.core import CouplingWarning
 from rotorfilm.cosim import SIExp3, cosimulate, critical_macro_step
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.export_scene import export_scene, resting_rotor

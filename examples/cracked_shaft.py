@@ -20,10 +20,10 @@ shaft = rf.ShaftRotor(
     beam=rf.ClassicalBeam(),
 )
 springs = dict.fromkeys(("left", "right"), rf.LinearBearing(stiffness=5e7, damping=2e3))
-crack = rf.ShaftCrack(element=0, depth=0.015)
+crack = rf.rotors.ShaftCrack(element=0, depth=0.015)
 
 
-def response(speed: float) -> rf.CrackedResponse:
+def response(speed: float) -> rf.analysis.CrackedResponse:
     """Return the periodic motion at a speed [rad/s]."""
     cracked = rf.CrackedRotor(rotor=replace(shaft, speed=speed), crack=crack)
     return rf.cracked_response(rf.mount(cracked, springs), harmonics=3, steps=24)

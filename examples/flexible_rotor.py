@@ -24,12 +24,12 @@ from rotorfilm import (
     campbell,
     critical_speeds,
     reduce_rotor,
-    resonant_speeds,
     rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
     unbalance_response,
 )
+from rotorfilm.analysis import resonant_speeds
 from rotorfilm.charts import plot_campbell, plot_unbalance_response, save
 
 RPM = math.pi / 30.0

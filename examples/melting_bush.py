@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rotorfilm import ApproximateShaft, GlobalBalance, f4k20_bush, published_stage
+from rotorfilm.bearings import ApproximateShaft, GlobalBalance, f4k20_bush, published_stage
 from rotorfilm.charts import new_axes, plot_contact_pressure, plot_critical_speed, save
 
 exact = f4k20_bush()

@@ -1,6 +1,7 @@
 """A ball on a lubricated plane, pushed: how long it oscillates, by the published steps and by better ones."""
 
-from rotorfilm import ContactGrid, FixedSteps, PointContact, perturbed
+from rotorfilm import ContactGrid, PointContact
+from rotorfilm.bearings import FixedSteps, perturbed
 from rotorfilm.studies import decay_time
 
 contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(24, 24)))

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from rotorfilm import synchronous_orbits
-from rotorfilm.scenes import Scene
+from rotorfilm.scenes import Scene, run_damper
 from rotorfilm.scenes.damper_films import damper_models
-from rotorfilm.scenes.solve_damper import couple_damper, run_damper
+from rotorfilm.scenes.solve_damper import couple_damper
 
 scene = Scene.load(Path(__file__).with_name("run_up.toml"))
 models = damper_models(scene)

@@ -24,7 +24,7 @@ gain = np.abs(response.frdata[list(response.output_labels).index("large_y")])
 density = np.full(2, 0.02**2 / np.ptp(omega))
 ground = rf.BaseMotion.from_spectrum(omega[[0, -1]], density, duration=8.0, seed=1)
 start = replace(shaft, initial=(*rest.displacement, *0.0 * rest.displacement))
-shaken = rf.mount(rf.ShakenBaseRotor(rotor=start, base=ground), films)
+shaken = rf.mount(rf.BaseExcitedRotor(rotor=start, base=ground), films)
 run = rf.simulate_rotor(shaken, duration=8.0, samples=8001, rtol=1e-5)
 moved = run["large_y"][1000:] - run["large_y"][0]
 

@@ -12,11 +12,11 @@ from rotorfilm import (
     BallBearing,
     Disk,
     ElasticMaterial,
+    MomentCarryingBalls,
     RollingMaterial,
     ShaftElement,
     ShaftRotor,
     Station,
-    TiltingBalls,
     back_to_back,
     critical_speeds,
     rotor_modes,
@@ -44,7 +44,7 @@ spindle = ShaftRotor(
 shares = []
 for preload in (50.0, 150.0, 400.0):
     pair = back_to_back(bearing, distance="20 mm", preload=preload)
-    pairs = dict.fromkeys(("front", "rear"), TiltingBalls(bearing=pair))
+    pairs = dict.fromkeys(("front", "rear"), MomentCarryingBalls(bearing=pair))
     running = [pair.running_preload(speed) for speed in (0.0, 2000.0, 4000.0)]
     at_rest = rotor_modes(spindle, pairs, 1.0).frequency[1]
     forward = [

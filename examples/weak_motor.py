@@ -19,7 +19,7 @@ rotor = rf.RigidRotor(mass=mass, speed=0.7 * critical, unbalance=unbalance, grav
 axes = new_axes("Speed / critical speed over time [s], with a weak and a strong motor")
 ends = []
 for stall in (0.3, 2.0):
-    motor = rf.LinearMotor(stall_torque=stall, idle_speed=2.0 * critical)
+    motor = rf.rotors.LinearMotor(stall_torque=stall, idle_speed=2.0 * critical)
     driven = rf.MotorDrivenRotor(rotor=rotor, inertia=5e-3, torque=motor)
     run = rf.simulate(driven, springs, duration=2.5, samples=501, rtol=1e-5, method=DOP853)
     axes.plot(run.time, run["speed"] / critical, label=f"stall torque {stall} N m")

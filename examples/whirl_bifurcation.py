@@ -11,11 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from rotorfilm import (
-    Bifurcation,
     JournalBearing,
     RigidRotor,
     ShortFilm,
-    basin_scan,
     coefficients,
     continue_orbits,
     critical_mass,
@@ -23,6 +21,7 @@ from rotorfilm import (
     hopf_point,
     mount,
 )
+from rotorfilm.analysis import Bifurcation, basin_scan
 from rotorfilm.charts import new_figure, plot_basin, plot_orbit_curves, save
 
 C, LOAD = 1e-4, 500.0

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotorfilm import BushReaction, RigidRotor, SpeedProfile, cosimulate, export_fmu, f4k20_bush, simulate
+from rotorfilm import BushReaction, RigidRotor, SpeedProfile, cosimulate, export_fmu, simulate
+from rotorfilm.bearings import f4k20_bush
 
 bush = f4k20_bush()
 # Melting heat and damping of the liner are not in the source: round numbers of the right size.

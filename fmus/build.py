@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from rotorfilm.core.files import write_whole
+from rotorfilm.core.files import write_atomically
 from rotorfilm.core.signals import to_fmi_name
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import CheckItem, check_fmu, export_fmu
@@ -86,7 +86,7 @@ def write_reference(name: str) -> Path:
     recipe = load_recipe(name)
     path = reference_path(name)
     path.parent.mkdir(exist_ok=True)
-    return write_whole(path, to_csv(columns(recipe), compute_reference(recipe)))
+    return write_atomically(path, to_csv(columns(recipe), compute_reference(recipe)))
 
 
 def read_reference(name: str) -> NDArray:

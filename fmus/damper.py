@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm import MapSqueeze, PorousCage, PorousDamper, Sprung
+from rotorfilm import PorousCage, PorousDamper, Sprung
+from rotorfilm.bearings import MapSqueeze
 
 COMPONENT = "damper"
 SPEED = 400.0

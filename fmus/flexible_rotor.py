@@ -14,11 +14,11 @@ from rotorfilm import (
     ShaftElement,
     ShaftRotor,
     Station,
-    SteadyRotor,
     Unbalance,
     reduce_rotor,
     rotor_equilibrium,
 )
+from rotorfilm.rotors import SteadyRotor
 
 COMPONENT = "rotor"
 SPEED = 1500.0 * np.pi / 30.0

@@ -4,12 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.bearings.contact import film_newton as contact_preconditioner
-from rotorfilm.core.errors import InputError
 from rotorfilm.core.limits import SCENE_BYTES
-from rotorfilm.scenes import Scene
+from rotorfilm.scenes import Scene, varied
 from rotorfilm.scenes.new_scene import new_scene
-from rotorfilm.scenes.scene import varied
 from rotorfilm.sweeps import point as axes
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -42,7 +42,6 @@ KNOWN = {
     *charts.__all__,
     "cage",
     "supply_pressure",
-    "blade_loss_peak",
     "peak_displacement",
 }
 """What an answer may name: public names, and a few arguments and quantities."""

@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
+from rotorfilm import ContactError, FilmContactError, InputError, RotorfilmError, ValidityWarning
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.core import errors
 from rotorfilm.core.errors import (
-    ContactError,
-    FilmContactError,
-    InputError,
-    RotorfilmError,
-    ValidityWarning,
     require_finite,
     require_inside,
     require_non_negative,

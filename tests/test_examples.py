@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from rotorfilm.core.errors import ValidityWarning
+from rotorfilm import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.solve_shaft import solve_level_one, solve_rotor
 

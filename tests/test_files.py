@@ -10,21 +10,20 @@ import sys
 
 import pytest
 
-from rotorfilm import InputError, Measurements, TabulatedBearing, read_ross
+from rotorfilm import InputError, Measurements, RigidRotor, TabulatedBearing, read_ross
 from rotorfilm.bearings.journal.map.map_film import packaged_table
 from rotorfilm.charts import new_axes, save
+from rotorfilm.core import write_csv
 from rotorfilm.core.files import (
     read_sealed,
     read_text,
     sealed_line,
     unsealed_line,
+    write_atomically,
     write_sealed,
-    write_whole,
     written_together,
 )
-from rotorfilm.core.results import write_csv
 from rotorfilm.fmu import export_fmu
-from rotorfilm.rotors.rigid import RigidRotor
 
 posix = pytest.mark.skipif(os.name != "posix", reason="limits and devices of POSIX")
 
@@ -77,7 +76,7 @@ def test_lines():
 @pytest.mark.parametrize(
     ("name", "write"),
     [
-        ("out.bin", lambda path: write_whole(path, bytes(5000))),
+        ("out.bin", lambda path: write_atomically(path, bytes(5000))),
         ("out.csv", lambda path: write_csv(path, {"a": range(5000)})),
         ("out.map", lambda path: packaged_table().save(path)),
         ("out.png", lambda path: save(new_axes("a chart"), path)),
@@ -98,7 +97,7 @@ def test_a_full_disk_leaves_what_was_there(tmp_path, full_disk, name, write, ear
 def together(folder, files):
     with written_together(folder) as part:
         for name, content in files.items():
-            write_whole(part / name, content)
+            write_atomically(part / name, content)
 
 
 @posix
@@ -118,27 +117,27 @@ def test_several_files_are_there_together_or_none(tmp_path, full_disk):
 @posix
 def test_links_and_devices_stay_what_they_are(tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "real")
-    write_whole(tmp_path / "link", b"content")
+    write_atomically(tmp_path / "link", b"content")
     assert (tmp_path / "real").read_bytes() == b"content"
     assert (tmp_path / "link").is_symlink()
-    write_whole("/dev/null", b"content")
+    write_atomically("/dev/null", b"content")
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
-    script = "from rotorfilm.core.files import write_whole; write_whole('/dev/stdout', b'through')"
+    script = "from rotorfilm.core.files import write_atomically; write_atomically('/dev/stdout', b'through')"
     ran = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, check=True)
     assert ran.stdout == b"through"
 
 
 @posix
 def test_a_file_keeps_its_mode_and_one_that_is_read_only_is_refused(tmp_path, monkeypatch):
-    path = write_whole(tmp_path / "a", b"before")
+    path = write_atomically(tmp_path / "a", b"before")
     path.chmod(0o640)
-    write_whole(path, b"after")
+    write_atomically(path, b"after")
     assert (path.read_bytes(), stat.S_IMODE(path.stat().st_mode)) == (b"after", 0o640)
     path.chmod(0o400)
     # The superuser may write everything, and is no one to test this with.
     monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
     with pytest.raises(PermissionError, match=r"Permission denied: '.*a'"):
-        write_whole(path, b"other")
+        write_atomically(path, b"other")
     assert path.read_bytes() == b"after"
     assert len(list(tmp_path.iterdir())) == 1
 
@@ -154,7 +153,7 @@ def test_a_seal_of_another_length_says_so(tmp_path):
 
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"'.*absent.a'"):
-        write_whole(tmp_path / "absent" / "a", b"")
+        write_atomically(tmp_path / "absent" / "a", b"")
 
 
 @posix

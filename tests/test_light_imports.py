@@ -32,12 +32,8 @@ PATHS = {
     "solve": (
         CALL.format(["solve", str(SCENE)]),
         {"rich.progress"},
-<<<<<<< HEAD
         OTHER_PARTS - {"cli", "rotors"}
         | OTHER_FAMILIES
-=======
-        OTHER_PARTS - {"cli", "rotors", "studies"}
->>>>>>> manual
         | {
             "analysis.simulate",
             "bearings.rolling",
@@ -74,7 +70,7 @@ def test_the_list_of_modules_is_seen():
 
 
 def test_names_load_from_the_module_that_holds_them():
-    loaded = loaded_by("from rotorfilm import HalfSommerfeld")
+    loaded = loaded_by("from rotorfilm.bearings import HalfSommerfeld")
     assert "rotorfilm.bearings.films.geometry" in loaded
     assert "rotorfilm.bearings.journal" not in loaded
 

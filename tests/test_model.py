@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
+from rotorfilm import Dynamic, InputError, Model, Reaction, Stepped
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Dynamic, Model, Reaction, Stepped, static_linearization, stops
-from rotorfilm.core.signals import (
+from rotorfilm.core import (
     FORCE_OUTPUTS,
     JOURNAL_INPUTS,
     force_outputs,
     indices,
     journal_inputs,
     names,
+    static_linearization,
+    stops,
 )
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 

@@ -3,12 +3,12 @@
 import pytest
 
 from rotorfilm import (
-    CircularOrbit,
     ElasticMaterial,
     InputError,
     JournalBearing,
     LinearBearing,
     OperatingPoint,
+    Reaction,
     RigidRotor,
     ShaftElement,
     ShaftRotor,
@@ -16,14 +16,12 @@ from rotorfilm import (
     Station,
     campbell,
     closed_loop,
-    coefficient_table,
     coefficients,
     critical_speeds,
     equilibrium,
     linearize,
     mount,
     orbit_coefficients,
-    orbit_system,
     rotor_equilibrium,
     rotor_modes,
     rotor_threshold,
@@ -35,8 +33,9 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
+from rotorfilm.analysis import coefficient_table, orbit_system
+from rotorfilm.core import CircularOrbit
 from rotorfilm.core.errors import require_kind
-from rotorfilm.core.model import Reaction
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 SHAFT = ShaftRotor(

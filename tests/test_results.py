@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from rotorfilm.core.results import Coefficients, Trajectory, WhirlThreshold, orbit_distance, to_plain
+from rotorfilm import Coefficients, Trajectory, WhirlThreshold
+from rotorfilm.core import orbit_distance, to_plain
 
 SCALARS = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5)
 PLAIN = st.recursive(

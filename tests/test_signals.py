@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 from hypothesis import given, strategies as st
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.signals import Signal, from_fmi_name, names, to_fmi_name
+from rotorfilm import InputError
+from rotorfilm.core import Signal, from_fmi_name, names, to_fmi_name
 
 IDENTIFIERS = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,20}", fullmatch=True)
 FORCE = Signal(name="force_x", unit="N", nominal=100.0, description="force on the journal along x")

@@ -5,8 +5,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.units import DISPLAY_UNITS, UNITS, parse_quantity
+from rotorfilm import InputError
+from rotorfilm.core import DISPLAY_UNITS, UNITS, parse_quantity
 
 FMI_BASE_UNITS = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"}
 

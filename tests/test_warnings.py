@@ -7,9 +7,8 @@ import control.statesp
 import numpy as np
 import pytest
 
-from rotorfilm import LinearBearing, Scene, bundled_scene, linearize, to_nlsys
-from rotorfilm.analysis import OperatingPoint
-from rotorfilm.core.errors import ValidityWarning
+from rotorfilm import LinearBearing, Scene, ValidityWarning, bundled_scene, linearize
+from rotorfilm.analysis import OperatingPoint, to_nlsys
 
 
 def deprecated(module):

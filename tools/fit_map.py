@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from rotorfilm.bearings.films.map_fit import fit_map_table
-from rotorfilm.bearings.films.map_table import MapTable, unstretch
+from rotorfilm.bearings import MapTable, fit_map_table
+from rotorfilm.bearings.films.map_table import unstretch
 
 ROOT = Path(__file__).parents[1]
 

@@ -14,10 +14,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from rotorfilm import Scene
+from rotorfilm.core import DISPLAY_UNITS, UNITS
 from rotorfilm.core.limits import TEXT
-from rotorfilm.core.units import DISPLAY_UNITS, UNITS
 from rotorfilm.scenes import reading as readers, reading as tables
-from rotorfilm.scenes.scene import Scene
 from rotorfilm.scenes.schema import SCHEMA
 
 ROOT = Path(__file__).parents[1]

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from rotorfilm import ContactError, Sprung
 from rotorfilm.analysis import simulate
-from rotorfilm.bearings.assemblies import Sprung
 from rotorfilm.bearings.damper import FiniteSqueeze, SqueezeFilmDamper
-from rotorfilm.core.errors import ContactError
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.damper_films import damper_models
@@ -41,7 +40,9 @@ def built_damper(random: np.random.Generator) -> Drawn:
         mass *= 1.0 + 1.0 / (ratio * 10.0 ** float(random.uniform(0.0, 1.0)))
     table["stiffness"] = mass * (speed / float(random.uniform(0.5, 3.0))) ** 2
     size = float(random.uniform(0.05, 0.5)) * mass * table["clearance"]
-    quantity = "blade_loss_peak" if lost else str(random.choice(["transmissibility", "unbalance_amplitude"]))
+    quantity = "peak_displacement"
+    if not lost:
+        quantity = str(random.choice(["transmissibility", "unbalance_amplitude"]))
     data: dict[str, Any] = {
         "schema": 1,
         "damper": table,

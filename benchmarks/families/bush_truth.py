@@ -15,9 +15,8 @@ from scipy.optimize import brentq
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
+from rotorfilm.bearings import GlobalBalance, LocalMelting
 from rotorfilm.bearings.bush import MeltingBush
-from rotorfilm.bearings.bush.bush_reaction import LocalMelting
-from rotorfilm.bearings.bush.melting import GlobalBalance
 from rotorfilm.scenes import Scene
 
 from .drawn import Truth

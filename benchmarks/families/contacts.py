@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from rotorfilm import ConvergenceError, InputError
 from rotorfilm.bearings.contact import ContactGrid, FixedSteps, RollingBall, SineLoad
-from rotorfilm.core.errors import ConvergenceError, InputError
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.contact_motions import ShakenBall, contact_motion
+from rotorfilm.scenes.contact_motions import DrivenBall, contact_motion
 
 from .drawn import Drawn, Truth, log_uniform
 
@@ -166,7 +166,7 @@ def _moving(scene: Scene, inlet: float, cells: int, steps: int) -> float:
     return made.film_scale * float(np.min(spline(np.linspace(0.0, run.time[-1], 20001))))
 
 
-def _period(shaken: ShakenBall, inertia: float) -> float:
+def _period(shaken: DrivenBall, inertia: float) -> float:
     """Return the shortest period of a ball on the dry contact, or of its load."""
     natural = 2.0 * math.pi * math.sqrt(inertia / (0.5 * math.pi))
     forced = 2.0 * math.pi / shaken.load.frequency if isinstance(shaken.load, SineLoad) else math.inf

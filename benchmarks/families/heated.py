@@ -16,10 +16,11 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm import RotorfilmError
 from rotorfilm.bearings.journal import HeatedFilm, LayeredTemperature, ReynoldsFilm, fitted_bearing
-from rotorfilm.core.errors import RotorfilmError
-from rotorfilm.core.units import CELSIUS
-from rotorfilm.questions.quantities import QUANTITIES, TEMPERATURES
+from rotorfilm.core import CELSIUS
+from rotorfilm.questions import QUANTITIES
+from rotorfilm.questions.quantities import TEMPERATURES
 from rotorfilm.scenes import Scene, read_scene
 from rotorfilm.scenes.film_heat import WarmRest, bush_of, field_rest, uniform_rest
 

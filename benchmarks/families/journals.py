@@ -141,7 +141,7 @@ def unbalance(random: np.random.Generator, data: dict[str, Any], low: float, hig
 def blade(random: np.random.Generator) -> Drawn:
     """Return the peak after a blade is lost, in a plain bearing."""
     table, _ = journal(random, (0.12, 1.5))
-    data = with_rotor(random, scene_of(random, table, "blade_loss_peak", (3e-3, 0.1), (0.2, 0.7)))
+    data = with_rotor(random, scene_of(random, table, "peak_displacement", (3e-3, 0.1), (0.2, 0.7)))
     size = unbalance(random, data, 0.05, 1.0)
     data["excitation"] = {"kind": "blade_loss", "unbalance": size, "revolutions": 5.0}
     return Drawn("blade loss", data, blade_by_map)

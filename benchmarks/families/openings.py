@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm import Groove, Pad
 from rotorfilm.analysis import equilibrium
-from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.film_rungs import extrapolated, tangent

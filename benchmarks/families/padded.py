@@ -24,8 +24,8 @@ import numpy as np
 
 from rotorfilm import LobedBearing, PressureDamBearing, lobe_set, pressure_dam_pads
 from rotorfilm.analysis import coefficients, equilibrium
+from rotorfilm.bearings import SETS as USUAL
 from rotorfilm.bearings.pads import PadGridFilm
-from rotorfilm.bearings.pads.lobed_bearing import SETS as USUAL
 from rotorfilm.scenes import Scene
 
 from .drawn import Drawn, Truth, log_uniform

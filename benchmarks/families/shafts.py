@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.sparse.linalg import eigs
 
+from rotorfilm import Reaction
 from rotorfilm.analysis import (
     critical_speed_map,
     critical_speeds,
@@ -20,7 +21,6 @@ from rotorfilm.analysis import (
 )
 from rotorfilm.analysis.rotor_matrices import second_order
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.core.model import Reaction
 from rotorfilm.rotors import FlexibleRotor, FourthOrderBeam, ShaftElement, ShaftRotor, mount
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.reading import read_table

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.bearings.films.geometry import FeedHole, Groove
+from rotorfilm import FeedHole, Groove
 from rotorfilm.bearings.journal import JFOFilm, JournalBearing
 
 from .conserved_truth import by_conserved_oil

@@ -26,6 +26,7 @@ from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 from scipy.signal import find_peaks
 
+from rotorfilm import ConvergenceError
 from rotorfilm.bearings.contact import (
     AdaptiveSteps,
     ContactRun,
@@ -41,15 +42,14 @@ from rotorfilm.bearings.contact import (
 )
 from rotorfilm.charts import new_figure, save
 from rotorfilm.charts.canvas import legend_beside
-from rotorfilm.core.errors import ConvergenceError
+from rotorfilm.core import write_csv
 from rotorfilm.core.model import Array
 from rotorfilm.core.progress import Report, silent
-from rotorfilm.core.results import write_csv
+from rotorfilm.studies import decay_time
 from rotorfilm.studies.contact_precision import (
     PUBLISHED_CELLS,
     PUBLISHED_STEP,
     as_published,
-    decay_time,
     published_contact,
 )
 

@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 
+from rotorfilm import ConvergenceError
 from rotorfilm.bearings.contact import ContactState, FixedSteps, PointContact, StaggeredScheme, StepLoad
 from rotorfilm.charts import new_figure, save
 from rotorfilm.charts.canvas import BAD, DOUBTFUL, GOOD
-from rotorfilm.core.errors import ConvergenceError
+from rotorfilm.core import write_csv
 from rotorfilm.core.progress import Report, part_of, silent
-from rotorfilm.core.results import write_csv
 from rotorfilm.studies.contact_precision import (
     PUBLISHED_CELLS,
     as_published,

@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotorfilm import PartialResultError, RigidRotor, Trajectory
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.core.errors import PartialResultError
+from rotorfilm.core import orbit_distance
 from rotorfilm.core.model import Array
-from rotorfilm.core.results import Trajectory, orbit_distance
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
 from rotorfilm.cosim.coupling_loop import coupling_loop
-from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.studies.coupling_cost import EXPLICIT, SPEED, resting_rotor
 
 TURNS = 3

@@ -30,7 +30,7 @@ def support(B, phi=0.0, grading=0.0, spring=0.4, suction=0.0, ends=None):
         feed = rf.RadialFeed(inflow=inflow, cosine=True)
     if ends:
         pressure = viscosity * SPEED * (RADIUS / CLEARANCE) ** 2
-        feed = rf.AxialFeed(start_pressure=ends[0] * pressure, end_pressure=ends[1] * pressure)
+        feed = rf.bearings.AxialFeed(start_pressure=ends[0] * pressure, end_pressure=ends[1] * pressure)
     dimensions = {"radius": RADIUS, "length": LENGTH, "clearance": CLEARANCE, "viscosity": viscosity}
     damper = rf.PorousDamper(**dimensions, cage=cage, feed=feed)
     return rf.Sprung(reaction=damper, stiffness=MASS * (spring * SPEED) ** 2) if spring else damper
@@ -47,7 +47,7 @@ def transient(reaction, beta=-2.8, rate=0.0):
     rotor = rf.RigidRotor(mass=MASS, speed=SPEED, unbalance=0.4 * UNIT, gravity=(0.0, 0.0))
     start = cartesian_state((0.6, beta, 0.0, (1.0 + rate) * SPEED), CLEARANCE)
     run = rf.simulate(rotor, reaction, duration=20.0 / SPEED, samples=301, initial_state=start, rtol=1e-5)
-    return SPEED * run.time, rf.transmitted_ratio(run, rotor)
+    return SPEED * run.time, rf.analysis.transmitted_ratio(run, rotor)
 
 
 cases = {"solid": {}, "porous": {"phi": 0.001, "grading": 0.1}}

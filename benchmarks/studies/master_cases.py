@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotorfilm import JournalBearing
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import GaussSeidel, Jacobi, SIExp, SIExp3
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 

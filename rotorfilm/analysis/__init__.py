@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     )
     from .axial_torsional import (
         AxialStatics as AxialStatics,
-        StraightModes as StraightModes,
+        AxialTorsionalModes as AxialTorsionalModes,
         ThrustBearing as ThrustBearing,
-        TwistSpring as TwistSpring,
+        TorsionalSpring as TorsionalSpring,
         axial_modes as axial_modes,
         axial_response as axial_response,
         axial_statics as axial_statics,
-        tensioned as tensioned,
-        twist_modes as twist_modes,
+        stress_stiffened as stress_stiffened,
+        torsional_modes as torsional_modes,
     )
     from .circular_orbits import (
         BistableMap,
@@ -125,9 +125,9 @@ if TYPE_CHECKING:
         tracked_response as tracked_response,
     )
     from .whirl import (
-        CountedMass as CountedMass,
-        CountedThreshold as CountedThreshold,
         CriticalMass as CriticalMass,
+        VerifiedCriticalMass as VerifiedCriticalMass,
+        VerifiedThreshold as VerifiedThreshold,
         critical_mass as critical_mass,
         damping_has_rank_one,
         speed_parameter,

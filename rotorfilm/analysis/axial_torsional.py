@@ -68,7 +68,7 @@ class ThrustBearing(_Spring):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TwistSpring(_Spring):
+class TorsionalSpring(_Spring):
     """A spring and a damper about the shaft, from a node to the ground.
 
     Parameters
@@ -80,7 +80,7 @@ class TwistSpring(_Spring):
 
 
 @dataclass(frozen=True, kw_only=True)
-class StraightModes(Readable):
+class AxialTorsionalModes(Readable):
     """Modes of a shaft along its axis, or about it, that swing, by rising size of the eigenvalue.
 
     Attributes
@@ -109,7 +109,9 @@ class StraightModes(Readable):
 
 
 @arguments
-def axial_modes(rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6) -> StraightModes:
+def axial_modes(
+    rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6
+) -> AxialTorsionalModes:
     """Return the lowest modes of a rotor along its axis that swing; those overdamped are left out.
 
     Parameters
@@ -135,14 +137,16 @@ def axial_modes(rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count
 
 
 @arguments
-def twist_modes(rotor: ShaftRotor, springs: Sequence[TwistSpring] = (), count: int = 6) -> StraightModes:
+def torsional_modes(
+    rotor: ShaftRotor, springs: Sequence[TorsionalSpring] = (), count: int = 6
+) -> AxialTorsionalModes:
     """Return the lowest torsional modes of a rotor that swing; those overdamped are left out.
 
     Parameters
     ----------
     rotor : ShaftRotor
         A coupling must have a `twist_stiffness`.
-    springs : sequence of TwistSpring
+    springs : sequence of TorsionalSpring
         None for a free shaft.
     count : int
         Most modes.
@@ -226,7 +230,7 @@ def grounded(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tup
     return stiffness, damping
 
 
-def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> StraightModes:
+def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> AxialTorsionalModes:
     require_count("count", count)
     stiffness, damping = grounded(chain, rotor, springs)
     mass = dense_matrix(chain[0])
@@ -245,7 +249,7 @@ def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: i
     nodes = np.array(shapes).T[: len(rotor.elements) + 1]
     largest = np.array([column[np.argmax(np.abs(column))] for column in nodes.T])
     found = np.array([*whole, *values[chosen]], dtype=complex)[:count]
-    return StraightModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
+    return AxialTorsionalModes(eigenvalues=found, shapes=(nodes / largest)[:, :count])
 
 
 # A shaft under static forces along its axis, and what its tension does to bending.
@@ -318,7 +322,7 @@ def axial_statics(
 
 
 @arguments
-def tensioned(rotor: ShaftRotor, at: AxialStatics) -> ShaftRotor:
+def stress_stiffened(rotor: ShaftRotor, at: AxialStatics) -> ShaftRotor:
     """Return a rotor whose elements have the tension of a static state, which stiffens their bending.
 
     Parameters

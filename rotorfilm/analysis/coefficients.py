@@ -47,7 +47,7 @@ def coefficients(
     frequency : float or None [rad/s]
         Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
         names it. None for that of the shaft, 0 for slow motion. Those of a film that conserves its oil are
-        `MemoryCoefficients` with None, from which modes and critical masses take K(s).
+        `FrequencyDependentCoefficients` with None, from which modes and critical masses take K(s).
 
     Raises
     ------

@@ -41,11 +41,11 @@ from ..native.film_kernels import OilDamperKernel
 from ..native.library import functions, loops
 from ..native.structs import structure
 from ..rotors import (
+    BaseExcitedRotor,
     BaseMotion,
     FlexibleRotor,
     MountedRotor,
     RigidRotor,
-    ShakenBaseRotor,
     SpeedProfile,
     mount,
     translations,
@@ -119,7 +119,7 @@ def film_call(reaction: Reaction) -> FilmCall:
     return kernel_call(reaction) or _called_back(reaction)
 
 
-def heavy_call(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]:
+def call_with_added_mass(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]:
     """Return the compiled force of a reaction without states, and where the mass that it adds is.
 
     That is the address of an rf_mass_response of native/films/film.h, and of its first argument; zeros where
@@ -278,7 +278,7 @@ class Parts(NamedTuple):
     def speed(self) -> float:
         """The constant speed [rad/s]; raise InputError where it changes, or the ground shakes."""
         if self.base is not None:
-            raise InputError("ground must be still for a periodic motion, got a ShakenBaseRotor")
+            raise InputError("ground must be still for a periodic motion, got a BaseExcitedRotor")
         speeds = set(self.profile.speeds)
         if len(speeds) != 1:
             raise InputError(f"speed must be constant, got a profile over {self.profile.times!r} s")
@@ -344,7 +344,7 @@ def take_apart(mounted: MountedRotor) -> Parts:
     """
     found = mounted.all_bearings
     bare = mounted.bare
-    structure, profile = _structure(bare.rotor if isinstance(bare, ShakenBaseRotor) else bare)
+    structure, profile = _structure(bare.rotor if isinstance(bare, BaseExcitedRotor) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
@@ -358,7 +358,7 @@ def take_apart(mounted: MountedRotor) -> Parts:
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
-    if isinstance(bare, ShakenBaseRotor):
+    if isinstance(bare, BaseExcitedRotor):
         return parts._replace(base=bare.base, moved=translations(bare.rotor))
     return parts
 
@@ -598,7 +598,7 @@ def _is_compiled(bearing: Reaction) -> bool:
 def _is_linear(rotor: Dynamic) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
-    bare = bare.rotor if isinstance(bare, ShakenBaseRotor) else bare
+    bare = bare.rotor if isinstance(bare, BaseExcitedRotor) else bare
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
     return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)
 

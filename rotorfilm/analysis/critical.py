@@ -22,8 +22,8 @@ from ..rotors.structure import Structure
 from .modal_reduction import (
     MARGIN,
     TOLERANCE,
+    ArrayWithOperations,
     Condensed,
-    CountedArray,
     counted,
     counted_array,
     exact_structure,
@@ -38,8 +38,8 @@ from .rotor_matrices import (
     CONVERGED,
     PATIENCE,
     ROUNDED,
+    FullRotorModel,
     SecondOrder,
-    WholeRotor,
     dynamics,
     inverse_steps,
     motion_near,
@@ -413,7 +413,7 @@ class SpannedModes:
         if self.model.space is None or not len(places):
             return 0.0
         values, right, left = self.modes
-        whole = WholeRotor(self.model.whole, self.rests[1], self.middle)
+        whole = FullRotorModel(self.model.whole, self.rests[1], self.middle)
         ends = (self.model.lifted(side) for side in (right[:, places], left[places].conj().T))
         return float(whirl_errors(self.model, whole, values[places], *ends).max())
 
@@ -490,7 +490,7 @@ def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
 
 
 @arguments
-def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> CountedArray:
+def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> ArrayWithOperations:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.
 
     Parameters
@@ -504,7 +504,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
 
     Returns
     -------
-    CountedArray, shape (count, n) [rad/s]
+    ArrayWithOperations, shape (count, n) [rad/s]
         nan where the rotor has fewer. Its `work` counts eigenproblems and factorizations.
 
     Raises

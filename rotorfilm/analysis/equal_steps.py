@@ -16,7 +16,7 @@ from ..core.model import Array, Reaction, inertial
 from ..native import Status
 from ..native.library import loops
 from ..native.structs import structure
-from .compiled_rotor import heavy_call, raise_foreign, warn_beyond
+from .compiled_rotor import call_with_added_mass, raise_foreign, warn_beyond
 
 ORDER = 2
 """Of the average acceleration in the step."""
@@ -58,7 +58,7 @@ def march(
     ConvergenceError
         If Newton's method does not end, or the film force is not finite.
     """
-    call, heavy = heavy_call(reaction)
+    call, heavy = call_with_added_mass(reaction)
     pulls = np.array([pull(n * step) for n in range(count + 1)])
     pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
     motion = np.zeros((count + 1, 4))
@@ -168,7 +168,7 @@ class StatesAlong(NamedTuple):
     step: float
 
 
-class ShakenRotor(NamedTuple):
+class ExcitedRotor(NamedTuple):
     """A rotor at rest, and a force that acts on it from t = 0.
 
     Attributes

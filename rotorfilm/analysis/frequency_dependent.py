@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from ..bearings.reaction import DynamicStiffness, MemoryCoefficients
+from ..bearings.reaction import DynamicStiffness, FrequencyDependentCoefficients
 from ..core.errors import ConvergenceError
 from ..core.model import Array, Bearings
 from ..rotors import FlexibleRotor
@@ -28,7 +28,7 @@ MOVED = 1e-2
 _REAL = 1e-8
 
 
-def motion_by_memory(
+def frequency_dependent_motion(
     structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, shape: np.ndarray
 ) -> tuple[complex, np.ndarray, np.ndarray] | None:
     """Return the motion on films that remember next to one on films that do not; None for none.
@@ -138,7 +138,7 @@ _TOP = 4.0
 _DECADES = 4.0
 
 
-def rigid_exponents(film: MemoryCoefficients, mass: float) -> tuple[NDArray[np.complex128], int]:
+def rigid_exponents(film: FrequencyDependentCoefficients, mass: float) -> tuple[NDArray[np.complex128], int]:
     """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
 
     Returns
@@ -173,7 +173,7 @@ def rigid_exponents(film: MemoryCoefficients, mass: float) -> tuple[NDArray[np.c
     )
 
 
-def whirl_exponent(film: MemoryCoefficients, mass: float) -> complex:
+def whirl_exponent(film: FrequencyDependentCoefficients, mass: float) -> complex:
     """Return the exponent that Newton's method finds from the least damped one with K, C of half the speed.
 
     Raises
@@ -189,7 +189,7 @@ def whirl_exponent(film: MemoryCoefficients, mass: float) -> complex:
     return value
 
 
-def _starts(film: MemoryCoefficients, mass: float) -> Iterator[complex]:
+def _starts(film: FrequencyDependentCoefficients, mass: float) -> Iterator[complex]:
     """Yield exponents with the stiffness and damping of a few frequencies, the least damped first."""
     for share in STARTS:
         nu = share * abs(film.speed)
@@ -198,7 +198,7 @@ def _starts(film: MemoryCoefficients, mass: float) -> Iterator[complex]:
         yield from sorted(near[near.imag >= 0.0].tolist(), key=lambda one: -one.real)
 
 
-def rigid_growing(film: MemoryCoefficients, mass: float) -> int:
+def rigid_growing(film: FrequencyDependentCoefficients, mass: float) -> int:
     """Return how many exponents of a rigid mass [kg] on a film grow.
 
     det(K(i nu) - mass nu^2) is counted against (k + i c nu - mass nu^2)^2, critically damped.
@@ -315,7 +315,7 @@ RATIOS = np.concatenate([np.geomspace(0.01, 0.1, 6, endpoint=False), np.linspace
 """Whirl ratios between which a border is looked for; oil crosses the cavity in half a turn or more."""
 
 
-def mass_borders(film: MemoryCoefficients) -> list[tuple[float, float]]:
+def mass_borders(film: FrequencyDependentCoefficients) -> list[tuple[float, float]]:
     """Return all masses with det(K(i nu) - mass nu^2) = 0, and the frequency nu of each, the lightest first.
 
     With K = A + i B the imaginary part gives k = mass nu^2 = (Axx Byy + Ayy Bxx - Axy Byx - Ayx Bxy) /
@@ -340,7 +340,7 @@ def _stiffness(K: np.ndarray) -> tuple[float, float]:
     return float(mixed), float(np.trace(B))
 
 
-def _residue(film: MemoryCoefficients, nu: float) -> float:
+def _residue(film: FrequencyDependentCoefficients, nu: float) -> float:
     """Return the real part of the determinant where the imaginary part is 0, times trace(B)^2, scaled."""
     K = film.dynamic_stiffness.stiffness(1j * nu)
     K = K / np.abs(K).max()

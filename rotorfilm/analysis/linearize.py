@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import Complex, MemoryCoefficients
+from ..bearings.reaction import Complex, FrequencyDependentCoefficients
 from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Dynamic, Linearization, Model, Remembering, settled
+from ..core.model import Array, Dynamic, FrequencyDependent, Linearization, Model, settled
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names
@@ -64,7 +64,11 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
         If the point does not fit the model, or an Equilibrium is given for a model that is no film, or for
         one whose states it does not tell, as the wear of a bush.
     """
-    if isinstance(model, Remembering) and not isinstance(model, Dynamic) and isinstance(at, Equilibrium):
+    if (
+        isinstance(model, FrequencyDependent)
+        and not isinstance(model, Dynamic)
+        and isinstance(at, Equilibrium)
+    ):
         return film_system(model, at, name=name).system
     require_kind("model", model, Model, "a Model such as a bearing or a rotor")
     if isinstance(at, Equilibrium) and names(model.inputs) == list(JOURNAL_INPUTS):
@@ -191,7 +195,7 @@ class _Fit(NamedTuple):
 
 @arguments
 def film_system(
-    film: Remembering,
+    film: FrequencyDependent,
     at: Equilibrium,
     *,
     highest_frequency: float | None = None,
@@ -202,7 +206,7 @@ def film_system(
 
     Parameters
     ----------
-    film : Remembering
+    film : FrequencyDependent
         As `JFOFilm`.
     at : Equilibrium
         Where the journal rests.
@@ -226,10 +230,10 @@ def film_system(
     exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
     the fit, and its damping in fast motion is positive.
     """
-    require_kind("film", film, Remembering, "a film that remembers, such as a JFOFilm")
+    require_kind("film", film, FrequencyDependent, "a film that remembers, such as a JFOFilm")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)
-    coefficients: MemoryCoefficients = film.coefficients(at.position, at.speed)
+    coefficients: FrequencyDependentCoefficients = film.coefficients(at.position, at.speed)
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
     by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
@@ -246,7 +250,7 @@ def film_system(
     return FilmSystem(system=system, error=fit.error, highest_frequency=float(fit.highest_frequency))
 
 
-def film_states(film: MemoryCoefficients) -> Linearization:
+def film_states(film: FrequencyDependentCoefficients) -> Linearization:
     """Return a film with K(s) as states under a journal: inputs x, y, vx, vy, outputs its force.
 
     Exact where its states are known, as of tilting pads; else as `film_system` up to the speed of the shaft.
@@ -263,7 +267,7 @@ def film_states(film: MemoryCoefficients) -> Linearization:
     return _fitted(film, None, TOLERANCE).linearization
 
 
-def _fitted(film: MemoryCoefficients, highest_frequency: float | None, tolerance: float) -> _Fit:
+def _fitted(film: FrequencyDependentCoefficients, highest_frequency: float | None, tolerance: float) -> _Fit:
     """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
     if film.speed == 0.0:
         raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")

@@ -435,7 +435,7 @@ def tally(name: str, count: int = 1) -> None:
             work[name] += count
 
 
-class CountedTuple(tuple[Item, ...]):
+class TupleWithOperations(tuple[Item, ...]):
     """What an analysis found, and what it took.
 
     Attributes
@@ -446,14 +446,14 @@ class CountedTuple(tuple[Item, ...]):
 
     work: dict[str, int]
 
-    def __new__(cls, found: Iterable[Item], work: Counter[str]) -> CountedTuple[Item]:
+    def __new__(cls, found: Iterable[Item], work: Counter[str]) -> TupleWithOperations[Item]:
         """Return the tuple of what was found, with the counters."""
         made = super().__new__(cls, tuple(found))
         made.work = dict(work)
         return made
 
 
-class CountedArray(np.ndarray):
+class ArrayWithOperations(np.ndarray):
     """Numbers that an analysis found, and what they took.
 
     Attributes
@@ -469,9 +469,9 @@ class CountedArray(np.ndarray):
         self.work = {}
 
 
-def counted_array(found: ArrayLike, work: Counter[str]) -> CountedArray:
+def counted_array(found: ArrayLike, work: Counter[str]) -> ArrayWithOperations:
     """Return an array of what was found, with the counters."""
-    made = np.asarray(found).view(CountedArray)
+    made = np.asarray(found).view(ArrayWithOperations)
     made.work = dict(work)
     return made
 

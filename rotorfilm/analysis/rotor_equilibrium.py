@@ -93,7 +93,7 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
         Its own speed is not used.
     bearings : mapping of str to Reaction
         By the name of the station; a station without one is free. Without weight they need not hold the
-        rotor. `TiltingBalls` go into stations that feel tilts.
+        rotor. `MomentCarryingBalls` go into stations that feel tilts.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg import block_diag, matrix_balance
 
-from ..bearings.reaction import MemoryCoefficients, added_mass
+from ..bearings.reaction import FrequencyDependentCoefficients, added_mass
 from ..core.errors import ConvergenceError
 from ..core.model import Array, Bearings
 from ..core.results import Coefficients
@@ -98,9 +98,11 @@ def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -
     return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
 
 
-def remembering(at: RotorEquilibrium) -> dict[str, MemoryCoefficients]:
+def remembering(at: RotorEquilibrium) -> dict[str, FrequencyDependentCoefficients]:
     """Return the films of a rotor whose stiffness is K(s) at every exponent, by station."""
-    return {n: film for n, film in at.coefficients.items() if isinstance(film, MemoryCoefficients)}
+    return {
+        n: film for n, film in at.coefficients.items() if isinstance(film, FrequencyDependentCoefficients)
+    }
 
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
@@ -112,7 +114,7 @@ def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
 
 def coefficients_near(film: Coefficients, s: complex) -> Coefficients:
     """Return K(s) and its slope as K and C of a film that remembers; any other as it is."""
-    return film.near(s) if isinstance(film, MemoryCoefficients) else film
+    return film.near(s) if isinstance(film, FrequencyDependentCoefficients) else film
 
 
 def motion_near(
@@ -300,7 +302,7 @@ FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 """How much more what is left out gives way than to slow forces, at most."""
 
 
-class WholeRotor:
+class FullRotorModel:
     """The equations of small motion of all of a rotor: sparse matrices of the shaft, and its films apart."""
 
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
@@ -347,7 +349,7 @@ class WholeRotor:
 
 
 def whirl_errors(
-    model: Condensed, whole: WholeRotor, values: np.ndarray, right: np.ndarray, left: np.ndarray
+    model: Condensed, whole: FullRotorModel, values: np.ndarray, right: np.ndarray, left: np.ndarray
 ) -> Array:
     """Return estimates of |ds / s| of eigenvalues s found in the shapes of a model, shape (m,).
 
@@ -357,7 +359,7 @@ def whirl_errors(
 
 
 def whirl_changes(
-    model: Condensed, whole: WholeRotor, values: np.ndarray, right: np.ndarray, left: np.ndarray
+    model: Condensed, whole: FullRotorModel, values: np.ndarray, right: np.ndarray, left: np.ndarray
 ) -> Array:
     """Return estimates of |ds| of eigenvalues s found in the shapes of a model, shape (m,) [1/s].
 
@@ -367,7 +369,7 @@ def whirl_changes(
     Parameters
     ----------
     model : Condensed
-    whole : WholeRotor
+    whole : FullRotorModel
     values : ndarray, shape (m,) [1/s]
     right, left : ndarray, shape (N, m)
         L right = 0 and left* L = 0 in the shapes of the model.
@@ -434,5 +436,5 @@ def value_error(rotor: FlexibleRotor, bearings: Bearings, speed: float, value: c
     shift = value + BESIDE * (abs(value) + abs(speed))
     found, right, left = inverse_steps(system, shift, start, start, 4)[-1]
     ends = (model.lifted(vector[:, None]) for vector in (right, left))
-    whole = WholeRotor(model.whole, at, frequency)
+    whole = FullRotorModel(model.whole, at, frequency)
     return float(whirl_changes(model, whole, np.array([found]), *ends)[0])

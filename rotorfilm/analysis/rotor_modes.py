@@ -21,12 +21,12 @@ from ..core.readable import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .critical import Crossing, crossings
-from .frequency_dependent import motion_by_memory, require_all_growing
+from .frequency_dependent import frequency_dependent_motion, require_all_growing
 from .modal_reduction import (
     COUNTS,
     TOLERANCE,
     Condensed,
-    CountedTuple,
+    TupleWithOperations,
     counted,
     models,
     tally,
@@ -34,7 +34,7 @@ from .modal_reduction import (
 )
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
-    WholeRotor,
+    FullRotorModel,
     remembering,
     rest_near,
     roundoff,
@@ -247,7 +247,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     values, left, vectors = eig(matrix, left=True)
     rounded = roundoff(matrix, left, vectors)
     shapes = vectors[: len(system.mass)]
-    whole, lifted = WholeRotor(model.whole, at, frequency), model.lifted(shapes)
+    whole, lifted = FullRotorModel(model.whole, at, frequency), model.lifted(shapes)
     chosen = _is_held(whole, values, lifted) & (values.imag >= low) & (values.imag < high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if remembering(at):
@@ -271,13 +271,13 @@ def _remembered(
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
     for start, shape, rounding in zip(starts, shapes.T, rounded, strict=True):
-        one = motion_by_memory(model.structure, at, frequency, complex(start), shape)
+        one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         if one is None or any(abs(one[0] - other) <= _SAME * abs(other) for other, *_ in found):
             continue
         s, *vectors = one
         found.append((s, vectors[0], float(rounding)))
         if model.space is not None and oscillates(np.array(s)) and abs(s) <= known_to:
-            whole = WholeRotor(model.whole, rest_near(at, s), frequency)
+            whole = FullRotorModel(model.whole, rest_near(at, s), frequency)
             ends = (model.lifted(vector[:, None]) for vector in vectors)
             error = max(error, float(whirl_errors(model, whole, np.array([s]), *ends)[0]))
     found.sort(key=lambda motion: motion[0].imag)
@@ -287,7 +287,7 @@ def _remembered(
 
 
 def _is_held(
-    whole: WholeRotor, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
+    whole: FullRotorModel, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
 ) -> NDArray[np.bool_]:
     """Return which motions something holds."""
     size = np.abs(values)
@@ -430,7 +430,7 @@ def campbell(
 @arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
-) -> CountedTuple[CriticalSpeed]:
+) -> TupleWithOperations[CriticalSpeed]:
     """Return all damped critical speeds, rising: where a whirl has the frequency of the rotation.
 
     Parameters
@@ -442,7 +442,7 @@ def critical_speeds(
 
     Returns
     -------
-    CountedTuple
+    TupleWithOperations
         A tuple of `CriticalSpeed` with the counters `work`.
 
     Raises
@@ -479,9 +479,9 @@ def critical_speeds(
         try:
             found = crossings(rotor, bearings, grid)
         except ConvergenceError as failure:
-            failure.partial = CountedTuple(_listed(rotor, failure.partial or ()), work)
+            failure.partial = TupleWithOperations(_listed(rotor, failure.partial or ()), work)
             raise
-    return CountedTuple(_listed(rotor, found), work)
+    return TupleWithOperations(_listed(rotor, found), work)
 
 
 def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpeed]:
@@ -676,7 +676,7 @@ def rotor_threshold(
 @arguments
 def stability_changes(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
-) -> CountedTuple[StabilityChange]:
+) -> TupleWithOperations[StabilityChange]:
     """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
 
     Parameters
@@ -691,7 +691,7 @@ def stability_changes(
 
     Returns
     -------
-    CountedTuple
+    TupleWithOperations
         A tuple of `StabilityChange` with the counters `work`.
 
     Notes
@@ -703,7 +703,7 @@ def stability_changes(
     with counted(*COUNTS) as work:
         found = list(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
     report(1.0, "")
-    return CountedTuple(found, work)
+    return TupleWithOperations(found, work)
 
 
 def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tuple[float, complex] | None:

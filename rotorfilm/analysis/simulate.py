@@ -48,7 +48,7 @@ from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Signal, indices, names, units
 from ..rotors import MountedRotor, mount
-from ..rotors.mounted import HeavyJournals
+from ..rotors.mounted import AddedMassJournals
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
@@ -430,7 +430,7 @@ class Coupled:
         self._no_force = np.zeros(len(rotor.inputs))
         self._taken = [k for journal in self.journals for k in journal.force]
         self._split = len(rotor.states)
-        self._heavy = HeavyJournals(
+        self._heavy = AddedMassJournals(
             [journal.film for journal in self.journals], [journal.motion for journal in self.journals]
         )
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from ..bearings.reaction import InertialCoefficients, MemoryCoefficients
+from ..bearings.reaction import FrequencyDependentCoefficients, InertialCoefficients
 from ..core.errors import (
     AbsentError,
     ConvergenceError,
@@ -29,9 +29,9 @@ from ..core.inputs import arguments
 from ..core.model import (
     Array,
     Dynamic,
+    FrequencyDependent,
     JournalForce,
     Reaction,
-    Remembering,
     at_rest,
     require_reaction,
     settled,
@@ -56,7 +56,7 @@ def whirl_threshold(
     ----------
     reaction : Reaction
         The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
-        of one that conserves its oil, rotor and oil by K(s): the result is a `CountedThreshold`.
+        of one that conserves its oil, rotor and oil by K(s): the result is a `VerifiedThreshold`.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     mass : float [kg]
@@ -172,7 +172,7 @@ def _settling(
     """Return the threshold by the exponents of rotor and bearing together."""
 
     def least_damped(at: Equilibrium) -> complex:
-        if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
+        if isinstance(reaction, FrequencyDependent) and not isinstance(reaction, Dynamic):
             # Where nothing grows it is one that is damped, not always the least: only its sign counts.
             return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
         film = at_rest(settled(reaction, at.position, at.speed))
@@ -188,7 +188,7 @@ def _settling(
     with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
-    if isinstance(reaction, Remembering) and not isinstance(reaction, Dynamic):
+    if isinstance(reaction, FrequencyDependent) and not isinstance(reaction, Dynamic):
         return counted_threshold(reaction, found)
     return found  # a film with states has no exponents but those that were found
 
@@ -312,7 +312,7 @@ class CriticalMass(Readable):
 
 
 @dataclass(frozen=True, kw_only=True)
-class CountedMass(CriticalMass):
+class VerifiedCriticalMass(CriticalMass):
     """The mass at the border of stability on a film that remembers, with what grows on both sides of it.
 
     Attributes
@@ -334,9 +334,9 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
     Parameters
     ----------
     coefficients : Coefficients
-        Film stiffness K and damping C; they act on the whole mass. With `MemoryCoefficients`, as
+        Film stiffness K and damping C; they act on the whole mass. With `FrequencyDependentCoefficients`, as
         `coefficients` returns them of a film that conserves its oil, the border is that of K(s) at the whirl
-        itself, and the result a `CountedMass`.
+        itself, and the result a `VerifiedCriticalMass`.
 
     Notes
     -----
@@ -348,7 +348,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
     (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
     """
-    if isinstance(coefficients, MemoryCoefficients):
+    if isinstance(coefficients, FrequencyDependentCoefficients):
         return _counted(coefficients)
     if isinstance(coefficients, InertialCoefficients):
         raise InputError(
@@ -368,13 +368,13 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
     )
 
 
-def _counted(film: MemoryCoefficients) -> CountedMass:
+def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
     """Return the lightest mass with which nothing grows below, and something above."""
     borders = mass_borders(film)
     if not borders:
         growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
         reason = "unstable whatever the mass" if growing else "stable whatever the mass"
-        return CountedMass(reason=reason, growing_below=growing, growing_above=growing)
+        return VerifiedCriticalMass(reason=reason, growing_below=growing, growing_above=growing)
     masses = [mass for mass, _ in borders]
     between = [math.sqrt(one * other) for one, other in pairwise(masses)]
     counts = [rigid_growing(film, mass) for mass in (0.5 * masses[0], *between, 2.0 * masses[-1])]
@@ -385,7 +385,7 @@ def _counted(film: MemoryCoefficients) -> CountedMass:
                 f"exponents grow below it, {above} above"
             )
         if below == 0:
-            return CountedMass(
+            return VerifiedCriticalMass(
                 mass=border,
                 whirl_frequency=frequency,
                 whirl_ratio=frequency / abs(film.speed),
@@ -393,7 +393,7 @@ def _counted(film: MemoryCoefficients) -> CountedMass:
                 growing_above=above,
             )
     reason = f"no light rotor is stable: {counts[0]} exponents grow"
-    return CountedMass(reason=reason, growing_below=counts[0], growing_above=counts[-1])
+    return VerifiedCriticalMass(reason=reason, growing_below=counts[0], growing_above=counts[-1])
 
 
 def effective_stiffness(coefficients: Coefficients) -> float:
@@ -466,7 +466,7 @@ most looks. K and C jump a little with the cells of the cavity: a border between
 
 
 @dataclass(frozen=True, kw_only=True)
-class CountedThreshold(WhirlThreshold):
+class VerifiedThreshold(WhirlThreshold):
     """The onset of whirl of a rigid rotor on a film that remembers, with what grows on both sides of it.
 
     Attributes
@@ -480,7 +480,7 @@ class CountedThreshold(WhirlThreshold):
     growing_above: int
 
 
-def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedThreshold:
+def counted_threshold(reaction: FrequencyDependent, found: WhirlThreshold) -> VerifiedThreshold:
     """Return a threshold with the numbers of exponents that grow beside it.
 
     Raises
@@ -500,10 +500,12 @@ def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedTh
             f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below it, "
             f"{above} above"
         )
-    return CountedThreshold(**vars(found), growing_below=below, growing_above=above)
+    return VerifiedThreshold(**vars(found), growing_below=below, growing_above=above)
 
 
-def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: float) -> CountedThreshold:
+def threshold_near(
+    reaction: FrequencyDependent, load: ArrayLike, mass: float, start: float
+) -> VerifiedThreshold:
     """Return the onset of whirl nearest to a speed [rad/s], found by the whirl at about half the speed.
 
     Only that whirl is followed, so that a speed takes a tenth of what a count does; what grows beside the
@@ -534,7 +536,7 @@ def threshold_near(reaction: Remembering, load: ArrayLike, mass: float, start: f
     )
 
 
-def _film(reaction: Remembering, at: Equilibrium) -> MemoryCoefficients:
+def _film(reaction: FrequencyDependent, at: Equilibrium) -> FrequencyDependentCoefficients:
     film: Any = settled(reaction, at.position, at.speed)  # type: ignore[arg-type]
-    found: MemoryCoefficients = film.coefficients(at.position, at.speed)
+    found: FrequencyDependentCoefficients = film.coefficients(at.position, at.speed)
     return found

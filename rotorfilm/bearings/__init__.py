@@ -11,20 +11,23 @@ if TYPE_CHECKING:
     from .contact import *
     from .damper import *
     from .films.geometry import (
+        AlignedOpenings,
         Cavitation,
         Complementarity,
         FeedHole as FeedHole,
         FilmGeometry,
-        FilmStart,
-        FreeStart as FreeStart,
+        FilmOnset,
+        FixedOnset as FixedOnset,
+        FreeOnset as FreeOnset,
         FullFilm as FullFilm,
         Groove as Groove,
         HalfSommerfeld as HalfSommerfeld,
-        HeldLine as HeldLine,
+        MaximumGapOnset as MaximumGapOnset,
         Pad as Pad,
-        WidestGap as WidestGap,
+        Pocket,
+        aligned_openings,
     )
-    from .films.law import FilmLaw as FilmLaw
+    from .films.law import FilmLaw as FilmLaw, FilmOptions, gap_shear, options, static_rate
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable
     from .journal import *
@@ -33,8 +36,8 @@ if TYPE_CHECKING:
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *
     from .reaction import (
+        FrequencyDependentCoefficients as FrequencyDependentCoefficients,
         InertialCoefficients as InertialCoefficients,
-        MemoryCoefficients as MemoryCoefficients,
         ReducedCoefficients as ReducedCoefficients,
     )
     from .rolling import *

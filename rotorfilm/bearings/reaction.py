@@ -488,7 +488,7 @@ class ReducedCoefficients(Coefficients):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MemoryCoefficients(ReducedCoefficients):
+class FrequencyDependentCoefficients(ReducedCoefficients):
     """Stiffness and damping at one frequency of a film that remembers, which knows them at every other.
 
     Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
@@ -532,7 +532,9 @@ class MemoryCoefficients(ReducedCoefficients):
 def coefficients_of(
     motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
 ) -> ReducedCoefficients:
-    """Return Re K(i nu) and Im K(i nu)/nu, their limits at 0; `MemoryCoefficients` without a frequency.
+    """Return Re K(i nu) and Im K(i nu)/nu, with their limits at 0.
+
+    Without a frequency they are `FrequencyDependentCoefficients`.
 
     Parameters
     ----------
@@ -548,7 +550,7 @@ def coefficients_of(
     found = ReducedCoefficients(
         stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
     )
-    return found if frequency is not None else MemoryCoefficients(**vars(found), motion=motion)
+    return found if frequency is not None else FrequencyDependentCoefficients(**vars(found), motion=motion)
 
 
 # The units of the film force of a journal, which dimensions and viscosity of its bearing make.

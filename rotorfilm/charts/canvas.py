@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
-from ..core.files import write_whole
+from ..core.files import write_atomically
 from ..studies.journal_accuracy import FilmFamily
 
 
@@ -95,7 +95,7 @@ def save(axes: Axes, path: Path, *, dpi: int = 130) -> Path:
     assert isinstance(figure, Figure)
     picture = io.BytesIO()
     figure.savefig(picture, dpi=dpi, metadata={"Software": "rotorfilm"}, format=path.suffix[1:] or "png")
-    return write_whole(path, picture.getvalue())
+    return write_atomically(path, picture.getvalue())
 
 
 # Labels beside points that do not cover each other.

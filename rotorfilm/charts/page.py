@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 
 from ..core.errors import InputError
-from ..core.files import write_whole
+from ..core.files import write_atomically
 
 NAME = "charts.html"
 
@@ -90,7 +90,7 @@ def write_page(folder: Path) -> Path:
     )
     sections = "\n".join(_section(chart, name) for chart, name in zip(charts, names, strict=True))
     text = PAGE.format(style=STYLE, links=links, sections=sections)
-    return write_whole(folder / NAME, text.encode())
+    return write_atomically(folder / NAME, text.encode())
 
 
 def _title(chart: Path) -> str:

@@ -15,7 +15,7 @@ from ..core.progress import Report, part_of
 from ..core.results import write_csv
 from ..core.units import parse_quantity
 from . import printing as console
-from .command import Argument, Option, Said, Settings, load_scene
+from .command import Argument, CommandOutput, Option, Settings, load_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -111,9 +111,9 @@ def shown_study(result: StudyResult, files: Files) -> Callable[[], None]:
     return partial(show_table, ("model", *headings), rows, [*remarks, *files])
 
 
-def said_study(out: Path, result: StudyResult) -> Said:
+def said_study(out: Path, result: StudyResult) -> CommandOutput:
     """Write a study, and return what is said of it."""
-    return Said(result, shown_study(result, write_study(out, result)))
+    return CommandOutput(result, shown_study(result, write_study(out, result)))
 
 
 # Studies of error against cost.
@@ -126,7 +126,7 @@ def journal(
     seed: Seed = 1978,
     motion: Motion = "large",
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
     from .. import studies
 
@@ -137,7 +137,7 @@ def journal(
 
 def pads(
     report: Report, ld: Slenderness = 0.5, states: States = 100, seed: Seed = 1978, out: Folder = OUT
-) -> Said:
+) -> CommandOutput:
     """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
     from .. import studies
 
@@ -150,12 +150,12 @@ def damper(
     permeability: Annotated[float, Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
     states: States = 200,
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
     from .. import studies
 
     result = studies.damper_accuracy(ld, permeability, states=states, report=report)
-    return Said(result, shown_study(result, write_study(out, result, result)))
+    return CommandOutput(result, shown_study(result, write_study(out, result, result)))
 
 
 def contact(
@@ -164,14 +164,14 @@ def contact(
         int, Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
     ] = 64,
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
     from .. import studies
 
     return said_study(out, studies.contact_precision(cells, report=report))
 
 
-def bush(report: Report, out: Folder = OUT) -> Said:
+def bush(report: Report, out: Folder = OUT) -> CommandOutput:
     """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
     from .. import studies
 
@@ -182,10 +182,10 @@ def bush(report: Report, out: Folder = OUT) -> Said:
         ("closed form of the shaft", f"{100.0 * min(errors):.2f} to {100.0 * max(errors):.2f} % high"),
         ("its table", str(write_csv(out / "chart_bush_shaft.csv", shaft))),
     ]
-    return Said(result, shown_study(result, files))
+    return CommandOutput(result, shown_study(result, files))
 
 
-def heat(report: Report, out: Folder = OUT) -> Said:
+def heat(report: Report, out: Folder = OUT) -> CommandOutput:
     """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
     from .. import charts, studies
     from ..studies.heat_accuracy import heated_film
@@ -197,7 +197,7 @@ def heat(report: Report, out: Folder = OUT) -> Said:
     case = studies.HEAT_CASES[1]
     pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files += write_picture(out, "heat_film", pictures, "film")
-    return Said(result, shown_study(result, files))
+    return CommandOutput(result, shown_study(result, files))
 
 
 def rolling(
@@ -206,7 +206,7 @@ def rolling(
     states: States = 40,
     seed: Seed = 1907,
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
     from .. import charts, studies
 
@@ -227,23 +227,25 @@ def rolling(
         show_table(headings, rows)
         below()
 
-    return Said({"curves": curves, "ladder": ladder}, show)
+    return CommandOutput({"curves": curves, "ladder": ladder}, show)
 
 
-def cosim(report: Report, out: Folder = OUT) -> Said:
+def cosim(report: Report, out: Folder = OUT) -> CommandOutput:
     """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
     from .. import charts, studies
 
     limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
     files = write_chart(out, "cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
-    return Said({"limits": limits, "cost": cost}, shown_study(cost, [*files, *write_study(out, cost)]))
+    return CommandOutput(
+        {"limits": limits, "cost": cost}, shown_study(cost, [*files, *write_study(out, cost)])
+    )
 
 
 # Where models fail, and bearings side by side.
 
 
-def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
+def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> CommandOutput:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
     from .. import charts, studies
     from ..charts.whirl_verdicts import verdicts
@@ -253,7 +255,9 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
     rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
-    return Said(result, partial(show_table, headings, rows, [("reference", result.reference), *files]))
+    return CommandOutput(
+        result, partial(show_table, headings, rows, [("reference", result.reference), *files])
+    )
 
 
 def limits(
@@ -263,7 +267,7 @@ def limits(
         Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
     ] = None,
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
     from .. import charts, studies
 
@@ -276,7 +280,7 @@ def limits(
     for panel, found in studies.failures(atlas).items():
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
         rows += [(f"  {name}", "nowhere" if at is None else f"{at:.3g}") for name, at in found.items()]
-    return Said(table, partial(show_table, (), rows, files))
+    return CommandOutput(table, partial(show_table, (), rows, files))
 
 
 def bearings(
@@ -284,7 +288,7 @@ def bearings(
     ld: Slenderness = 0.5,
     mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
     from .. import charts, studies
 
@@ -301,7 +305,7 @@ def bearings(
     met = dict.fromkeys(rung["whirl [-]"] for rung in whirl.rungs if rung["threshold [rad/s]"] is None)
     said = [(outcome, studies.WHIRL_OUTCOMES[outcome]) for outcome in met]
     show = partial(show_table, headings, rows, [("convention", film.reference), *said, *files])
-    return Said({"coefficients": film, "thresholds": whirl}, show)
+    return CommandOutput({"coefficients": film, "thresholds": whirl}, show)
 
 
 def _speed(row: Mapping[str, object]) -> str:
@@ -317,14 +321,14 @@ def scene(
     report: Report,
     changes: Settings = None,
     out: Folder = OUT,
-) -> Said:
+) -> CommandOutput:
     """Estimated error against cost of all models that could answer a scene, and the one that does."""
     from ..charts import plot_scene_ladder
-    from ..questions.walk import whole_ladder
+    from ..questions.walk import all_models
 
     loaded = load_scene(file, changes)
     report(0.1, "every model of the ladder")
-    result = whole_ladder(loaded)
+    result = all_models(loaded)
     title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     points = [
         (r.name, r.error_estimate, r.cost, r.chosen)
@@ -338,12 +342,12 @@ def scene(
         for r in result.rungs
     ]
     headings = ("model", "estimated error", "cost [s]", "why not")
-    return Said(result, partial(show_table, headings, rows, files))
+    return CommandOutput(result, partial(show_table, headings, rows, files))
 
 
-def page(out: Folder = OUT) -> Said:
+def page(out: Folder = OUT) -> CommandOutput:
     """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
     from ..charts import write_page
 
     path = str(write_page(out))
-    return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
+    return CommandOutput({"page": path}, partial(console.print_rows, "", [("page", path)]))

@@ -61,7 +61,7 @@ class Option(NamedTuple):
 Argument = partial(Option, positional=True)
 
 
-class Said(NamedTuple):
+class CommandOutput(NamedTuple):
     """What a command says.
 
     Attributes
@@ -196,10 +196,10 @@ class Parser(argparse.ArgumentParser):
         sys.exit(BAD_INPUT)
 
 
-def function_of(home: str) -> Callable[..., Said]:
+def function_of(home: str) -> Callable[..., CommandOutput]:
     """Return the function of a command, and import its module and no other."""
     module, _, name = home.rpartition(".")
-    found: Callable[..., Said] = getattr(import_module(f".{module}", __package__), name)
+    found: Callable[..., CommandOutput] = getattr(import_module(f".{module}", __package__), name)
     return found
 
 
@@ -225,7 +225,7 @@ def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> 
         sys.exit(FAILED)
 
 
-def _followed(function: Callable[..., Said], given: dict[str, Any], slow: bool) -> Said:
+def _followed(function: Callable[..., CommandOutput], given: dict[str, Any], slow: bool) -> CommandOutput:
     """Return what a function says, and show meanwhile how far it is."""
     with console.progress_display() as report:
         if slow:

@@ -11,7 +11,7 @@ from ..core.progress import Report
 from ..core.units import CELSIUS
 from . import printing as console
 from .answer_printing import print_answer
-from .command import Option, Said
+from .command import CommandOutput, Option
 
 if TYPE_CHECKING:
     from ..scenes.demo import DemoResult
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def demo(
     report: Report,
     out: Annotated[Path, Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
-) -> Said:
+) -> CommandOutput:
     """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
     report(0.0, "packages")
     from ..scenes import bundled_scene
@@ -32,7 +32,7 @@ def demo(
     charts = draw_demo(result, out)
     report(1.0, "done")
     data = {**plain_results(result), "charts": [chart.name for chart in charts]}
-    return Said(data, partial(_print_all, result, out))
+    return CommandOutput(data, partial(_print_all, result, out))
 
 
 def _print_all(result: DemoResult, folder: Path) -> None:

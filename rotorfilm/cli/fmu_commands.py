@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from ..core.progress import Report
 from . import printing as console
-from .command import Argument, Option, Said, SceneFile, Settings, inside, load_scene
+from .command import Argument, CommandOutput, Option, SceneFile, Settings, inside, load_scene
 
 FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
@@ -27,7 +27,7 @@ def build(
         Literal["host", "all"], Option(help="This machine's platform, or all of them.")
     ] = "host",
     ssp: Annotated[bool, Option("--ssp", help="Write system.ssp too: film and rotor, connected.")] = False,
-) -> Said:
+) -> CommandOutput:
     """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it.
 
     So is a rotor on a damper whose oil has mass.
@@ -49,10 +49,10 @@ def build(
         if ssp:
             made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)
             files["ssp"] = str(made_system)
-    return Said(files, partial(console.print_rows, "FMUs", files.items()))
+    return CommandOutput(files, partial(console.print_rows, "FMUs", files.items()))
 
 
-def check(file: FmuFile) -> Said:
+def check(file: FmuFile) -> CommandOutput:
     """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails."""
     from ..fmu import check_fmu
 
@@ -60,7 +60,7 @@ def check(file: FmuFile) -> Said:
     rows = [_check_row(*item) for item in items]
     failed = any(item.passed is False for item in items)
     data = [item._asdict() for item in items]
-    return Said(data, partial(console.print_rows, str(file), rows), "" if failed else None)
+    return CommandOutput(data, partial(console.print_rows, str(file), rows), "" if failed else None)
 
 
 def _check_row(check: str, passed: bool | None, figure: float | None, remark: str) -> tuple[str, str]:
@@ -69,12 +69,12 @@ def _check_row(check: str, passed: bool | None, figure: float | None, remark: st
     return check, f"{verdict}:{measured} {remark}"
 
 
-def info(file: FmuFile) -> Said:
+def info(file: FmuFile) -> CommandOutput:
     """Show what an FMU says of itself: version, interfaces, platforms, variables."""
     from ..fmu import describe_fmu
 
     found = describe_fmu(file)
-    return Said(found, partial(_print_info, str(file), found))
+    return CommandOutput(found, partial(_print_info, str(file), found))
 
 
 def _print_info(title: str, found: dict[str, Any]) -> None:

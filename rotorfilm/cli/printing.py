@@ -41,11 +41,11 @@ def print_json(value: Any) -> None:
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a result as JSON; return where it is."""
-    from ..core.files import write_whole
+    from ..core.files import write_atomically
     from ..core.results import to_plain
 
     text = json.dumps(to_plain(value), indent=2, allow_nan=False)
-    return write_whole(path, f"{text}\n".encode())
+    return write_atomically(path, f"{text}\n".encode())
 
 
 def plain_table(title: str = "", **options: Any) -> Table:

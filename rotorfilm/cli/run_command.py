@@ -15,8 +15,8 @@ from ..core.results import write_csv
 from . import printing as console
 from .command import (
     Argument,
+    CommandOutput,
     Option,
-    Said,
     SceneFile,
     Settings,
     SignalFile,
@@ -50,7 +50,7 @@ def run(
     fmus: Annotated[bool, Option("--fmus", help="Rotor and damper as two FMUs, not one system.")] = False,
     out: SignalFile = None,
     chart: Annotated[Path | None, Option(help="Draw the motion into this PNG.", metavar="FILE.png")] = None,
-) -> Said:
+) -> CommandOutput:
     """Follow a scene over time: a lost blade, a run-up, a motor in place of its speed, ground that shakes.
 
     A scene has a [shaft], a [rigid_rotor] on a film or a damper, or a [contact] whose load jumps or swings.
@@ -68,7 +68,7 @@ def run(
 
         axes = draw()
         save(axes[0] if isinstance(axes, tuple) else axes, chart)
-    return Said(data, partial(console.print_rows, loaded.title, rows + written_rows(out)), failure)
+    return CommandOutput(data, partial(console.print_rows, loaded.title, rows + written_rows(out)), failure)
 
 
 def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
@@ -202,7 +202,7 @@ def cosim(
     ] = "auto",
     tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
     out: SignalFile = None,
-) -> Said:
+) -> CommandOutput:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
     report(0.0, "packages")
     from ..core.errors import PartialResultError
@@ -219,7 +219,7 @@ def cosim(
         raise
     if out is not None:
         write_csv(out, _signals(signals))
-    return Said(answer, partial(_print, loaded.title, answer, out))
+    return CommandOutput(answer, partial(_print, loaded.title, answer, out))
 
 
 def _print(title: str, answer: CosimAnswer, out: Path | None) -> None:

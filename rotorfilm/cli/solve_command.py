@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from ..core.errors import InputError
 from ..core.progress import Report
 from . import printing as console
-from .command import Argument, Option, Said, SceneFile, Settings, inside, load_scene
+from .command import Argument, CommandOutput, Option, SceneFile, Settings, inside, load_scene
 
 if TYPE_CHECKING:
     from ..scenes import Scene
@@ -27,7 +27,7 @@ def solve(
     out: Annotated[
         Path | None, Option(help="Folder for the answer (JSON), its pictures (PNG) and tables (CSV).")
     ] = None,
-) -> Said:
+) -> CommandOutput:
     """Answer a scene: its question, or else what its bearing or rotor does.
 
     Without a question a bearing with a film answers with equilibrium, stiffness, damping and whirl
@@ -49,10 +49,10 @@ def solve(
 
     if out is not None:
         write_answer(answer, out)
-    return Said(plain_answer(answer), partial(print_answer, loaded.title, answer))
+    return CommandOutput(plain_answer(answer), partial(print_answer, loaded.title, answer))
 
 
-def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Said:
+def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> CommandOutput:
     from .answer_printing import print_question, write_answer
 
     with inside(path):
@@ -60,12 +60,12 @@ def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Said
     if out is not None:
         write_answer(answer, out)
     show = partial(print_question, scene.title, answer, explain=explain)
-    return Said(answer, show, None if answer.met else answer.message)
+    return CommandOutput(answer, show, None if answer.met else answer.message)
 
 
 def schema(
     out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.json")] = None,
-) -> Said:
+) -> CommandOutput:
     """Print the JSON Schema of scene files, by which editors complete and check them."""
     from ..scenes.scene import json_schema
 
@@ -76,7 +76,7 @@ def schema(
 def new(
     name: Annotated[str, Argument(metavar="NAME", help="Table of a bearing or a rotor, as tilting_pad.")],
     out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.toml")] = None,
-) -> Said:
+) -> CommandOutput:
     """Print a commented scene of a machine element that `rotorfilm solve` answers as it stands.
 
     NAME is journal, lobed_journal, pressure_dam, tilting_pad, ball_bearing, damper, contact, bush or shaft.
@@ -87,11 +87,11 @@ def new(
     return _printed("scene", text, tomllib.loads(text), out)
 
 
-def _printed(kind: str, text: str, data: Any, out: Path | None) -> Said:
+def _printed(kind: str, text: str, data: Any, out: Path | None) -> CommandOutput:
     """Return what a command says that prints a text, or writes it into a file."""
-    from ..core.files import write_whole
+    from ..core.files import write_atomically
 
     if out is None:
-        return Said(data, partial(print, text, end=""))
-    written = str(write_whole(out, text.encode()))
-    return Said({kind: written}, partial(console.print_rows, "", [(kind, written)]))
+        return CommandOutput(data, partial(print, text, end=""))
+    written = str(write_atomically(out, text.encode()))
+    return CommandOutput({kind: written}, partial(console.print_rows, "", [(kind, written)]))

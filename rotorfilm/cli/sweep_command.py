@@ -12,7 +12,7 @@ from ..core.limits import SWEEP_POINTS
 from ..core.progress import Report
 from ..core.units import whole_number
 from . import printing as console
-from .command import Option, Said, SceneFile, Settings, read_settings
+from .command import CommandOutput, Option, SceneFile, Settings, read_settings
 
 
 def sweep(
@@ -29,7 +29,7 @@ def sweep(
     changes: Settings = None,
     workers: Annotated[int | None, Option(help="Processes; by default one for each core.")] = None,
     dask: Annotated[str | None, Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
-) -> Said:
+) -> CommandOutput:
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
     from ..sweeps import sweep as run
 
@@ -53,7 +53,7 @@ def sweep(
     shown = {name: str(value) for name, value in answer.items()}
     if remarks:
         shown["remarks"] = f"{remarks} points: physics left out, or a model beyond its range"
-    return Said(answer, partial(console.print_rows, "sweep", shown.items()))
+    return CommandOutput(answer, partial(console.print_rows, "sweep", shown.items()))
 
 
 def read_variation(text: str) -> tuple[str, list[Any]]:

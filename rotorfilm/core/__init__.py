@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         UnloadedPadWarning as UnloadedPadWarning,
         ValidityWarning as ValidityWarning,
     )
+    from .inputs import BUILT, units_of
     from .model import (
         Dynamic as Dynamic,
         Linearization as Linearization,
@@ -33,15 +34,35 @@ if TYPE_CHECKING:
         Reaction as Reaction,
         Stepped as Stepped,
         Switched as Switched,
+        carries_load,
+        largest_eccentricity_ratio,
+        prepared_tangent,
+        static_linearization,
+        stops,
     )
+    from .readable import Readable
     from .results import (
         CircularOrbit as CircularOrbit,
         Coefficients as Coefficients,
         Equilibrium as Equilibrium,
         Trajectory as Trajectory,
         WhirlThreshold as WhirlThreshold,
+        orbit_distance,
+        to_plain,
+        write_csv,
     )
-    from .signals import Signal as Signal
+    from .signals import (
+        FORCE_OUTPUTS,
+        JOURNAL_INPUTS,
+        Signal as Signal,
+        force_outputs,
+        from_fmi_name,
+        indices,
+        journal_inputs,
+        names,
+        to_fmi_name,
+    )
     from .sources import published
+    from .units import CELSIUS, DISPLAY_UNITS, UNITS, parse_quantity, si_name
 else:
     show(__name__)

@@ -50,7 +50,7 @@ def read_text(path: str | os.PathLike[str], most: int = RECORD_BYTES) -> str:
         raise InputError(f"{name} must be UTF-8 text, got {error}") from None
 
 
-def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:
+def write_atomically(path: str | os.PathLike[str], content: bytes) -> Path:
     """Write a file that is either whole or as it was before, whoever else writes it; return the path.
 
     A file that was there keeps its mode, and is refused where it is not to be written.
@@ -137,7 +137,7 @@ def written_together(folder: Path) -> Iterator[Path]:
 def write_sealed(path: str | os.PathLike[str], content: bytes, settings: str) -> Path:
     """Write content with its seal; `settings` is a text of all that the content belongs to."""
     head = _SEAL.pack(MAGIC, VERSION, len(content), _digest(settings.encode()))
-    return write_whole(path, content + head + _digest(content + head))
+    return write_atomically(path, content + head + _digest(content + head))
 
 
 def read_sealed(path: str | os.PathLike[str], settings: str, rule: str) -> bytes:

@@ -332,7 +332,7 @@ def at_rest(reaction: object) -> Any:
 
 
 @runtime_checkable
-class Remembering(JournalForce, Protocol):
+class FrequencyDependent(JournalForce, Protocol):
     """A force on a journal at rest of what remembers its motion: its stiffness is K(s) at every exponent."""
 
     def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> NDArray[np.complex128]:
@@ -346,7 +346,7 @@ class Remembering(JournalForce, Protocol):
         """
 
     def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:
-        """Return `MemoryCoefficients` without a frequency, or those at a frequency.
+        """Return `FrequencyDependentCoefficients` without a frequency, or those at a frequency.
 
         Parameters
         ----------

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RotorfilmError, require_each, require_finite
-from .files import write_whole
+from .files import write_atomically
 from .readable import Drawable, Item, Readable, Row, rows_of
 
 Array = NDArray[np.float64]
@@ -290,4 +290,4 @@ def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path
     writer.writerow(columns)
     for row in zip(*columns.values(), strict=True):
         writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
-    return write_whole(path, text.getvalue().encode())
+    return write_atomically(path, text.getvalue().encode())

@@ -23,9 +23,9 @@ from .coupling_loop import coupling_loop, dominant_eigenvalue
 from .partners import Partners
 from .schemes import (
     MEMORY,
-    Bench,
     GaussSeidel,
     Jacobi,
+    PartnerInterface,
     Sample,
     Scheme,
     SIExp,
@@ -212,7 +212,7 @@ class CouplingCase:
 # Schemes on a motion known beforehand: the force laws that they would have there.
 
 
-class _Replay(Bench):
+class _Replay(PartnerInterface):
     """A scheme is given a motion known beforehand, to see its force law."""
 
     def __init__(self, following: Sample) -> None:

@@ -23,7 +23,7 @@ from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.readable import Readable
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 from ..rotors.force_law import ForceLaw
-from .schemes import Bench, GaussSeidel, Newton, Sample, Scheme, StationMotion, Tangents
+from .schemes import GaussSeidel, Newton, PartnerInterface, Sample, Scheme, StationMotion, Tangents
 from .slaves import Names, sources, wired
 
 CONVERGED = 1e-11
@@ -113,7 +113,7 @@ def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
     unit = np.eye(n + 7 * m)
     split = np.cumsum([n, 2 * m, 2 * m, m, m])
     x, before, earlier, *forces = np.split(unit, split)
-    bench = _LinearBench(loop, x)
+    bench = _LinearPartners(loop, x)
     now = bench.motion()
     motions = [StationMotion(part[:m], part[m:], 0.0, {}) for part in (earlier, before)]
     history = [
@@ -126,7 +126,7 @@ def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
     return np.concatenate(rows)
 
 
-class _LinearBench(Bench):
+class _LinearPartners(PartnerInterface):
     """A linear rotor and linear films under a batch of disturbances (n, batch)."""
 
     def __init__(self, loop: Loop, x: Array) -> None:

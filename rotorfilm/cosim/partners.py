@@ -14,14 +14,14 @@ from ..core.model import Array, Linearization
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name
-from .schemes import Bench, Needs, Sample, StationMotion, Tangents, no_tangents
+from .schemes import Needs, PartnerInterface, Sample, StationMotion, Tangents, no_tangents
 from .slaves import Places, Slave, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
 
 
-class Partners(Bench):
+class Partners(PartnerInterface):
     """A rotor and films that were not started yet.
 
     Parameters
@@ -67,7 +67,7 @@ class Partners(Bench):
         return self._sample(0.0, motion, self._needs.derivatives)
 
     def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
-        """Advance the rotor; see `Bench`."""
+        """Advance the rotor; see `PartnerInterface`."""
         self.work["rotor_steps"] += 1
         if self.laws is not None:
             self.laws.append(law)
@@ -75,14 +75,14 @@ class Partners(Bench):
         return self._motion(t + dt)
 
     def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
-        """Step the films; see `Bench`."""
+        """Step the films; see `PartnerInterface`."""
         for station, film in self.films.items():
             film.set(self._values(station, motion))
             film.step(t, dt)
         return self._sample(t + dt, motion, derive)
 
     def sensitivity(self, t: float, dt: float) -> Array:
-        """Return d(motion)/d(force) from trial steps, kept as long as the step is as long; see `Bench`."""
+        """Return d(motion)/d(force) from trial steps, kept while the step stays; see `PartnerInterface`."""
         if self._probed is None or abs(dt - self._probed[0]) > 1e-9 * dt:
             forces = np.vstack([np.zeros(self.size), np.eye(self.size)])
             ends = [self._trial(t, dt, force) for force in forces]

@@ -79,7 +79,7 @@ class Sample(NamedTuple):
     outputs: dict[str, float]
 
 
-class Bench:
+class PartnerInterface:
     """What a scheme may do with rotor and films."""
 
     def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
@@ -156,12 +156,12 @@ class Scheme(Hashable, Protocol):
     def needs(self) -> Needs:
         """What it asks of its partners."""
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance from t to t + dt [s], or less, and return what was exchanged there.
 
         Parameters
         ----------
-        bench : Bench
+        bench : PartnerInterface
             Rotor and films.
         history : sequence of Sample
             The latest communication points, the present one last; at least one.
@@ -266,7 +266,7 @@ class GaussSeidel(_Extrapolating):
 
     _name = "Gauss-Seidel"
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""
         dt = started(history, self.degree, dt)
         motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
@@ -291,7 +291,7 @@ class Jacobi(_Extrapolating):
 
     _name = "Jacobi"
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""
         dt = started(history, self.degree, dt)
         seen = bench.evaluate(t, dt, _ahead(history[-1 - self.degree :], t + dt), False)
@@ -324,7 +324,7 @@ class _Tangential:
 
     needs = Needs(derivatives=True, laws=True)
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step; see `Scheme`."""
         motion = bench.drive(t, dt, tangent_law(history, self.curvature(history)))
         return bench.evaluate(t, dt, motion, True)
@@ -421,7 +421,7 @@ class SIMemory:
     label = "SI-memory"
     needs = Needs(derivatives=True, laws=True)
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""
         dt = started(history, 2, dt)
         law = tangent_law(history, np.zeros_like(history[-1].force))
@@ -476,7 +476,7 @@ class Newton:
         require_positive("tolerance", self.tolerance)
         require_count("most", self.most)
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step; see `Scheme`.
 
         Raises
@@ -574,7 +574,7 @@ class Adaptive:
         """What the scheme needs, and a way back."""
         return self.scheme.needs._replace(derivatives=True, rollback=True)
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+    def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance from t by dt or less; the sample says how far it got."""
         shortest = GIVE_UP * dt
         dt = min(dt, self._proposed(history, dt))

@@ -9,7 +9,8 @@ if TYPE_CHECKING:
     from .check_fmu import CheckItem, check_fmu
     from .description import fmi_variables
     from .export import export_fmu as export_fmu
-    from .instance import describe_fmu
+    from .instance import describe_fmu, extracted, instantiated
+    from .reference import advance, from_state_space
     from .system_export import export_ssp as export_ssp
 else:
     show(__name__)

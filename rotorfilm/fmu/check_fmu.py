@@ -36,7 +36,7 @@ from .instance import (
     unknowns_of,
     variables_of,
 )
-from .native.platforms import libraries, require_whole
+from .native.platforms import libraries, require_complete_file
 
 REFERENCE_TOLERANCE = 1e-8
 """Largest accepted deviation from the reference, relative to the largest value of each output."""
@@ -122,7 +122,7 @@ def _check_description(path: str) -> Outcome:
 def _check_libraries(folder: str) -> Outcome:
     found = libraries(folder)
     for path in found:
-        require_whole(path)
+        require_complete_file(path)
     if not found:
         return None, None, "no compiled library"
     return True, float(len(found)), "as long as their headers say"

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import FmuError, InputError, require_finite, require_positive
-from ..core.files import write_whole
+from ..core.files import write_atomically
 from ..core.inputs import arguments, quantity
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, in_time
 from ..core.signals import Signal, indices, names
@@ -129,7 +129,7 @@ def export_fmu(
     else:
         contents = python_contents(subject, prefix, inputs, described)
     target.parent.mkdir(parents=True, exist_ok=True)
-    return write_whole(target, to_zip(contents))
+    return write_atomically(target, to_zip(contents))
 
 
 # What an export asks for: rules of its arguments, and the model that goes into the FMU.

@@ -30,7 +30,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from ..core.errors import FmuError, FmuFileError
 from ..core.model import Array
 from .archive import read_description
-from .native.platforms import host_libraries, require_whole
+from .native.platforms import host_libraries, require_complete_file
 
 
 @contextmanager
@@ -69,7 +69,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
     version = "2.0" if description.fmiVersion == "2.0" else "3.0"
     kind = {"2.0": (FMU2Slave, FMU2Model), "3.0": (FMU3Slave, FMU3Model)}[version][exchange]
     for library in host_libraries(folder, interface.modelIdentifier):
-        require_whole(library)
+        require_complete_file(library)
     try:
         # fmpy stays in the library's folder where it cannot load the library.
         with chdir("."):

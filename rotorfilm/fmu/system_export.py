@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.etree.ElementTree import Element, SubElement
 
 from ..core.errors import InputError, require_positive
-from ..core.files import write_whole
+from ..core.files import write_atomically
 from ..core.inputs import arguments
 from ..core.model import Dynamic, Model, Stepped, require_massless
 from ..core.units import UNITS
@@ -118,7 +118,7 @@ def export_ssp(
             parts[name] = _part(name, file)
     connections = [link for station in stations for link in _connected(parts, station)]
     target.parent.mkdir(parents=True, exist_ok=True)
-    return write_whole(target, to_zip(_contents(target.stem, parts, connections, float(stop_time))))
+    return write_atomically(target, to_zip(_contents(target.stem, parts, connections, float(stop_time))))
 
 
 def _starts(

@@ -23,7 +23,7 @@ from ..scenes.film_heat import HeatSteps, uniform_rest
 from ..scenes.film_rungs import (
     Corrected,
     FilmCandidate,
-    RestedJournal,
+    JournalEquilibrium,
     any_candidate,
     maximum_pressure,
     tangent,
@@ -40,7 +40,7 @@ CANCELED = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class RestedFilm(RestedJournal):
+class FilmEquilibrium(JournalEquilibrium):
     """A journal at rest, and the film at its temperature there.
 
     Attributes
@@ -79,10 +79,10 @@ class RestedFilm(RestedJournal):
         return maximum_pressure(self.reaction, self.at.position, self.at.speed)
 
 
-def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
+def rest_on(film: Any, load: tuple[float, float], speed: float) -> FilmEquilibrium:
     """Return where a journal rests on a film, which may be on an oil."""
     at = equilibrium(film, load, speed)
-    return RestedFilm(at, settled(film, at.position, speed))
+    return FilmEquilibrium(at, settled(film, at.position, speed))
 
 
 class Change(NamedTuple):

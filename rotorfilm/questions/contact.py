@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.contact import HERTZ_LOAD, ContactLaw, FixedSteps, SineLoad, SmallMotion, reduce_contact, ride
+from ..bearings.contact import (
+    HERTZ_LOAD,
+    ContactLaw,
+    FixedSteps,
+    SineLoad,
+    SmallMotion,
+    ball_transient,
+    reduce_contact,
+)
 from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array
@@ -19,8 +27,8 @@ from ..scenes.contact_motions import (
     OUTLET,
     QUANTITIES,
     SPACINGS,
-    RestingFilms,
-    ShakenBall,
+    DrivenBall,
+    StaticContactFilms,
     contact_motion,
     contact_remarks,
     natural_frequency,
@@ -56,7 +64,7 @@ LEFT = 0.3
 
 
 def contact_rung(
-    films: RestingFilms,
+    films: StaticContactFilms,
     name: str,
     answer: Callable[[dict[WorkUnit, int]], tuple[float, Any]],
     judge: Callable[[Any, dict[WorkUnit, int]], ErrorEstimate],
@@ -69,7 +77,7 @@ def contact_rung(
 
     Parameters
     ----------
-    films : RestingFilms
+    films : StaticContactFilms
     name : str
     answer : callable
         Adds to the work, and returns the quantity [1] and what its estimate starts from.
@@ -98,7 +106,7 @@ def contact_rung(
     return VariantRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
 
 
-def formula_rung(films: RestingFilms, bound: float) -> VariantRung:
+def formula_rung(films: StaticContactFilms, bound: float) -> VariantRung:
     """Return the film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     The dry contact has the approach -2, in Hertzian units. The bound was measured in `FORMULA_RANGE`.
@@ -120,7 +128,7 @@ def formula_rung(films: RestingFilms, bound: float) -> VariantRung:
     return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
 
 
-def grid_rung(films: RestingFilms, cells: int) -> VariantRung:
+def grid_rung(films: StaticContactFilms, cells: int) -> VariantRung:
     """Return a stationary contact on cells x cells of the shortest rectangle.
 
     Its error is the order increment from less cells, and that from two rectangles on coarse grids. A film
@@ -144,7 +152,7 @@ def grid_rung(films: RestingFilms, cells: int) -> VariantRung:
     )
 
 
-def unbounded_rung(films: RestingFilms, place: int, cells: int) -> VariantRung:
+def unbounded_rung(films: StaticContactFilms, place: int, cells: int) -> VariantRung:
     """Return a grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
     `place` is that of the rectangle in `INLETS`. The error is a share of both extrapolations, in the length
@@ -174,7 +182,7 @@ def unbounded_rung(films: RestingFilms, place: int, cells: int) -> VariantRung:
     )
 
 
-def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> float:
+def grid_error(films: StaticContactFilms, cells: int, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the cells, from less of them; more of the smallest film.
 
     Raises
@@ -188,12 +196,12 @@ def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> fl
     return max(abs(fine - rough) / gain / abs(fine), noise_of(films, cells))
 
 
-def noise_of(films: RestingFilms, cells: int) -> float:
+def noise_of(films: StaticContactFilms, cells: int) -> float:
     """Return the relative error below which an increment says nothing."""
     return films.row.noise * (CELLS[0] / cells) ** (1.5 if films.row.jumps else 2)
 
 
-def rectangle_error(films: RestingFilms, work: dict[WorkUnit, int]) -> float:
+def rectangle_error(films: StaticContactFilms, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the end of the rectangle."""
     change = films.beyond(work)
     near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == 1.0)
@@ -210,7 +218,7 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.contact is None:
         raise InputError(f"contact is required for {quantity}, got no such table")
-    films = RestingFilms(table=scene.contact, quantity=quantity)
+    films = StaticContactFilms(table=scene.contact, quantity=quantity)
     table = scene.contact
     remarks = contact_remarks(
         films.ball, scene.lubricant.properties, roelands=table.roelands, compressible=table.compressible
@@ -241,7 +249,7 @@ ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
 
 
-def law_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
+def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> VariantRung:
     """Return the deepest approach of a motion on the reduced law of the contact under its static load.
 
     Its error is that of grid and rectangle at rest, of the fit, and of the law's one load.
@@ -282,9 +290,11 @@ def law_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
     )
 
 
-def ridden(films: RestingFilms, shaken: ShakenBall, law: ContactLaw) -> tuple[float, tuple[float, float]]:
+def ridden(
+    films: StaticContactFilms, shaken: DrivenBall, law: ContactLaw
+) -> tuple[float, tuple[float, float]]:
     """Return the deepest approach on a law and the range of the force, in the units of the contact."""
-    motion = ride(
+    motion = ball_transient(
         law,
         mass=films.ball.W / HERTZ_LOAD,
         load=shaken.load,
@@ -296,7 +306,7 @@ def ridden(films: RestingFilms, shaken: ShakenBall, law: ContactLaw) -> tuple[fl
 
 
 def doubt_of_law(
-    films: RestingFilms, shaken: ShakenBall, law: ContactLaw, carried: tuple[float, float]
+    films: StaticContactFilms, shaken: DrivenBall, law: ContactLaw, carried: tuple[float, float]
 ) -> str:
     """Return why a law must not be trusted that has carried loads in this range; empty if it may."""
     low, high = law.load_range
@@ -383,15 +393,15 @@ class FollowedFilm:
 
     Attributes
     ----------
-    films : RestingFilms
-    shaken : ShakenBall
+    films : StaticContactFilms
+    shaken : DrivenBall
         The load over time.
     runs : dict
         Extremes of the quantity and the approach [1], by cells and steps over a period.
     """
 
-    films: RestingFilms
-    shaken: ShakenBall
+    films: StaticContactFilms
+    shaken: DrivenBall
     runs: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, compare=False)
 
     def step(self, steps: int) -> float:
@@ -477,7 +487,7 @@ class FollowedFilm:
 
     def equivalent_load(self, cells: int, deepest: float, work: dict[WorkUnit, int]) -> float:
         """Return the load whose contact at rest is as deep, as of a dry contact."""
-        rest = RestingFilms(table=self.films.table, quantity="approach").value(cells, work)
+        rest = StaticContactFilms(table=self.films.table, quantity="approach").value(cells, work)
         return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
 
 
@@ -548,7 +558,7 @@ def newton(cells: int) -> WorkUnit:
     return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
 
 
-def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[VariantRung, ...]:
+def motion_rungs(scene: Scene, films: StaticContactFilms) -> tuple[VariantRung, ...]:
     """Return the rungs of a ball whose load jumps or swings."""
     shaken = contact_motion(scene)
     followed = FollowedFilm(films=films, shaken=shaken)
@@ -574,7 +584,7 @@ SLACKEST = 0.05
 """Load below which there is no contact at rest to speak of."""
 
 
-def slow_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
+def slow_rung(films: StaticContactFilms, shaken: DrivenBall) -> VariantRung:
     """Return the extreme of a quantity over the loads, as if each had acted for long.
 
     Of the approach it is always that of the largest load. The error is that of grid and rectangle, and what
@@ -610,7 +620,7 @@ def slow_rung(films: RestingFilms, shaken: ShakenBall) -> VariantRung:
     )
 
 
-def small_motion(films: RestingFilms, shaken: ShakenBall) -> float:
+def small_motion(films: StaticContactFilms, shaken: DrivenBall) -> float:
     """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
     contact = films.contact(SMALL)
     state = contact.stationary()

@@ -25,9 +25,9 @@ from ..analysis.circular_orbits import (
 )
 from ..analysis.equal_steps import (
     NONE,
+    ExcitedRotor,
     MarchMotion,
     RestTangent,
-    ShakenRotor,
     StatesAlong,
     linear_march,
     peak,
@@ -372,9 +372,9 @@ class DamperPeakRung(PeakRung):
         return None if found is None else sprung(found, self.stiffness)
 
     @property
-    def shaken(self) -> ShakenRotor:
+    def shaken(self) -> ExcitedRotor:
         """The rotor on film and springs, and what shakes it."""
-        return ShakenRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
+        return ExcitedRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
 
     @property
     def rest(self) -> Array:
@@ -558,7 +558,7 @@ def _one_peak(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
 
 LADDERS = {
     **dict.fromkeys(UNITS, damper_ladder),
-    "blade_loss_peak": damper_peak_ladder,
+    "peak_displacement": damper_peak_ladder,
     "cosimulation_error": coupling_ladder,
 }
 

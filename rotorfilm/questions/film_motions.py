@@ -13,9 +13,9 @@ import numpy as np
 from ..analysis import RotorEquilibrium, coefficients, equilibrium
 from ..analysis.equal_steps import (
     ORDER,
+    ExcitedRotor,
     MarchMotion,
     RestTangent,
-    ShakenRotor,
     StatesAlong,
     peak,
     states_along,
@@ -348,7 +348,7 @@ class PeakRung(CandidateRung):
         return unit
 
     @property
-    def shaken(self) -> ShakenRotor:
+    def shaken(self) -> ExcitedRotor:
         """The rotor on this film, and what shakes it."""
         raise NotImplementedError
 
@@ -427,9 +427,9 @@ class BladeLossRung(PeakRung):
         return coefficients(self.film.reaction, at.position, self.speed)
 
     @property
-    def shaken(self) -> ShakenRotor:
+    def shaken(self) -> ExcitedRotor:
         """The rotor on this film, and what shakes it."""
-        return ShakenRotor(self.film.reaction, self.mass, self.speed, self.rest.position, self._pull)
+        return ExcitedRotor(self.film.reaction, self.mass, self.speed, self.rest.position, self._pull)
 
     @property
     def at_rest(self) -> RestTangent:
@@ -532,7 +532,7 @@ def film_ladders(
         **dict.fromkeys(statics, partial(static_ladder, points)),
         **dict.fromkeys(ORBIT_UNITS, partial(orbit_ladder, turns)),
         "whirl_threshold": partial(whirl_ladder, points),
-        "blade_loss_peak": partial(blade_loss_ladder, turns),
+        "peak_displacement": partial(blade_loss_ladder, turns),
         "cosimulation_error": coupling_ladder,
     }
 
@@ -541,7 +541,7 @@ def lost_blade(scene: Scene) -> BladeLossTable:
     """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
     if not isinstance(scene.excitation, BladeLossTable):
         got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise InputError(f'excitation of kind "blade_loss" is required for blade_loss_peak, got {got}')
+        raise InputError(f'excitation of kind "blade_loss" is required for peak_displacement, got {got}')
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
     return scene.excitation

@@ -29,7 +29,7 @@ from ..core.errors import FilmContactError
 from ..core.model import Array, settled
 from ..core.results import Equilibrium
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
-from ..scenes.pad_tables import pad_film_name, settled_scene
+from ..scenes.pad_tables import pad_film_name, quasi_static_scene
 from .film_motions import (
     FORCE,
     ORBIT_UNITS as ORBITS,
@@ -383,7 +383,7 @@ def _all(scene: Scene) -> tuple[PadCandidate, ...]:
 
 LOBED = film_ladders(
     lambda scene: few_forces(_all(scene), fixed=scene.film_is_given),
-    lambda scene: many_forces(_all(settled_scene(scene)), fixed=scene.film_is_given),
+    lambda scene: many_forces(_all(quasi_static_scene(scene)), fixed=scene.film_is_given),
     PAD_STATICS,
 )
 
@@ -392,7 +392,7 @@ LOBED = film_ladders(
 
 
 def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]:
-    scene = settled_scene(scene) if turns else scene
+    scene = quasi_static_scene(scene) if turns else scene
     return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
@@ -490,7 +490,7 @@ class StatefulOrbitRung(OrbitRung):
 TILTING = {
     **dict.fromkeys(PAD_STATICS, tilting_static_ladder),
     **dict.fromkeys(
-        ORBITS, partial(orbit_ladder, lambda scene: _films(settled_scene(scene)), rung=StatefulOrbitRung)
+        ORBITS, partial(orbit_ladder, lambda scene: _films(quasi_static_scene(scene)), rung=StatefulOrbitRung)
     ),
     "whirl_threshold": partial(whirl_ladder, _films, levels=False),
 }

@@ -74,7 +74,7 @@ class FilmQuantity(NamedTuple):
     ----------
     unit : str
     value : callable
-        Takes a `RestedJournal` and returns the quantity in SI.
+        Takes a `JournalEquilibrium` and returns the quantity in SI.
     bound : callable
         Takes a film and an equilibrium and returns the verified bound of the error, which may be infinite.
     distance : callable

@@ -23,10 +23,10 @@ from ..core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound,
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
 from ..scenes.rolling import (
+    BallEquilibriumCase,
     Balls,
     BallTable,
     RaceOil,
-    RestingBalls,
     moved_to,
     on_films,
     rest_near,
@@ -69,7 +69,7 @@ class BallQuantity(NamedTuple):
     """
 
     unit: str
-    value: Callable[[RestingBalls, BallQuestion], Any]
+    value: Callable[[BallEquilibriumCase, BallQuestion], Any]
     distance: Callable[[Any, Any], float] = relative_change
     yielding: float = 0.0
     closed_form: Callable[[BallBearing, Array], Any] | None = None
@@ -126,20 +126,20 @@ class BallQuestion:
         """The row of the quantity."""
         return QUANTITIES[self.quantity]
 
-    def value(self, rest: RestingBalls) -> Any:
+    def value(self, rest: BallEquilibriumCase) -> Any:
         """Return the quantity of a rest."""
         return self.row.value(rest, self)
 
-    def rest(self, bearing: Balls) -> RestingBalls:
+    def rest(self, bearing: Balls) -> BallEquilibriumCase:
         """Return the equilibrium."""
         return rest_under(bearing, self.load, self.speed)
 
-    def own_bound(self, rest: RestingBalls) -> float:
+    def own_bound(self, rest: BallEquilibriumCase) -> float:
         """Return the error [1] of the richest law: contacts at the free angle, and films that keep thick."""
         softer = self.row.yielding * rest.relative_film if self.row.yielding else 0.0
         return by_angles(rest) + softer
 
-    def moved(self, bearing: Balls, value: Any, near: RestingBalls, unit: WorkUnit) -> ErrorEstimate:
+    def moved(self, bearing: Balls, value: Any, near: BallEquilibriumCase, unit: WorkUnit) -> ErrorEstimate:
         """Return the distance of a value from what running balls, on their films, make of a rest."""
         rich, method = with_inertia(bearing), "Newton steps with running balls"
         if self.oil is not None:
@@ -151,7 +151,7 @@ class BallQuestion:
         return beside_bound(error, self.own_bound(at), method, {unit: 1}, doubt)
 
 
-def by_angles(rest: RestingBalls) -> float:
+def by_angles(rest: BallEquilibriumCase) -> float:
     """Return how much the stiffness of a contact changes from the free angle to that of a loaded ball."""
     free, balls, k = single_of(rest.bearing).free_contact_angle, rest.balls, rest.most_loaded
     turned = max(abs(balls.inner_angle[k] - free), abs(balls.outer_angle[k] - free))
@@ -232,7 +232,7 @@ def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung
 
     def answer(before: Found | None) -> Found:
         dry = before.solution if before is not None else None
-        if not isinstance(dry, RestingBalls) or dry.bearing != rich:
+        if not isinstance(dry, BallEquilibriumCase) or dry.bearing != rich:
             dry = asked.rest(rich)
         wet = rest_near(on_films(dry, oil), dry, asked.load)
         wet = rest_near(on_films(wet, oil), wet, asked.load)
@@ -248,7 +248,7 @@ def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung
     )
 
 
-def film_spread(rest: RestingBalls) -> float:
+def film_spread(rest: BallEquilibriumCase) -> float:
     """Return by how much the films of the balls differ [1], those about to come under load too."""
     loads = rest.balls.inner_load
     return LOAD_POWER * -math.log(max(float(loads.min() / loads.max()), LEAST_LOAD))

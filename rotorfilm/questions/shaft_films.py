@@ -275,7 +275,7 @@ def shaft_ladder_on(
 NEAR_HEAT = 0.02
 """Relative change of speed within which rungs of a level have the same error by heat."""
 
-HeatFound = tuple[HeatError, str, str]
+HeatEffect = tuple[HeatError, str, str]
 """An error by heat, how it is known, and why it must not be trusted; empty if it may."""
 
 
@@ -295,7 +295,7 @@ def value_on(rung: ShaftRung, found: Found, rests: Mapping[str, WarmRest]) -> fl
     return rung.on(found, {**own, **{name: one.coefficients for name, one in rests.items()}})
 
 
-def steps_error(rung: ShaftRung, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatFound:
+def steps_error(rung: ShaftRung, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatEffect:
     """Return how far a value is off by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
     samples = {name: one.sample for name, one in steps.items()}
@@ -316,14 +316,14 @@ class RotorHeat:
     ----------
     level : HeatLevel
         T0 or T1.
-    known : list of (float, float, HeatFound)
+    known : list of (float, float, HeatEffect)
         Tolerance and speed [rad/s] at which it was found, and what.
     """
 
     level: HeatLevel
-    known: list[tuple[float, float, HeatFound]] = field(default_factory=list)
+    known: list[tuple[float, float, HeatEffect]] = field(default_factory=list)
 
-    def error(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatFound:
+    def error(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatEffect:
         """Return the error of an answer by heat; that of another rung next to it."""
         speed = rung.rest(found).speed
         for asked, at, heat in self.known:
@@ -333,7 +333,7 @@ class RotorHeat:
         self.known.append((tolerance, speed, heat))
         return heat
 
-    def _found(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatFound:
+    def _found(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatEffect:
         rests = rests_of(rung, rung.rest(found))
         own = value_on(rung, found, rests)
         if self.level is FRESH:
@@ -426,7 +426,7 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
     return rests
 
 
-def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatFound:
+def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatEffect:
     """Return the error by heat of an answer on temperature fields.
 
     Of T2 by steps towards T3, of T3 by coarser grids.
@@ -444,7 +444,7 @@ def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level
     return *with_moving(rung.moving(found), HeatError(grid, True), method), ""
 
 
-def with_fields(about: ErrorEstimate, heat: HeatFound) -> ErrorEstimate:
+def with_fields(about: ErrorEstimate, heat: HeatEffect) -> ErrorEstimate:
     """Return the error of a rotor's model with that of the heat in its films, which no other rung shares."""
     return with_heat(about, lambda: heat, "")._replace(shared=0.0)
 

@@ -19,7 +19,7 @@ from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, R
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Reaction
 from ..core.results import Coefficients, Trajectory
-from ..rotors import BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, ShakenBaseRotor, mount
+from ..rotors import BaseExcitedRotor, BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import GroundTable, RunUpTable, UnbalanceTable, require_kind
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
@@ -298,7 +298,7 @@ LEAST_CHANGE = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShakenShaft:
+class ShaftExcitation:
     """What shakes a shaft, for how long, and where it is asked about.
 
     Attributes
@@ -323,7 +323,7 @@ class ShakenShaft:
         still = rotor_equilibrium(rotor, bearings, self.speed).displacement
         started: Any = replace(rotor, initial=(*still, *0.0 * still))  # type: ignore[type-var]
         if self.base is not None:
-            started = ShakenBaseRotor(rotor=started, base=self.base)
+            started = BaseExcitedRotor(rotor=started, base=self.base)
         end = float(self.times[-1])
         return simulate_rotor(mount(started, bearings), duration=end, times=self.times, rtol=rtol)
 
@@ -332,7 +332,7 @@ class ShakenShaft:
         return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
 
 
-def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShakenShaft) -> VariantRung:
+def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShaftExcitation) -> VariantRung:
     """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
     Its error is the distance to the run in elements half as long, on richer films, in finer steps. Of those
@@ -425,7 +425,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         )
     duration, fastest = run_span(scene)
     at = scene.question.at if scene.question is not None else ""
-    shaken = ShakenShaft(
+    shaken = ShaftExcitation(
         places=(at,) if at else scene.shaft.places(forces=False),
         speed=scene.speed,
         times=run_times(duration, fastest),

@@ -380,7 +380,7 @@ class LadderRow(Readable):
 
 
 @dataclass(frozen=True, kw_only=True)
-class WholeLadder(Readable):
+class AllModels(Readable):
     """All rungs of a scene's question.
 
     Attributes
@@ -408,7 +408,7 @@ class WholeLadder(Readable):
         }
 
 
-def whole_ladder(scene: Scene) -> WholeLadder:
+def all_models(scene: Scene) -> AllModels:
     """Return every rung of a scene's question with its estimated error and its cost.
 
     Raises
@@ -433,4 +433,4 @@ def whole_ladder(scene: Scene) -> WholeLadder:
         )
         for report, tried in zip(answer.rungs, every, strict=True)
     ]
-    return WholeLadder(quantity=quantity, tolerance=tolerance, met=answer.met, rungs=tuple(rows))
+    return AllModels(quantity=quantity, tolerance=tolerance, met=answer.met, rungs=tuple(rows))

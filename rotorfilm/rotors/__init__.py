@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .base_excitation import BaseMotion as BaseMotion, ShakenBaseRotor as ShakenBaseRotor, translations
+    from .base_excitation import BaseExcitedRotor as BaseExcitedRotor, BaseMotion as BaseMotion, translations
     from .cracked_rotor import (
         Breathing,
         CrackedRotor as CrackedRotor,

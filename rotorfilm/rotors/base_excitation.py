@@ -159,7 +159,7 @@ class BaseMotion:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class ShakenBaseRotor(AroundRotor):
+class BaseExcitedRotor(AroundRotor):
     """A rotor whose housings all move with the ground: a Dynamic model, as it is seen from the ground.
 
     Displacements are those from the ground. Seen from there each mass feels the force -mass acceleration,

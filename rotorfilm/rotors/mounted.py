@@ -203,8 +203,8 @@ class MountedRotor(AroundRotor):
         return [rows + speed for rows in self.motion_places]
 
     @cached_property
-    def _heavy(self) -> HeavyJournals:
-        return HeavyJournals(self.bearings, self._motion)
+    def _heavy(self) -> AddedMassJournals:
+        return AddedMassJournals(self.bearings, self._motion)
 
     @cached_property
     def _taken(self) -> list[int]:
@@ -367,7 +367,7 @@ def _equal(one: NativeSpec, other: NativeSpec) -> bool:
 # oil is heavier than the rotor.
 
 
-class HeavyJournals:
+class AddedMassJournals:
     """The journals of a rotor, by their places in its inputs and outputs.
 
     Parameters

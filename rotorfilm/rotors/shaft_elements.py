@@ -622,7 +622,7 @@ class Station:
     support : Support, optional
         Its housing moves along x and y and does not tilt.
     feels_tilt : bool
-        Whether the bearing here may also resist the tilt of the shaft, as `TiltingBalls` do.
+        Whether the bearing here may also resist the tilt of the shaft, as `MomentCarryingBalls` do.
     """
 
     node: int

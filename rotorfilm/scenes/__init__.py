@@ -6,13 +6,23 @@ from ..core.sources import show
 
 if TYPE_CHECKING:
     from .export_scene import export_rotor_fmu as export_rotor_fmu
+    from .lubricant_table import Lubricant
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
         to_ross as to_ross,
         to_ross_force as to_ross_force,
     )
-    from .scene import Scene as Scene, bundled_scene as bundled_scene, parse_scene, read_scene
+    from .scene import (
+        QuestionTable,
+        Scene as Scene,
+        bundled_scene as bundled_scene,
+        json_schema,
+        parse_scene,
+        read_scene,
+        varied,
+    )
+    from .solve_damper import run_damper
     from .solve_journal import Answer as Answer
 else:
     show(__name__)

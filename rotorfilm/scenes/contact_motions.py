@@ -37,7 +37,7 @@ DRY_STIFFNESS = math.pi / 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShakenBall:
+class DrivenBall:
     """A load over time in the units of a contact, and the motion that is asked for.
 
     Attributes
@@ -73,7 +73,7 @@ def natural_frequency(W: float) -> float:
     return math.sqrt(DRY_STIFFNESS / W) if W > 0.0 else math.inf
 
 
-def contact_motion(scene: Scene) -> ShakenBall:
+def contact_motion(scene: Scene) -> DrivenBall:
     """Return the load of a scene's ball over time, and how long the question follows it.
 
     A ball under a step is followed from rest until 10 transit times t0 = a/speed after the last jump, under
@@ -100,7 +100,7 @@ def contact_motion(scene: Scene) -> ShakenBall:
         frequency = shaken.frequency * ball.time_scale
         duration = max(UNDER_SINE, 2.0 * math.pi / frequency, period)
         require_followable(duration, frequency)
-        return ShakenBall(
+        return DrivenBall(
             load=SineLoad(amplitude=amplitude, frequency=frequency),
             duration=duration,
             shortest_period=min(2.0 * math.pi / frequency, period or math.inf),
@@ -108,7 +108,7 @@ def contact_motion(scene: Scene) -> ShakenBall:
     end = (shaken.end - shaken.start) / ball.time_scale
     duration = max(AFTER_JUMP, period) + (end if math.isfinite(end) else 0.0)
     require_followable(duration, 0.0)
-    return ShakenBall(
+    return DrivenBall(
         load=StepLoad(amplitude=amplitude, end=end),
         duration=duration,
         shortest_period=period,
@@ -173,7 +173,7 @@ Grid = tuple[float, int, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class RestingFilms:
+class StaticContactFilms:
     """A quantity of a ball at rest by grid and load.
 
     Attributes

@@ -302,7 +302,7 @@ def orbit_films(table: DamperTable, rotor: RigidRotor) -> tuple[DamperFilm, ...]
     if any(table.offset):
         raise InputError(
             "offset must be left out for a question about circular orbits, which are centered: a run, or "
-            f"blade_loss_peak, has it, got {table.offset!r}"
+            f"peak_displacement, has it, got {table.offset!r}"
         )
     return built_films(table, rotor.profile.speeds[0]) if table.is_built else damper_films(table)
 

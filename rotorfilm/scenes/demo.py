@@ -16,7 +16,7 @@ from ..analysis import equilibrium, speed_parameter
 from ..bearings.journal import JournalBearing, fitted_bearing
 from ..bearings.oil import GRADES, Cooling, Oil
 from ..core.errors import InputError, PartialResultError
-from ..core.files import write_whole
+from ..core.files import write_atomically
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
@@ -441,7 +441,7 @@ def demo_rungs() -> tuple[StudyModel, ...]:
 def write_results(result: DemoResult, folder: Path) -> None:
     """Write `results.json`, and trajectories and comparisons as CSV in SI units."""
     text = json.dumps(plain_results(result), indent=2, allow_nan=False)
-    write_whole(folder / "results.json", f"{text}\n".encode())
+    write_atomically(folder / "results.json", f"{text}\n".encode())
     _write_csv(folder / "monolithic.csv", result.coupling.monolithic)
     _write_csv(folder / "coupled.csv", result.scene_run.trajectory)
     write_csv(folder / "stability.csv", result.stability.columns())

@@ -175,9 +175,9 @@ def film_models(scene: Scene) -> SceneModels:
 
 def tilting_models(scene: Scene) -> SceneModels:
     """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
-    from .pad_tables import settled_scene  # another family, whose tables no other scene needs
+    from .pad_tables import quasi_static_scene  # another family, whose tables no other scene needs
 
-    scene = settled_scene(scene)
+    scene = quasi_static_scene(scene)
     models = film_models(scene)
     bearing = scene.table("tilting_pad").build()
     rest = np.array([models.start["x"], models.start["y"]])

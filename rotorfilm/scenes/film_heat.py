@@ -34,14 +34,14 @@ from ..core.errors import RotorfilmError
 from ..core.model import Reaction
 from ..core.results import Coefficients, Equilibrium
 from ..core.units import CELSIUS
-from .film_rungs import RestedJournal, maximum_pressure
+from .film_rungs import JournalEquilibrium, maximum_pressure
 
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class WarmRest(RestedJournal):
+class WarmRest(JournalEquilibrium):
     """A journal at rest on a film that warms, by one of the rungs.
 
     Attributes

@@ -509,7 +509,7 @@ def growths(own: Array, other: Array) -> tuple[float, float]:
 # A journal at rest, of which quantities are functions.
 
 
-class RestedJournal:
+class JournalEquilibrium:
     """A journal at rest on a film, of which quantities are functions.
 
     It adds its equilibrium `at`, K and C, losses and temperatures.
@@ -534,7 +534,7 @@ class RestedJournal:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class FilmRest(RestedJournal):
+class FilmRest(JournalEquilibrium):
     """A journal at or near its equilibrium on a film that may answer, or on the richer one.
 
     Attributes
@@ -880,7 +880,7 @@ class Counted(InertialModel):
         return tangent
 
 
-class CountedWall(Counted):
+class WorkCountingWalledReaction(Counted):
     """The same of a reaction that says itself where its journal touches."""
 
     def minimum_film(self, position: ArrayLike) -> Array:
@@ -890,4 +890,4 @@ class CountedWall(Counted):
 
 def counted_calls(reaction: Reaction) -> Counted:
     """Return a reaction that counts its evaluations."""
-    return (CountedWall if isinstance(reaction, WalledReaction) else Counted)(reaction)
+    return (WorkCountingWalledReaction if isinstance(reaction, WalledReaction) else Counted)(reaction)

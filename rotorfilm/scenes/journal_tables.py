@@ -13,13 +13,13 @@ from ..bearings import journal
 from ..bearings.films.geometry import (
     Complementarity,
     FeedHole,
-    FreeStart,
+    FixedOnset,
+    FreeOnset,
     FullFilm,
     Groove,
     HalfSommerfeld,
-    HeldLine,
+    MaximumGapOnset,
     Pad,
-    WidestGap,
 )
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
@@ -59,7 +59,7 @@ RUPTURES: dict[str, Callable[[], Keyed]] = {
 CAVITATIONS = {"complementarity": Complementarity, "half_sommerfeld": HalfSommerfeld, "full": FullFilm}
 """What the two-dimensional film does in tension, by name."""
 
-STARTS = {"free": FreeStart, "widest_gap": WidestGap, "line": HeldLine}
+STARTS = {"free": FreeOnset, "widest_gap": MaximumGapOnset, "line": FixedOnset}
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
 

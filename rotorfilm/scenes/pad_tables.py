@@ -291,7 +291,7 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
     return bearing
 
 
-def settled_scene(scene: Scene) -> Scene:
+def quasi_static_scene(scene: Scene) -> Scene:
     """Return a scene whose films keep the temperature that they have with the journal at rest."""
     bearing: Any = scene.bearing
     if not bearing.is_warming:

@@ -326,7 +326,7 @@ class RaceOil(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RestingBalls:
+class BallEquilibriumCase:
     """A shaft at rest, or nearly so, in a bearing.
 
     Attributes
@@ -403,13 +403,13 @@ def with_law(bearing: Balls, law: StaticBalls | RunningBalls | RaceControl) -> B
     return with_single(bearing, law=law)
 
 
-def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
+def rest_at(bearing: Balls, position: Array, speed: float) -> BallEquilibriumCase:
     """Return what the balls of a shaft at a position (2,) [m] do, z and tilts as the bearing says."""
     x, y = position.tolist()
     tangent = bearing.prepare_tangent()
     *force, slopes = tangent(x, y, 0.0, 0.0, speed)
     displacement = np.array([x, y, bearing.axial_place(position, speed), *bearing.tilt])
-    return RestingBalls(
+    return BallEquilibriumCase(
         bearing=bearing,
         position=position,
         displacement=displacement,
@@ -421,7 +421,7 @@ def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
     )
 
 
-def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> RestingBalls:
+def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> BallEquilibriumCase:
     """Return the equilibrium under a load [N], sought from that of static balls, or without one the center.
 
     Raises
@@ -444,7 +444,9 @@ def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> Resti
     return found if left <= EXACT else rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
 
 
-def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> tuple[RestingBalls, float]:
+def moved_to(
+    bearing: Balls, near: BallEquilibriumCase, load: tuple[float, float]
+) -> tuple[BallEquilibriumCase, float]:
     """Return where a richer law takes a rest, by Newton steps, and what of the load is left [1].
 
     Without a load, what is left over the largest load of a contact.
@@ -457,13 +459,13 @@ def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> t
     return at, float(np.hypot(*(at.force + load)) / size) if size > 0.0 else math.inf
 
 
-def rest_near(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> RestingBalls:
+def rest_near(bearing: Balls, near: BallEquilibriumCase, load: tuple[float, float]) -> BallEquilibriumCase:
     """Return the equilibrium of another law, sought first from that of one near it."""
     at, left = moved_to(bearing, near, load)
     return at if left <= EXACT else rest_under(bearing, load, near.speed)
 
 
-def on_films(near: RestingBalls, oil: RaceOil) -> Balls:
+def on_films(near: BallEquilibriumCase, oil: RaceOil) -> Balls:
     """Return the bearing of a rest with the oil films of its most loaded ball in all contacts."""
     load = float(near.balls.inner_load.max())
     films = ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
@@ -509,12 +511,12 @@ REMARKS = (
 """What the physics of a ball bearing leaves out, by the numbers of `ball_numbers`."""
 
 
-def ball_numbers(rest: RestingBalls, oil: RaceOil | None, roughness: float | None) -> dict[str, float]:
+def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: float | None) -> dict[str, float]:
     """Return the numbers of a rest that decide on remarks.
 
     Parameters
     ----------
-    rest : RestingBalls
+    rest : BallEquilibriumCase
     oil : RaceOil or None
     roughness : float or None [m]
 
@@ -555,7 +557,7 @@ def ball_remarks(
         return said(REMARKS, ball_numbers(rest, oil, roughness))
 
 
-def _idle(rest: RestingBalls) -> Array:
+def _idle(rest: BallEquilibriumCase) -> Array:
     """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
     bearing = rest.bearing
     preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
@@ -565,7 +567,7 @@ def _idle(rest: RestingBalls) -> Array:
     return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
 
 
-def _neglected(bearing: Balls, rest: RestingBalls) -> float:
+def _neglected(bearing: Balls, rest: BallEquilibriumCase) -> float:
     """Return the centrifugal force that static balls do not have, over the largest contact load."""
     if not isinstance(single_of(bearing).law, StaticBalls):
         return 0.0

@@ -18,10 +18,10 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..rotors import (
+    BaseExcitedRotor,
     MotorDrivenRotor,
     RigidRotor,
     ShaftRotor,
-    ShakenBaseRotor,
     mount,
 )
 from .excitation_table import (
@@ -259,7 +259,7 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
     if isinstance(scene.excitation, MotorTable):
         return _on_motor(scene.excitation, parts, times)
     if isinstance(scene.excitation, GroundTable):
-        rotor = ShakenBaseRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
+        rotor = BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
     return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)

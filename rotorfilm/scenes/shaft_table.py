@@ -225,7 +225,7 @@ class BearingList(TableList):
             if isinstance(entry, Mapping) and "ball_bearing" in entry:
                 raise SceneError(
                     f"{where}[{k}].ball_bearing must be left out: a shaft in a scene takes no ball bearings; "
-                    "rotorfilm.TiltingBalls in Python does"
+                    "rotorfilm.MomentCarryingBalls in Python does"
                 )
         return super().__call__(where, value)
 

@@ -17,9 +17,9 @@ from ..bearings.contact import (
     ContactState,
     PointContact,
     RollingBall,
+    ball_transient,
     moes_parameters,
     reduce_contact,
-    ride,
 )
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, breakpoints
@@ -195,7 +195,9 @@ def _ridden(
     case: ContactCase, law: ContactLaw, load: Callable[[float], float], duration: float
 ) -> Trajectory:
     start = float(law.approach(1.0))
-    return ride(law, mass=case.W / HERTZ_LOAD, load=load, start=start, duration=duration, samples=1001)
+    return ball_transient(
+        law, mass=case.W / HERTZ_LOAD, load=load, start=start, duration=duration, samples=1001
+    )
 
 
 def answer_contact(scene: Scene, report: Report = silent) -> ContactAnswer:

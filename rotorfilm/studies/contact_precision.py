@@ -25,8 +25,8 @@ from ..bearings.contact import (
     SmallMotion,
     StaggeredScheme,
     UpwindScheme,
+    ball_transient,
     reduce_contact,
-    ride,
 )
 from ..core.errors import ValidityWarning
 from ..core.model import Array
@@ -129,7 +129,9 @@ def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterato
 
 def _ridden(law: ContactLaw, duration: float) -> Series:
     mass = INERTIA / HERTZ_LOAD
-    motion = ride(law, mass=mass, load=LOAD, start=law.operating, duration=duration, samples=401, rtol=1e-4)
+    motion = ball_transient(
+        law, mass=mass, load=LOAD, start=law.operating, duration=duration, samples=401, rtol=1e-4
+    )
     return motion.time, motion["z"]
 
 

@@ -19,7 +19,14 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.errors import FileWarning, InputError, require_count, warn_user
-from ..core.files import failures_named, read_sealed, sealed_line, unsealed_line, write_sealed, write_whole
+from ..core.files import (
+    failures_named,
+    read_sealed,
+    sealed_line,
+    unsealed_line,
+    write_atomically,
+    write_sealed,
+)
 from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.progress import Report, silent
@@ -280,7 +287,7 @@ class Store:
         if lost := len(whole[1:]) - len(kept):
             warn_user(f"{lost} damaged rows of {str(path)!r} are computed again", FileWarning)
         if (found := head + b"".join(kept)) != content:
-            write_whole(path, found)
+            write_atomically(path, found)
         self._file: IO[bytes] = path.open("ab")
 
     def _read(self, line: bytes) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.core.errors import InputError, RotorfilmError, ValidityWarning
+from rotorfilm import InputError, RotorfilmError, ValidityWarning
 
 FILM = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 4e-4}
 SEAL = {**FILM, "pressure_drop": 1e6, "density": 1000.0}
@@ -21,7 +21,7 @@ REACTIONS = [
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.TabulatedBearing(speeds=[0.0, 1e308], stiffness=1e6 * np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
     rf.RubRing(gap=2e-4, stiffness=1e7, radius=0.05, friction_coefficient=0.1),
-    rf.PalmgrenBalls(balls=8, ball_diameter=8e-3, damping=10.0),
+    rf.bearings.PalmgrenBalls(balls=8, ball_diameter=8e-3, damping=10.0),
 ]
 PLACE = np.array([1e-5, 2e-5])
 EXTREME = {

@@ -17,7 +17,6 @@ from rotorfilm import (
     InputError,
     JournalBearing,
     LinearBearing,
-    OwnReaction,
     PorousDamper,
     RigidRotor,
     ShortFilm,
@@ -36,6 +35,7 @@ from rotorfilm import (
     synchronous_orbits,
     whirl_threshold,
 )
+from rotorfilm.bearings import OwnReaction
 from rotorfilm.bearings.formulas import ORDER, differences
 from rotorfilm.bearings.reaction import Called
 

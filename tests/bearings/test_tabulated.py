@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import InputError, Reaction, TabulatedBearing
 from rotorfilm.analysis import coefficient_table, coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import TabulatedBearing
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Reaction
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 LOAD = [0.0, -525.0]

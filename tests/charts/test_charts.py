@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from rotorfilm import Trajectory
 from rotorfilm.charts import (
     new_axes,
     plot_contact_pressure,
@@ -12,7 +13,6 @@ from rotorfilm.charts import (
     plot_orbits,
     save,
 )
-from rotorfilm.core.results import Trajectory
 
 
 def orbit():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import Groove
+from rotorfilm import Groove, InputError
 from rotorfilm.bearings.journal import (
     BushRing,
     HeatedFilm,
@@ -19,7 +19,6 @@ from rotorfilm.charts import (
     plot_temperature_across,
     plot_temperature_field,
 )
-from rotorfilm.core.errors import InputError
 from rotorfilm.studies import HEAT_CASES, HeatModel, StudyResult, StudyRung
 
 

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from rotorfilm import InputError
 from rotorfilm.charts import write_page
 from rotorfilm.charts.ladder_charts import STYLES
 from rotorfilm.charts.page import EXPLAINED
 from rotorfilm.cli import chart_commands
-from rotorfilm.core.errors import InputError
 
 BROWSER = next(
     (name for name in ("chromium", "chromium-browser", "google-chrome") if shutil.which(name)), None

@@ -6,8 +6,8 @@ import control
 import numpy as np
 import pytest
 
+from rotorfilm import InputError, LinearBearing
 from rotorfilm.analysis import Campbell, CriticalSpeed, rotor_modes
-from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.charts import (
     plot_campbell,
     plot_critical_speed_map,
@@ -16,7 +16,6 @@ from rotorfilm.charts import (
     plot_unbalance_response,
     save,
 )
-from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import ElasticMaterial, ShaftElement, ShaftRotor, Station
 
 SPEEDS = np.array([100.0, 200.0, 300.0]) * np.pi / 30.0

@@ -6,10 +6,10 @@ import tomllib
 import pytest
 
 from rotorfilm import PorousDamper, RigidRotor, Sprung, synchronous_orbits
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.families import FAMILIES, table_of
 from rotorfilm.scenes.new_scene import new_scene
 from rotorfilm.scenes.reading import keyed, twice_of
-from rotorfilm.scenes.scene import parse_scene
 
 
 @pytest.mark.parametrize("name", FAMILIES)

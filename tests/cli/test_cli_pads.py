@@ -6,7 +6,7 @@ from functools import partial
 from importlib import import_module
 
 import rotorfilm.studies as ladders
-from rotorfilm import PadGridFilm
+from rotorfilm.bearings import PadGridFilm
 from rotorfilm.studies.pad_accuracy import compared_bearings
 
 

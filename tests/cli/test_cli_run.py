@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm import ContactGrid, RollingBall, StepLoad
-from rotorfilm.scenes import Scene
+from rotorfilm import ContactGrid, RollingBall
+from rotorfilm.bearings import StepLoad
+from rotorfilm.scenes import Scene, run_damper
 from rotorfilm.scenes.new_scene import new_scene
-from rotorfilm.scenes.solve_damper import run_damper
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SCENE = (EXAMPLES / "blade_loss.toml").read_text(encoding="utf-8")

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.cli.sweep_command import read_variation
-from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import Scene
 
 xarray = pytest.importorskip("xarray")

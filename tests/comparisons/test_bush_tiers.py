@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from rotorfilm.bearings.bush.melting import approximate_flux, exact_flux
+from rotorfilm.bearings import approximate_flux, exact_flux
 from rotorfilm.charts import plot_study
 from rotorfilm.cli import main as cli
 from rotorfilm.studies import bush_tiers

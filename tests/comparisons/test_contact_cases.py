@@ -7,9 +7,8 @@ import pytest
 from studies import contact_cases as cases, contact_limits as limits
 from studies.contact_cases import Claim, Statement, amplitude, overshoot, statements, unrest, wave_speed
 
-from rotorfilm import ContactGrid, FixedSteps, PointContact, SineLoad
-from rotorfilm.bearings.contact.contact_steps import ContactRun
-from rotorfilm.bearings.contact.point_contact import perturbed
+from rotorfilm import ContactGrid, PointContact
+from rotorfilm.bearings import ContactRun, FixedSteps, SineLoad, perturbed
 from rotorfilm.charts import plot_study, save
 from rotorfilm.studies import contact_precision, decay_time
 

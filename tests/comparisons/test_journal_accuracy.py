@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FullFilm, Groove, HalfSommerfeld
+from rotorfilm import FullFilm, Groove, InputError
+from rotorfilm.bearings import HalfSommerfeld
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
@@ -21,8 +22,7 @@ from rotorfilm.bearings.journal import (
     middle_pressure,
     tension,
 )
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.results import to_plain, write_csv
+from rotorfilm.core import to_plain, write_csv
 from rotorfilm.studies import (
     LARGE,
     SMALL,
@@ -32,9 +32,10 @@ from rotorfilm.studies import (
     journal_rungs,
     pareto_front,
     random_states,
+    reference_force,
     relative_error,
 )
-from rotorfilm.studies.journal_accuracy import SPEED, reference_force, squeeze_share
+from rotorfilm.studies.journal_accuracy import SPEED, squeeze_share
 
 CELLS = (384, 16)
 WANTED = (

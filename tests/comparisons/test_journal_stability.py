@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from rotorfilm import InputError
 from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsFilm, RotatingArc, SplittingFilm
 from rotorfilm.bearings.journal.splitting_film import second_approximation
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.results import write_csv
+from rotorfilm.core import write_csv
 from rotorfilm.studies import StudyModel, journal_rungs, journal_stability
 from rotorfilm.studies.journal_stability import (
     AT_REST,

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.core.errors import InputError
 from rotorfilm.studies import failures, limits_atlas
 from rotorfilm.studies.journal_accuracy import SPEED
 

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from rotorfilm import (
+    InputError,
     JournalBearing,
     Pad,
-    PadGridFilm,
     ReynoldsFilm,
     coefficients,
     equilibrium,
     whirl_threshold,
 )
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.results import write_csv
+from rotorfilm.bearings import PadGridFilm
+from rotorfilm.core import write_csv
 from rotorfilm.studies import (
     WHIRL_OUTCOMES,
     StudyModel,

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from studies.master_cases import BEARING, RAMP, ROTOR, rotor_at
 
-from rotorfilm.core.errors import FilmContactError, PartialResultError
-from rotorfilm.core.model import static_linearization
-from rotorfilm.core.signals import force_outputs, journal_inputs
+from rotorfilm import FilmContactError, PartialResultError
+from rotorfilm.core import force_outputs, journal_inputs, static_linearization
 from rotorfilm.cosim import cosim_run, cosimulate
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import LawRotor, RigidRotor

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.analysis import simulate
-from rotorfilm.core.errors import InputError
 from rotorfilm.cosim import Auto, GaussSeidel, Newton, SIExp3, cosimulate
 from rotorfilm.fmu import export_fmu
 from rotorfilm.studies.coupling_cost import cost_case, limit_case, nudged

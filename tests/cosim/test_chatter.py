@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.core.errors import CouplingError, InputError
+from rotorfilm import CouplingError, InputError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple, critical_macro_step, inspect_coupling
 from rotorfilm.cosim.partners import Partners
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from studies.master_cases import BEARING, CLEARANCE, EXPLICIT, IMPLICIT, RAMP, ROTOR, SPEED, STEP, rotor_at
 
-from rotorfilm.bearings.assemblies import Sprung
+from rotorfilm import Sprung
 from rotorfilm.bearings.damper import MapSqueeze, PorousCage, PorousDamper
 from rotorfilm.cosim import cosimulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, mount

@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from studies.master_cases import BEARING, CLEARANCE, ROTOR, STEP, PythonGaussSeidel, rotor_at
 
-from rotorfilm.core.errors import CouplingError, FmuError, ValidityWarning
+from rotorfilm import CouplingError, FmuError, ValidityWarning
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, SIExp3, cosimulate, couple
 from rotorfilm.cosim.compiled_loop import MOST_CHUNK
 from rotorfilm.cosim.slaves import Call

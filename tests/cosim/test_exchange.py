@@ -5,11 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from rotorfilm import JournalBearing
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu import export_fmu, extracted, instantiated
 from rotorfilm.rotors import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import ContactError, CouplingError, FilmContactError, FmuError, InputError, JournalBearing
 from rotorfilm.analysis import equilibrium, simulate
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import ContactError, CouplingError, FilmContactError, FmuError, InputError
 from rotorfilm.cosim import InProcessSlave, cosimulate, couple, critical_macro_step, open_fmu
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor, SpeedProfile

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import InputError, JournalBearing, PartialResultError
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import InputError, PartialResultError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Newton, SIExp3, cosimulate, couple
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import JeffcottRotor, LawRotor, RigidRotor, RigidShaft, SpeedProfile, SteadyRotor

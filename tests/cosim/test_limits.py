@@ -7,10 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.assemblies import Sprung
+from rotorfilm import FullFilm, PartialResultError, Sprung
 from rotorfilm.bearings.damper import PorousDamper
-from rotorfilm.bearings.films.geometry import FullFilm
-from rotorfilm.core.errors import PartialResultError
 from rotorfilm.cosim import (
     GaussSeidel,
     InProcessSlave,

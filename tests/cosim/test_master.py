@@ -4,16 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import ContactError, CouplingError, FilmContactError, FmuError, InputError, JournalBearing
 from rotorfilm.analysis import simulate
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import (
-    ContactError,
-    CouplingError,
-    FilmContactError,
-    FmuError,
-    FmuRunError,
-    InputError,
-)
+from rotorfilm.core import FmuRunError
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 

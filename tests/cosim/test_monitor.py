@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from studies.coupling_cases import coupling_cases
 
-from rotorfilm.core.errors import CouplingError, CouplingWarning, PartialResultError
+from rotorfilm import CouplingError, PartialResultError
+from rotorfilm.core import CouplingWarning
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Jacobi, SIExp3, cosimulate, couple
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.studies.coupling_cost import limit_case

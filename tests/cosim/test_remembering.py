@@ -5,19 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
-from rotorfilm import (
-    Groove,
-    JFOFilm,
-    JournalBearing,
-    RigidRotor,
-    SIExp,
-    SIExp3,
-    SIMemory,
-    cosimulate,
-    simulate,
-)
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.signals import force_outputs, journal_inputs
+from rotorfilm import Groove, InputError, JFOFilm, JournalBearing, RigidRotor, SIExp3, cosimulate, simulate
+from rotorfilm.core import force_outputs, journal_inputs
+from rotorfilm.cosim import SIExp, SIMemory
 from rotorfilm.cosim.slaves import SteppedPartner
 
 m, k, tau, damping, omega = 3.0, 50.0, 0.6, 4.0, 1.0

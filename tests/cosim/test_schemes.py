@@ -7,10 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
+from rotorfilm import ConvergenceError, InputError, JournalBearing
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import ConvergenceError, InputError
 from rotorfilm.cosim import (
     Adaptive,
     GaussSeidel,

@@ -5,9 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
+from rotorfilm import FilmContactError, InputError, JournalBearing, PartialResultError
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FilmContactError, InputError, PartialResultError
 from rotorfilm.cosim import InProcessSlave, couple, coupling_stability, critical_macro_step
 from rotorfilm.rotors import RigidRotor
 

@@ -14,7 +14,7 @@ from fmpy.fmi2 import (
 )
 
 from rotorfilm import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu import extracted, instantiated
 
 from .journals import FORCES, INPUTS
 

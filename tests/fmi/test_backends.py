@@ -10,12 +10,9 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
+from rotorfilm import FmuError, JournalBearing
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
-from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
-from rotorfilm.fmu.reference import from_state_space
+from rotorfilm.fmu import export_fmu, extracted, from_state_space, instantiated
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

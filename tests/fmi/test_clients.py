@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
+from rotorfilm import JournalBearing, ValidityWarning
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.journal import JFOFilm, MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.core.errors import ValidityWarning
 from rotorfilm.cosim import Jacobi, critical_macro_step
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor, mount

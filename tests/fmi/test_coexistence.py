@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotorfilm import JournalBearing
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)

@@ -10,8 +10,17 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
-from rotorfilm import DamperSupply, FeedHole, FmuError, Groove, JFODamper, JFOFilm, JournalBearing, export_fmu
-from rotorfilm.core.errors import FilmContactError
+from rotorfilm import (
+    DamperSupply,
+    FeedHole,
+    FilmContactError,
+    FmuError,
+    Groove,
+    JFODamper,
+    JFOFilm,
+    JournalBearing,
+    export_fmu,
+)
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import check_fmu
 

@@ -9,9 +9,12 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from rotorfilm import (
+    ContactError,
     FiniteMapSqueeze,
+    FmuError,
+    FullFilm,
+    InputError,
     JournalBearing,
-    MapSqueeze,
     PorousCage,
     PorousDamper,
     RadialFeed,
@@ -21,8 +24,7 @@ from rotorfilm import (
     export_fmu,
     simulate,
 )
-from rotorfilm.bearings.films.geometry import FullFilm
-from rotorfilm.core.errors import ContactError, FmuError, InputError
+from rotorfilm.bearings import MapSqueeze
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 

@@ -10,9 +10,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from lxml import etree
 
+from rotorfilm import FmuError, InputError, JournalBearing
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError, InputError
 from rotorfilm.fmu import check_fmu, export_fmu
 from rotorfilm.fmu.description import terminals
 from rotorfilm.rotors import RigidRotor

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import BallBearing, FiveDegreeBalls, Waviness, back_to_back, export_fmu
+from rotorfilm import BallBearing, FiveDegreeBalls, back_to_back, export_fmu
+from rotorfilm.bearings import Waviness
 from rotorfilm.bearings.rolling.ball_cage import INPUTS, OUTPUTS
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native.library import FOLDER

@@ -12,11 +12,9 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm import Groove, JournalBearing, Pad
 from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu import check_fmu, export_fmu, extracted, instantiated
 
 DIMENSIONS = {"radius": 0.05, "clearance": 1e-4, "viscosity": 0.03}
 COARSE = GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12), largest_eccentricity_ratio=0.9)

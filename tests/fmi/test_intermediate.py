@@ -7,9 +7,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted
+from rotorfilm import JournalBearing
+from rotorfilm.fmu import export_fmu, extracted
 from rotorfilm.rotors import RigidRotor, mount
 
 MASS, SPEED, UNBALANCE = 50.0, 157.0, 8e-4

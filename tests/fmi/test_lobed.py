@@ -5,17 +5,8 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import (
-    Lobe,
-    LobedBearing,
-    PadMapFilm,
-    RigidRotor,
-    export_fmu,
-    lobe_set,
-    mount,
-    simulate,
-)
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm import Lobe, LobedBearing, RigidRotor, export_fmu, lobe_set, mount, simulate
+from rotorfilm.bearings import PadMapFilm, PadResolution
 from rotorfilm.fmu import check_fmu
 
 from .journals import FORCES, INPUTS, motions

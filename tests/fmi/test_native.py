@@ -18,12 +18,10 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 from scipy.linalg import expm
 
+from rotorfilm import FmuError, JournalBearing
 from rotorfilm.analysis import equilibrium, linearize
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
-from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu import check_fmu, export_fmu, extracted, instantiated
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

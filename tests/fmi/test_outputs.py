@@ -6,11 +6,9 @@ import fmpy
 import numpy as np
 import pytest
 
+from rotorfilm import JournalBearing, RigidRotor, SpeedProfile
 from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, SplittingFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
-from rotorfilm.rotors.profile import SpeedProfile
-from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 FILMS = {

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm import JournalBearing, RigidRotor
 from rotorfilm.fmu import export_fmu
-from rotorfilm.rotors.rigid import RigidRotor
 
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 FORCE = {"rotor.force_x": 1.0 / 3.0, "rotor.force_y": -np.pi}

@@ -6,7 +6,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
-from rotorfilm import ContactGrid, FmuError, InputError, MovingContact, PointContact, export_fmu
+from rotorfilm import ContactGrid, FmuError, InputError, PointContact, export_fmu
+from rotorfilm.bearings import MovingContact
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import check_fmu
 

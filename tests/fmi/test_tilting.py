@@ -11,8 +11,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from scipy.integrate import solve_ivp
 
-from rotorfilm import PadMapFilm, TiltingPadBearing, even_pivots, export_fmu
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm import TiltingPadBearing, even_pivots, export_fmu
+from rotorfilm.bearings import PadMapFilm, PadResolution
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native.library import FOLDER
 

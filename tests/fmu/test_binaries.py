@@ -6,8 +6,8 @@ from importlib.resources import files
 
 import pytest
 
-from rotorfilm.core.errors import FmuError
-from rotorfilm.fmu.native.platforms import require_whole, universal
+from rotorfilm import FmuError
+from rotorfilm.fmu.native.platforms import require_complete_file, universal
 
 SHIPPED = files("pythonfmu").joinpath("resources", "binaries")
 
@@ -46,30 +46,30 @@ def written(tmp_path):
 @pytest.mark.parametrize("kind", CASES)
 def test_a_whole_library_passes_and_each_shorter_one_is_refused(kind, written):
     content = CASES[kind]()
-    require_whole(written(content))
-    require_whole(written(content + b"behind the end"))
+    require_complete_file(written(content))
+    require_complete_file(written(content + b"behind the end"))
     for length in {*range(4, min(len(content), 400)), *(len(content) * k // 20 for k in range(1, 20))}:
         with pytest.raises(FmuError, match=r"binaries/platform/a\.so must be whole, got \d+"):
-            require_whole(written(content[:length]))
+            require_complete_file(written(content[:length]))
     with pytest.raises(FmuError, match=rf"got {len(content) - 1} of {len(content)} bytes"):
-        require_whole(written(content[:-1]))
+        require_complete_file(written(content[:-1]))
 
 
 def test_the_interpreter_is_whole(written):
     if sys.platform != "linux":
         pytest.skip("an ELF program is needed")
     with open(sys.executable, "rb") as program:
-        require_whole(written(program.read()))
+        require_complete_file(written(program.read()))
 
 
 def test_a_universal_file_within_a_universal_file_is_refused(written):
     content = bytearray(universal([macho(True), macho(True, 12)]))
     struct.pack_into(">II", content, 16, 0, len(content))
     with pytest.raises(FmuError, match="must be an ELF, PE or Mach-O file"):
-        require_whole(written(content))
+        require_complete_file(written(content))
 
 
 @pytest.mark.parametrize("content", [b"", b"#!/bin/sh\n", b"MZ" + bytes(200), b"\x7fEL"])
 def test_what_is_no_library_is_refused(content, written):
     with pytest.raises(FmuError, match="must be an ELF, PE or Mach-O file, got one that starts with"):
-        require_whole(written(content))
+        require_complete_file(written(content))

@@ -12,13 +12,11 @@ from zipfile import ZIP_DEFLATED, ZipFile
 import fmpy
 import pytest
 
+from rotorfilm import FmuError, JournalBearing, RigidRotor
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import check_fmu, describe_fmu, export_fmu
 from rotorfilm.fmu.archive import read_description
-from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 STATE = {"x": 3e-5, "y": -4e-5, "speed": 157.0}

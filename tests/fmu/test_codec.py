@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from rotorfilm import FmuError, JournalBearing, RigidRotor
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
-from rotorfilm.rotors.rigid import RigidRotor
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,11 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
+from rotorfilm import FmuError, InputError, JournalBearing, RigidRotor
 from rotorfilm.bearings.journal import MapFilm, RotatingArc, ShortFilm, SplittingFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.core.errors import FmuError, InputError
-from rotorfilm.core.units import UNITS
+from rotorfilm.core import UNITS
 from rotorfilm.fmu import archive, export_fmu
-from rotorfilm.rotors.rigid import RigidRotor
 
 SPLITTING = SplittingFilm(order=(2, 1), rupture=RotatingArc())
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=SPLITTING)

@@ -9,9 +9,18 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853, solve_ivp
 
-from rotorfilm import Cooling, Groove, JournalBearing, Oil, RigidRotor, ShortFilm, export_fmu, simulate
+from rotorfilm import (
+    Cooling,
+    Groove,
+    JournalBearing,
+    Oil,
+    RigidRotor,
+    ShortFilm,
+    ValidityWarning,
+    export_fmu,
+    simulate,
+)
 from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
-from rotorfilm.core.errors import ValidityWarning
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native.library import FOLDER
 

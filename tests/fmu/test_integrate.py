@@ -5,11 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rotorfilm.core.errors import ConvergenceError, FilmContactError
-from rotorfilm.core.model import Linearization
-from rotorfilm.core.signals import Signal
-from rotorfilm.fmu.reference import advance
-from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm import ConvergenceError, FilmContactError, Linearization, RigidRotor
+from rotorfilm.core import Signal
+from rotorfilm.fmu import advance
 
 STATE = (Signal(name="z", unit="m", nominal=1.0, description=""),)
 

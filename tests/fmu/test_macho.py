@@ -4,7 +4,7 @@ import struct
 
 import pytest
 
-from rotorfilm.core.errors import FmuError
+from rotorfilm import FmuError
 from rotorfilm.fmu.native.platforms import universal
 
 X86_64, ARM64 = 0x01000007, 0x0100000C

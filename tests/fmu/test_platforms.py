@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from rotorfilm.core.errors import FmuError
+from rotorfilm import FmuError
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.native import platforms
 from rotorfilm.rotors import RigidRotor

@@ -4,10 +4,10 @@ import control
 import numpy as np
 import pytest
 
+from rotorfilm import FmuError, JournalBearing
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
-from rotorfilm.fmu.reference import from_state_space, reference_table, to_csv
+from rotorfilm.fmu import from_state_space
+from rotorfilm.fmu.reference import reference_table, to_csv
 from rotorfilm.rotors import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())

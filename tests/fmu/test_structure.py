@@ -4,13 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotorfilm import JournalBearing, RigidRotor, UndefinedDerivativeError
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import UndefinedDerivativeError
-from rotorfilm.core.model import static_linearization
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal, static_linearization
 from rotorfilm.fmu.description import dependencies
-from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 

@@ -13,10 +13,9 @@ from fmpy.ssp import ssd
 from fmpy.ssp.simulation import simulate_ssp
 from scipy.integrate import solve_ivp
 
+from rotorfilm import InputError, JournalBearing
 from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import InputError
 from rotorfilm.fmu import export_ssp
 from rotorfilm.rotors import LawRotor, RigidRotor
 

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from rotorfilm.core.errors import FmuError
+from rotorfilm import FmuError
 from rotorfilm.fmu.python.python_backend import bundle_source
 
 HEADER = "from dataclasses import dataclass\n"

@@ -5,12 +5,10 @@ from operator import attrgetter
 
 import pytest
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import FmuError
-from rotorfilm.core.signals import Signal, from_fmi_name, names
+from rotorfilm import FmuError, JournalBearing, RigidRotor
+from rotorfilm.core import Signal, from_fmi_name, names
 from rotorfilm.fmu import fmi_variables
 from rotorfilm.fmu.description import labelled, structured_name, value_attributes
-from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(mass=50.0, speed=157.0, position=(1e-5, -2e-5), velocity=(3e-4, 4e-4))

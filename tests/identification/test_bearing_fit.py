@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm import Groove, InputError
 from rotorfilm.analysis import coefficients, equilibrium
-from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.core.errors import InputError
 from rotorfilm.identification import Measurements, fit_bearing
 from rotorfilm.identification.bearing_fit import rest_slopes
 

@@ -1,10 +1,9 @@
 """One object of every public class that takes a quantity with a unit."""
 
 import dataclasses
+from importlib import import_module
 
 import numpy as np
-
-from importlib import import_module
 
 import rotorfilm as rf
 from rotorfilm.core import published
@@ -14,7 +13,7 @@ PUBLIC = {name: getattr(import_module(package), name) for name, package in publi
 
 BEARING = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 SHORT_GROOVE = rf.Groove(center=1.0, width=0.2, length=0.01)
-BUSH = rf.f4k20_bush()
+BUSH = rf.bearings.f4k20_bush()
 STEEL = rf.ElasticMaterial(young_modulus=2.06e11, shear_modulus=8e10, density=7850.0)
 PIECE = rf.ShaftElement(
     length=0.2,
@@ -95,19 +94,22 @@ MADE = [
     ),
     SHORT_GROOVE,
     rf.FeedHole(center=1.0, diameter=0.004),
-    rf.HeldLine(line=0.5),
+    rf.bearings.FixedOnset(line=0.5),
     rf.Pad(start=1.0, extent=0.5),
-    rf.FixedArc(start=0.1, extent=3.0),
-    rf.ReynoldsArc(start=0.1),
-    rf.SlitArc(slit=0.1, extent=3.0),
+    rf.bearings.FixedArc(start=0.1, extent=3.0),
+    rf.bearings.ReynoldsArc(start=0.1),
+    rf.bearings.SlitArc(slit=0.1, extent=3.0),
     rf.Measurements(speed=[100.0, 200.0], load=[0.0, -500.0], values={"x": [4e-5, 5e-5]}),
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),
     rf.TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
     rf.EndSeal(leakage=1e-10, uncertainty=0.3),
-    rf.FilmSegment(length=0.02, clearance=1e-4),
-    rf.SegmentedDamper(
-        radius=0.05, segments=(rf.FilmSegment(length=0.02, clearance=1e-4),), viscosity=4e-4, density=850.0
+    rf.bearings.FilmSegment(length=0.02, clearance=1e-4),
+    rf.bearings.SegmentedDamper(
+        radius=0.05,
+        segments=(rf.bearings.FilmSegment(length=0.02, clearance=1e-4),),
+        viscosity=4e-4,
+        density=850.0,
     ),
     rf.SqueezeFilmDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=4e-4, density=850.0),
     rf.PorousDamper(
@@ -126,15 +128,15 @@ MADE = [
         dissipation=0.2,
         ring_center=(1e-5, 2e-5),
     ),
-    rf.GaschHinge(edge=0.2),
-    rf.JeffcottCrack(reduction=0.1, cross_reduction=0.02, crack_angle=0.3),
-    rf.ShaftCrack(element=0, depth=1e-3, crack_angle=0.3),
+    rf.rotors.GaschHinge(edge=0.2),
+    rf.rotors.JeffcottCrack(reduction=0.1, cross_reduction=0.02, crack_angle=0.3),
+    rf.rotors.ShaftCrack(element=0, depth=1e-3, crack_angle=0.3),
     rf.CrackedRotor(
         rotor=rf.JeffcottRotor(mass=5.0, journal_mass=1.0, stiffness=1e6, speed=100.0),
-        crack=rf.JeffcottCrack(reduction=0.1),
+        crack=rf.rotors.JeffcottCrack(reduction=0.1),
         opening_angle=0.3,
     ),
-    rf.HirsFriction(coefficient=0.079, exponent=-0.25),
+    rf.bearings.HirsFriction(coefficient=0.079, exponent=-0.25),
     rf.AnnularSeal(
         radius=0.05,
         length=0.02,
@@ -146,7 +148,7 @@ MADE = [
     ),
     rf.PorousCage(thickness=2.5e-3, permeability=4e-13, anisotropy=2.0, vented=True, supply_pressure=1e5),
     rf.RadialFeed(inflow=1e-4),
-    rf.AxialFeed(start_pressure=1e5, end_pressure=2e5),
+    rf.bearings.AxialFeed(start_pressure=1e5, end_pressure=2e5),
     BALL,
     BUSH,
     BUSH.geometry,
@@ -162,35 +164,35 @@ MADE = [
         mass=10.0, diametral_inertia=0.2, polar_inertia=0.1, stations=(("a", -0.1), ("b", 0.1)), speed=9.0
     ),
     rf.SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0)),
-    rf.LinearMotor(stall_torque=2.0, idle_speed=300.0, resistance=1e-3),
+    rf.rotors.LinearMotor(stall_torque=2.0, idle_speed=300.0, resistance=1e-3),
     rf.MotorDrivenRotor(
         rotor=rf.RigidRotor(mass=10.0, speed=100.0),
         inertia=0.1,
-        torque=rf.LinearMotor(stall_torque=2.0, idle_speed=300.0),
+        torque=rf.rotors.LinearMotor(stall_torque=2.0, idle_speed=300.0),
     ),
     rf.BaseMotion(times=(0.0, 1.0), acceleration_x=(1.0, -1.0), acceleration_y=(0.5, 2.0)),
-    rf.ShakenBaseRotor(rotor=rf.RigidRotor(mass=10.0, speed=100.0), base=rf.BaseMotion(times=(0.0, 1.0))),
+    rf.BaseExcitedRotor(rotor=rf.RigidRotor(mass=10.0, speed=100.0), base=rf.BaseMotion(times=(0.0, 1.0))),
     STEEL,
     PIECE,
     rf.Coupling(stiffness=1e6, tilt_stiffness=1e3),
     rf.Disk(node=0, mass=1.0, diametral_inertia=0.01, polar_inertia=0.02),
-    rf.Support(mass=5.0, stiffness=1e7, damping=10.0),
-    rf.TiltSpring(node=0, stiffness=1e4, damping=10.0),
+    rf.rotors.Support(mass=5.0, stiffness=1e7, damping=10.0),
+    rf.rotors.TiltSpring(node=0, stiffness=1e4, damping=10.0),
     rf.Unbalance(node=0, unbalance=1e-4, unbalance_angle=0.5),
     SHAFT,
-    rf.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
-    rf.ModallyDampedRotor(
+    rf.rotors.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
+    rf.rotors.ModallyDampedRotor(
         rotor=SHAFT, damping_ratios=(0.01,), speed=100.0, gravity=SHAFT.gravity, bearing_stiffness=1e7
     ),
-    rf.Impeller(power=2e5, diameter=0.4, width=0.012, suction_density=5.0, discharge_density=8.0),
-    rf.AxialStage(power=5e5, diameter=0.6, height=0.08),
-    rf.ThrustBearing(node=0, stiffness=1e8, damping=1e4),
-    rf.TwistSpring(node=0, stiffness=1e5, damping=10.0),
+    rf.analysis.Impeller(power=2e5, diameter=0.4, width=0.012, suction_density=5.0, discharge_density=8.0),
+    rf.analysis.AxialStage(power=5e5, diameter=0.6, height=0.08),
+    rf.analysis.ThrustBearing(node=0, stiffness=1e8, damping=1e4),
+    rf.analysis.TorsionalSpring(node=0, stiffness=1e5, damping=10.0),
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
     rf.RollingMaterial.steel(),
-    rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
-    rf.RaceFilm(
-        touch=rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
+    rf.bearings.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
+    rf.bearings.RaceFilm(
+        touch=rf.bearings.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
         load=100.0,
         rolling_speed=5.0,
         viscosity=0.02,
@@ -199,11 +201,11 @@ MADE = [
     DEEP_GROOVE,
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
-    rf.TiltingBalls(bearing=ANGULAR_CONTACT),
-    rf.TurningBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
+    rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT),
+    rf.VariableComplianceBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
     rf.FiveDegreeBalls(bearing=ANGULAR_CONTACT),
-    rf.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),
-    rf.Waviness(inner=True, lobes=9, radial_amplitude=1e-7, axial_amplitude=2e-8, phase=0.3),
+    rf.bearings.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),
+    rf.bearings.Waviness(inner=True, lobes=9, radial_amplitude=1e-7, axial_amplitude=2e-8, phase=0.3),
     rf.BearingPair(
         bearing=ANGULAR_CONTACT,
         distance=0.02,
@@ -216,7 +218,7 @@ MADE = [
     ),
     rf.Oil.iso_vg(46),
     rf.Cooling(supply_temperature=310.0, housing_conductance=3.0),
-    rf.BushRing(outer_radius=0.1),
-    rf.HeldWalls(bush_temperature=310.0, journal_temperature=320.0),
+    rf.bearings.BushRing(outer_radius=0.1),
+    rf.bearings.HeldWalls(bush_temperature=310.0, journal_temperature=320.0),
 ]
 """Of every public class that takes a quantity with a unit, one with all of them where that is possible."""

@@ -5,8 +5,9 @@ import inspect
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.inputs import is_object, kinds_of, units_of
+from rotorfilm import InputError
+from rotorfilm.core import units_of
+from rotorfilm.core.inputs import is_object, kinds_of
 
 from .public_objects import PUBLIC
 

@@ -8,10 +8,9 @@ import warnings
 import numpy as np
 import pytest
 
-import rotorfilm as rf
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
+from rotorfilm.core import Readable
 from rotorfilm.core.inputs import kinds_of
-from rotorfilm.core.readable import Readable
 
 from .public_objects import MADE, PUBLIC
 

@@ -5,10 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.bearings.journal.reynolds_film import ShortFilm
-from rotorfilm.core.model import static_linearization
-from rotorfilm.core.signals import force_outputs, journal_inputs
+from rotorfilm import JournalBearing, ShortFilm
+from rotorfilm.core import force_outputs, journal_inputs, static_linearization
 
 
 @dataclass(frozen=True)

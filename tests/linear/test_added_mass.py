@@ -9,7 +9,7 @@ from scipy.linalg import eig
 from scipy.optimize import brentq
 
 import rotorfilm as rf
-from rotorfilm.analysis.rotor_matrices import WholeRotor, second_order
+from rotorfilm.analysis.rotor_matrices import FullRotorModel, second_order
 
 SPEED = 300.0
 SEAL = rf.AnnularSeal(
@@ -66,7 +66,7 @@ def dense(rotor, bearings, speed):
         own = np.ix_(*[[2 * station.node, 2 * station.node + half]] * 2)
         damping[own] += found.damping
         stiffness[own] += found.stiffness
-        if isinstance(found, rf.InertialCoefficients):
+        if isinstance(found, rf.bearings.InertialCoefficients):
             mass[own] += found.mass
     return mass, damping, stiffness
 
@@ -223,7 +223,7 @@ def test_what_errors_are_estimated_from_has_the_mass():
     """L(s) x, its adjoint and L'(s) x of the whole rotor beside dense ones; one motion, two masses."""
     rotor, bearings, s = pump(), held(), -30.0 + 470.0j
     at = rf.rotor_equilibrium(rotor, bearings, SPEED)
-    whole, (M, C, K) = WholeRotor(rotor.assembly, at, SPEED), dense(rotor, bearings, SPEED)
+    whole, (M, C, K) = FullRotorModel(rotor.assembly, at, SPEED), dense(rotor, bearings, SPEED)
     x = np.random.default_rng(2).normal(size=(len(M), 2)) + 0.3j
     L = s**2 * M + s * C + K
     for found, wanted in (

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from scipy.linalg import expm
 
 from rotorfilm import (
+    BaseExcitedRotor,
     BaseMotion,
     Disk,
     ElasticMaterial,
@@ -18,20 +19,18 @@ from rotorfilm import (
     JeffcottRotor,
     JournalBearing,
     LinearBearing,
-    ReducedRotor,
     RigidRotor,
     RigidShaft,
     ShaftElement,
     ShaftRotor,
-    ShakenBaseRotor,
     Station,
-    Support,
     base_response,
     base_system,
     mount,
     rotor_equilibrium,
     simulate,
 )
+from rotorfilm.rotors import ReducedRotor, Support
 
 MASS, STIFFNESS, DAMPING = 10.0, 1e5, 200.0
 SPRINGS = LinearBearing(stiffness=STIFFNESS, damping=DAMPING)
@@ -95,12 +94,12 @@ def test_constant_acceleration_is_gravity():
     for rotor in (rigid, whole, BODY):
         leant, n = replace(rotor, gravity=(3.0, -9.80665 - 2.0)), len(rotor.initial_state)
         x, u = 1e-5 * np.cos(np.arange(float(n))), np.zeros(len(rotor.inputs))
-        shaken = ShakenBaseRotor(rotor=rotor, base=ground).derivative(0.5, x, u)
+        shaken = BaseExcitedRotor(rotor=rotor, base=ground).derivative(0.5, x, u)
         np.testing.assert_allclose(shaken, leant.derivative(0.5, x, u), rtol=1e-9, atol=1e-9)
     times = np.linspace(0.0, 0.02, 6)
     runs = [
         simulate(one, film, duration=0.02, times=times, rtol=1e-6)
-        for one in (ShakenBaseRotor(rotor=rigid, base=ground), replace(rigid, gravity=(3.0, -11.80665)))
+        for one in (BaseExcitedRotor(rotor=rigid, base=ground), replace(rigid, gravity=(3.0, -11.80665)))
     ]
     np.testing.assert_allclose(runs[0].position, runs[1].position, atol=2e-5 * 1e-4)
 
@@ -109,7 +108,7 @@ def test_constant_acceleration_is_gravity():
 def test_chords_of_an_earthquake_are_answered_as_by_the_matrix_exponential():
     rotor = JeffcottRotor(mass=10.0, journal_mass=1.0, stiffness=1e6, speed=50.0, gravity=(0.0, 0.0))
     times, record = (0.0, 0.02, 0.03, 0.06), (0.0, 4.0, -3.0, 1.0)
-    shaken = ShakenBaseRotor(rotor=rotor, base=BaseMotion(times=times, acceleration_y=record))
+    shaken = BaseExcitedRotor(rotor=rotor, base=BaseMotion(times=times, acceleration_y=record))
     arguments = {"duration": 0.08, "times": [*times, 0.08], "rtol": 1e-10}
     runs = [simulate(shaken, SPRINGS, **arguments, **how) for how in ({}, {"method": DOP853})]
     assert ["rejected" in run.work for run in runs] == [True, False]
@@ -134,7 +133,7 @@ def test_displacement_of_the_ground_is_that_of_absolute_coordinates():
     path = 1e-4 * np.sin(math.pi * times / 0.2) ** 2
     ground = BaseMotion.from_displacement(times, x=path)
     rotor = RigidRotor(mass=MASS, speed=50.0, gravity=(0.0, 0.0))
-    run = simulate(ShakenBaseRotor(rotor=rotor, base=ground), SPRINGS, duration=0.2, times=times, rtol=1e-8)
+    run = simulate(BaseExcitedRotor(rotor=rotor, base=ground), SPRINGS, duration=0.2, times=times, rtol=1e-8)
     spline = CubicSpline(times, path, bc_type="clamped")
 
     def rate(t, state):
@@ -207,7 +206,7 @@ def test_what_else_does_not_fit_is_named():
     with pytest.raises(InputError, match="y must be as many as times, 3, got 2"):
         BaseMotion.from_displacement([0.0, 1.0, 2.0], y=[0.0, 0.0])
     with pytest.raises(InputError, match="base must be a BaseMotion"):
-        ShakenBaseRotor(rotor=BODY, base=3.0)
+        BaseExcitedRotor(rotor=BODY, base=3.0)
     rest = rotor_equilibrium(BODY, HELD, 50.0)
     with pytest.raises(InputError, match="frequencies must be a list of positive and rising numbers"):
         base_response(BODY, rest, [2.0, 1.0])

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from rotorfilm import ConvergenceError, InputError
+from rotorfilm import ConvergenceError, InputError, LinearBearing, TabulatedBearing
 from rotorfilm.analysis import (
     campbell,
     critical as crossings,
@@ -32,9 +32,8 @@ from rotorfilm.analysis.modal_reduction import (
     usual_frequency,
 )
 from rotorfilm.analysis.rotor_equilibrium import rest
-from rotorfilm.analysis.rotor_matrices import WholeRotor, second_order, seen_rows, whirl_errors
+from rotorfilm.analysis.rotor_matrices import FullRotorModel, second_order, seen_rows, whirl_errors
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
 from rotorfilm.rotors import (
     Coupling,
     Disk,
@@ -162,7 +161,7 @@ def test_the_error_of_few_shapes_is_estimated(damping):
     left = np.linalg.inv(vectors).conj().T[len(system.mass) :]
     chosen = np.flatnonzero((values.imag > 400.0) & (values.imag < 1100.0))
     ends = model.lifted(np.linalg.solve(system.mass, left[:, chosen]))
-    whole = WholeRotor(model.whole, at, 0.0)
+    whole = FullRotorModel(model.whole, at, 0.0)
     found = model.lifted(vectors[: len(system.mass), chosen])
     estimates = whirl_errors(model, whole, values[chosen], found, ends)
     exact = all_eigenvalues(rotor, bearings, 200.0, True)

@@ -5,11 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import EquilibriumError, InputError, RigidRotor
 from rotorfilm.analysis import closed_loop, coefficients, equilibrium, transmissibility, whirl_threshold
 from rotorfilm.bearings.damper import PorousDamper
 from rotorfilm.bearings.journal import RotatingArc, ShortFilm, SplittingFilm
-from rotorfilm.core.errors import EquilibriumError, InputError
-from rotorfilm.rotors.rigid import RigidRotor
 
 LOAD = np.array([0.0, -525.0])
 MASS = 525 / 9.80665

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import FilmContactError, InputError
 from rotorfilm.analysis import coefficients, equilibrium
-from rotorfilm.core.errors import FilmContactError, InputError
 
 pytestmark = pytest.mark.filterwarnings("ignore:load .* makes a mean pressure")
 """Closed forms near the wall, in SI units of a film that bears more than any oil."""

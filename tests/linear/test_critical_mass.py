@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
+from rotorfilm import Coefficients
 from rotorfilm.analysis import critical_mass
 from rotorfilm.analysis.whirl import is_stable
-from rotorfilm.core.results import Coefficients
 
 
 def film(stiffness, damping, speed=1.0):

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from rotorfilm import Pad, ReynoldsFilm, as_reaction
+from rotorfilm import EquilibriumError, InputError, Pad, ReynoldsFilm, ValidityWarning, as_reaction
 from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.journal.map.map_potential import potential
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning
 
 pytestmark = pytest.mark.filterwarnings("ignore:load .* makes a mean pressure")
 """Closed forms near the wall, in SI units of a film that bears more than any oil."""

@@ -4,9 +4,8 @@ import control
 import numpy as np
 import pytest
 
+from rotorfilm import InputError, RigidRotor
 from rotorfilm.analysis import OperatingPoint, coefficients, equilibrium, linearize
-from rotorfilm.core.errors import InputError
-from rotorfilm.rotors.rigid import RigidRotor
 
 SPEED = 1500 * math.pi / 30
 

@@ -4,9 +4,8 @@ import control
 import numpy as np
 import pytest
 
+from rotorfilm import InputError, RigidRotor
 from rotorfilm.analysis import closed_loop, equilibrium, linearize, to_nlsys
-from rotorfilm.core.errors import InputError
-from rotorfilm.rotors.rigid import RigidRotor
 
 SPEED = 1500 * math.pi / 30
 LOAD = [0.0, -525.0]

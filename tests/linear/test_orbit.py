@@ -8,23 +8,24 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
+    FilmContactError,
+    FullFilm,
+    InputError,
     PorousCage,
     PorousDamper,
     RadialFeed,
     RigidRotor,
     Sprung,
+    UndefinedDerivativeError,
     closed_loop,
     equilibrium,
     orbit_coefficients,
-    orbit_system,
     simulate,
     small_motion_transmissibility,
     synchronous_orbits,
-    transmitted_ratio,
 )
+from rotorfilm.analysis import orbit_system, transmitted_ratio
 from rotorfilm.bearings.damper.squeeze_films import mean_permeability
-from rotorfilm.bearings.films.geometry import FullFilm
-from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError
 
 MASS, SPEED, K = 10.0, 400.0, 2.56e5
 DIMENSIONS = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 4e-3}

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 from scipy.linalg import eigh
 
-from rotorfilm import ConvergenceError, TiltingPadBearing, UnloadedPadWarning, even_pivots
+from rotorfilm import ConvergenceError, LinearBearing, TabulatedBearing, TiltingPadBearing, even_pivots
 from rotorfilm.analysis import (
     base_system,
     critical as searching,
@@ -26,8 +26,8 @@ from rotorfilm.analysis import (
 from rotorfilm.analysis.critical import Changing, branches_on_line, require_all_undamped
 from rotorfilm.analysis.modal_reduction import models, negative_count
 from rotorfilm.analysis.rotor_equilibrium import rest
-from rotorfilm.analysis.rotor_matrices import LeftOut, WholeRotor, seen_rows, small_motion
-from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
+from rotorfilm.analysis.rotor_matrices import FullRotorModel, LeftOut, seen_rows, small_motion
+from rotorfilm.core import UnloadedPadWarning
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -247,7 +247,7 @@ def test_the_error_of_a_response_is_that_of_the_large_matrices():
     few = np.linalg.solve(L, model.seen(loads) @ amplitudes)
     left_out = LeftOut(model, loads)
     dual = np.linalg.solve(L.conj().T, left_out.seen.T)
-    whole, places = WholeRotor(model.whole, at, speed), seen_rows(model.whole)
+    whole, places = FullRotorModel(model.whole, at, speed), seen_rows(model.whole)
     unbalanced = model.answer(loads @ amplitudes - whole.forces(1j * speed, model.lifted(few)))
     other = places.T - whole.adjoint_forces(1j * speed, model.lifted(dual))
     wanted = np.abs(other.conj().T @ unbalanced).max() / np.abs(places @ model.lifted(few)).max() * 4.0 / 3.0

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import LinearBearing
 from rotorfilm.analysis import critical_speeds, rotor_modes
-from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.rotors import ClassicalBeam, Disk, ElasticMaterial, ShaftElement, ShaftRotor, Station
 
 pytestmark = pytest.mark.literature

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import eig
 
+from rotorfilm import EquilibriumError, InputError, LinearBearing, TabulatedBearing, ValidityWarning
 from rotorfilm.analysis import (
     campbell,
     closed_loop,
@@ -27,9 +28,7 @@ from rotorfilm.analysis import (
 from rotorfilm.analysis.rotor_matrices import roundoff
 from rotorfilm.analysis.rotor_modes import log_decrement
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
-from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning
-from rotorfilm.core.signals import names
+from rotorfilm.core import names
 from rotorfilm.cosim import critical_macro_step
 from rotorfilm.rotors import (
     ClassicalBeam,

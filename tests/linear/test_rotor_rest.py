@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import EquilibriumError, InputError, LinearBearing
 from rotorfilm.analysis import equilibrium, rotor_equilibrium, simulate
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.pads import TiltingPadBearing, even_pivots
-from rotorfilm.core.errors import EquilibriumError, InputError
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
 
 SINGLE = rf.BallBearing(
     balls=16, ball_diameter="7.938 mm", pitch_diameter="46.5 mm", contact_angle="25 deg", axial_load=400.0
@@ -43,7 +43,7 @@ def end_stiffness(bearing: rf.BallBearing, speed: float) -> float:
 
 def test_a_mass_on_a_cantilever_swings_with_the_stiffness_of_all_five_degrees() -> None:
     # The coupling of x and tilt_y is a third of the compliance here, of either sign for a tilt turned round.
-    bearings = {"left": rf.TiltingBalls(bearing=SINGLE)}
+    bearings = {"left": rf.MomentCarryingBalls(bearing=SINGLE)}
     speed = 800.0
     wanted = math.sqrt(end_stiffness(SINGLE, speed) / MASS)
     lowest = rf.rotor_modes(overhung(), bearings, speed).frequency[:2]
@@ -54,7 +54,7 @@ def test_its_critical_speed_is_where_running_balls_leave_that_stiffness() -> Non
     wanted = 1600.0
     for _ in range(30):
         wanted = math.sqrt(end_stiffness(SINGLE, wanted) / MASS)
-    bearings = {"left": rf.TiltingBalls(bearing=SINGLE)}
+    bearings = {"left": rf.MomentCarryingBalls(bearing=SINGLE)}
     found = rf.critical_speeds(overhung(), bearings, np.linspace(1000.0, 2400.0, 7))
     assert [one.speed for one in found] == pytest.approx([wanted] * len(found), rel=2e-4)
     assert len(found) == 2
@@ -64,13 +64,13 @@ def test_its_critical_speed_is_where_running_balls_leave_that_stiffness() -> Non
 
 def test_its_unbalance_response_is_that_of_a_mass_on_a_spring() -> None:
     speed = 600.0
-    response = rf.unbalance_response(overhung(), {"left": rf.TiltingBalls(bearing=SINGLE)}, [speed])
+    response = rf.unbalance_response(overhung(), {"left": rf.MomentCarryingBalls(bearing=SINGLE)}, [speed])
     at = response.output_labels.index("disk_x")
     wanted = UNBALANCE * speed**2 / (end_stiffness(SINGLE, speed) - MASS * speed**2)
     assert abs(response.frdata[at, 0, 0]) == pytest.approx(abs(wanted), rel=1e-3)
 
 
-def heavy(elements: int, bearing: rf.BearingPair) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls]]:
+def heavy(elements: int, bearing: rf.BearingPair) -> tuple[rf.ShaftRotor, dict[str, rf.MomentCarryingBalls]]:
     """Return a spindle with an overhang on two equal pairs."""
     piece = rf.ShaftElement(length=0.3, outer_diameter=0.035, material=STEEL)
     stations = tuple(
@@ -83,7 +83,7 @@ def heavy(elements: int, bearing: rf.BearingPair) -> tuple[rf.ShaftRotor, dict[s
         stations=stations,
         disks=(rf.Disk(node=elements, mass=3.0),),
     )
-    return rotor, dict.fromkeys(("left", "right"), rf.TiltingBalls(bearing=bearing))
+    return rotor, dict.fromkeys(("left", "right"), rf.MomentCarryingBalls(bearing=bearing))
 
 
 def test_forces_and_moments_at_rest_balance_the_weight() -> None:
@@ -102,7 +102,7 @@ def test_forces_and_moments_at_rest_balance_the_weight() -> None:
 
 def test_two_rows_in_two_nodes_are_the_pair_between_them() -> None:
     z = 6e-6
-    rows = rf.TiltingBalls(
+    rows = rf.MomentCarryingBalls(
         bearing=rf.BallBearing(
             balls=16,
             ball_diameter=7.938e-3,
@@ -112,14 +112,14 @@ def test_two_rows_in_two_nodes_are_the_pair_between_them() -> None:
         )
     )
     both = rf.tandem(rows.bearing, distance=0.02)
-    pair = rf.TiltingBalls(
+    pair = rf.MomentCarryingBalls(
         bearing=rf.BearingPair(bearing=both.bearing, distance=0.02, directions=(1, 1), axial_displacement=z)
     )
     solid = rf.ElasticMaterial(young_modulus=211e13, shear_modulus=81.2e13, density=7810.0)
     elements = rf.ShaftElement(length=0.02, outer_diameter=0.035, material=solid).split(2)
     elements += rf.ShaftElement(length=0.2, outer_diameter=0.035, material=STEEL).split(4)
 
-    def frequencies(nodes: tuple[int, ...], bearing: rf.TiltingBalls) -> np.ndarray:
+    def frequencies(nodes: tuple[int, ...], bearing: rf.MomentCarryingBalls) -> np.ndarray:
         stations = tuple(rf.Station(node=k, name=f"row_{k}", feels_tilt=True) for k in nodes)
         rotor = rf.ShaftRotor(elements=elements, speed=0.0, stations=stations, gravity=(0.0, 0.0))
         at = {station.name: bearing for station in stations}
@@ -138,7 +138,7 @@ def test_a_shaft_of_many_elements_moves_in_few_shapes_and_says_its_error() -> No
 
 @pytest.mark.parametrize("bearing", [SINGLE, PAIR], ids=["thrust", "pair"])
 def test_coefficients_are_the_slopes_of_force_and_moment(bearing: rf.BallBearing | rf.BearingPair) -> None:
-    held = rf.TiltingBalls(bearing=bearing)
+    held = rf.MomentCarryingBalls(bearing=bearing)
     place = np.array([3e-7, -5e-7, 2e-5, 1e-5])
     steps = np.diag([1e-9, 1e-9, 1e-7, 1e-7])
     slopes = np.stack(
@@ -169,12 +169,14 @@ def test_what_does_not_fit_is_named() -> None:
     with pytest.raises(InputError, match=r"bearings\['left'\] must be"):
         rf.mount(rotor, bearings)
     with pytest.raises(InputError, match="bearing must be a BallBearing or a BearingPair"):
-        rf.TiltingBalls(bearing=rotor)
+        rf.MomentCarryingBalls(bearing=rotor)
     with pytest.raises(InputError, match=r"place must have shape \(4,\)"):
         bearings["left"].tilting_force([0.0, 0.0])
 
 
-def spindle(bearing: rf.BallBearing | rf.BearingPair) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls]]:
+def spindle(
+    bearing: rf.BallBearing | rf.BearingPair,
+) -> tuple[rf.ShaftRotor, dict[str, rf.MomentCarryingBalls]]:
     """Return a spindle with a tool in its holder on two equal bearings."""
     rotor = rf.ShaftRotor(
         elements=rf.ShaftElement(length=0.32, outer_diameter=0.035, material=STEEL).split(4),
@@ -184,7 +186,7 @@ def spindle(bearing: rf.BallBearing | rf.BearingPair) -> tuple[rf.ShaftRotor, di
         ),
         disks=(rf.Disk(node=0, mass=1.2),),
     )
-    return rotor, dict.fromkeys(("front", "rear"), rf.TiltingBalls(bearing=bearing))
+    return rotor, dict.fromkeys(("front", "rear"), rf.MomentCarryingBalls(bearing=bearing))
 
 
 LOOSE = rf.BallBearing(
@@ -227,12 +229,14 @@ def test_deep_groove_bearings_with_clearance_rest_on_some_of_their_balls() -> No
     assert 1 <= LOOSE.loads(displacement, 1000.0).carrying < 5
     # With next to no thrust the tilts are held by few balls: much lower than on balls that all carry.
     modes = rf.rotor_modes(rotor, bearings, 1000.0).frequency[:2]
-    thrust = dict.fromkeys(("front", "rear"), rf.TiltingBalls(bearing=replace(LOOSE, axial_load=100.0)))
+    thrust = dict.fromkeys(
+        ("front", "rear"), rf.MomentCarryingBalls(bearing=replace(LOOSE, axial_load=100.0))
+    )
     pressed = rf.rotor_modes(rotor, thrust, 1000.0).frequency[:2]
     assert pressed[0] > 2.0 * modes[0]
 
 
-def light_rotor(rng: np.random.Generator) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls], float]:
+def light_rotor(rng: np.random.Generator) -> tuple[rf.ShaftRotor, dict[str, rf.MomentCarryingBalls], float]:
     """Return a rotor of some 1 N in two deep groove bearings with clearance, and its weight [N]."""
     diameter, mass = 10.0 ** rng.uniform(-2.5, -1.5), 10.0 ** rng.uniform(-3.0, 0.0)
     piece = rf.ShaftElement(length=0.32, outer_diameter=diameter, material=STEEL)
@@ -246,7 +250,7 @@ def light_rotor(rng: np.random.Generator) -> tuple[rf.ShaftRotor, dict[str, rf.T
         gravity=(0.0, -9.81),
     )
     bearings = {
-        name: rf.TiltingBalls(
+        name: rf.MomentCarryingBalls(
             bearing=rf.BallBearing(
                 balls=int(rng.integers(6, 10)),
                 ball_diameter=7.938e-3,

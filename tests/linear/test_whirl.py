@@ -6,10 +6,11 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
+from rotorfilm import EquilibriumError, InputError, ValidityWarning
 from rotorfilm.analysis import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
 from rotorfilm.bearings.journal import SplittingFilm
 from rotorfilm.bearings.pads import PadGridFilm, TiltingPadBearing
-from rotorfilm.core.errors import EquilibriumError, InputError, ValidityWarning, warn_user
+from rotorfilm.core.errors import warn_user
 
 SPEED = 1500 * math.pi / 30
 LOAD = [0.0, -525.0]

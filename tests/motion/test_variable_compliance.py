@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from rotorfilm import BallBearing, InputError, StaticBalls, Waviness, variable_compliance
+from rotorfilm import BallBearing, InputError, StaticBalls, variable_compliance
+from rotorfilm.bearings import Waviness
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

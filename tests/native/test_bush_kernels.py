@@ -11,10 +11,9 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotorfilm import Friction
+from rotorfilm.bearings import ContactBalance, GlobalBalance, LocalMelting, SharedMelting
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush.bearing import Friction
-from rotorfilm.bearings.bush.bush_reaction import LocalMelting, SharedMelting
-from rotorfilm.bearings.bush.melting import ContactBalance, GlobalBalance
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"

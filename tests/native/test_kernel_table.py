@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
 from rotorfilm.native import resource as kernel_table
 from rotorfilm.native.library import FOLDER, LOOPS, MASTER, SUFFIXES
 

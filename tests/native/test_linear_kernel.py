@@ -9,7 +9,7 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from scipy.linalg import expm
 
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal
 from rotorfilm.native import NativeSpec
 
 

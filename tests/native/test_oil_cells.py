@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from rotorfilm import ConvergenceError
 from rotorfilm.bearings.films.mass_conserving import OilCells, oil_outflow, oil_response, solve_oil
-from rotorfilm.core.errors import ConvergenceError
 
 N, M = 12, 4
 

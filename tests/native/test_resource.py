@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.signals import Variable
+from rotorfilm import InputError
+from rotorfilm.fmu import Variable
 from rotorfilm.native import NativeParameter, NativeSpec
 from rotorfilm.native.resource import pack
 

@@ -5,18 +5,18 @@ import pytest
 from fmpy import simulate_fmu
 from scipy.optimize import nnls
 
-from rotorfilm import ExtrapolatedFilm, FeedHole, Groove, JournalBearing, ReynoldsFilm, export_fmu
-from rotorfilm.bearings.films.finite_volumes import RingKernel
-from rotorfilm.bearings.films.geometry import (
+from rotorfilm import FeedHole, FullFilm, Groove, JournalBearing, ReynoldsFilm, export_fmu
+from rotorfilm.bearings import (
     Complementarity,
+    ExtrapolatedFilm,
     FilmGeometry,
-    FreeStart,
-    FullFilm,
+    FixedOnset,
+    FreeOnset,
     HalfSommerfeld,
-    HeldLine,
+    MaximumGapOnset,
     Pocket,
-    WidestGap,
 )
+from rotorfilm.bearings.films.finite_volumes import RingKernel
 
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.0))
 POCKETS = (Pocket(center=0.3, width=0.35, share=0.7), Pocket(center=2.4, width=0.0, share=0.3))
@@ -93,7 +93,7 @@ def test_pressure_is_that_of_a_dense_solution(cavitation, name):
     compare_with_dense(ReynoldsFilm(cells=(24, 4), cavitation=cavitation, geometry=GEOMETRIES[name]))
 
 
-@pytest.mark.parametrize("start", [WidestGap(), HeldLine(line=0.4)])
+@pytest.mark.parametrize("start", [MaximumGapOnset(), FixedOnset(line=0.4)])
 def test_pressure_of_a_film_that_starts_at_a_line(start):
     compare_with_dense(ReynoldsFilm(cells=(24, 4), film_start=start))
 
@@ -135,9 +135,9 @@ SHORT = (Groove(center=0.3, width=0.35, length=0.04), FeedHole(center=2.0, diame
 @pytest.mark.parametrize(
     ("start", "openings"),
     [
-        (FreeStart(), {"grooves": SHORT, "circumferential_groove": 0.002, "supply_pressure": 2e5}),
-        (WidestGap(), {}),
-        (HeldLine(line=0.4), {}),
+        (FreeOnset(), {"grooves": SHORT, "circumferential_groove": 0.002, "supply_pressure": 2e5}),
+        (MaximumGapOnset(), {}),
+        (FixedOnset(line=0.4), {}),
     ],
 )
 def test_the_fmu_has_the_openings_and_the_start_of_the_film(tmp_path, start, openings):

@@ -7,7 +7,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 
 from rotorfilm import RigidRotor, SpeedProfile
-from rotorfilm.core.model import stops
+from rotorfilm.core import stops
 
 STATES = ("state_x", "state_y", "state_vx", "state_vy")
 DERIVATIVES = ("der(m.state_x)", "der(m.state_y)", "der(m.state_vx)", "der(m.state_vy)")

@@ -16,15 +16,13 @@ from rotorfilm import (
     Groove,
     JournalBearing,
     MapFilm,
-    MapTable,
     PressureDamBearing,
     ReynoldsFilm,
     RigidRotor,
     SpeedProfile,
-    f4k20_bush,
     pressure_dam_pads,
 )
-from rotorfilm.bearings.bush.bush_reaction import LocalMelting
+from rotorfilm.bearings import LocalMelting, MapTable, f4k20_bush
 from rotorfilm.fmu.reference import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME

@@ -13,7 +13,6 @@ from rotorfilm import (
     FiniteSqueeze,
     FullFilm,
     JournalBearing,
-    MapSqueeze,
     ReynoldsFilm,
     RigidRotor,
     ShortFilm,
@@ -24,6 +23,7 @@ from rotorfilm import (
     equilibrium,
     simulate,
 )
+from rotorfilm.bearings import MapSqueeze
 from rotorfilm.native.resource import carried_library
 from rotorfilm.rotors import (
     Disk,

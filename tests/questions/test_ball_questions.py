@@ -7,10 +7,10 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm import ConvergenceError, InputError, SceneError
 from rotorfilm.bearings.rolling import RunningBalls
-from rotorfilm.core.errors import ConvergenceError, InputError, SceneError
 from rotorfilm.questions import ladder_of, rolling as ball_questions
-from rotorfilm.scenes.scene import parse_scene, read_scene
+from rotorfilm.scenes import parse_scene, read_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

@@ -10,7 +10,7 @@ import scene_battery
 from families import FAMILIES
 from families.bush_truth import wear_by_nodes
 
-from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError, SceneError
+from rotorfilm import FilmContactError, InputError, RotorfilmError, SceneError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.bush import bush_numbers, bush_remarks, bush_run
 from rotorfilm.scenes import Scene, read_scene

@@ -10,25 +10,23 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm import InputError
+from rotorfilm.bearings import HERTZ_LOAD, SmallMotion
 from rotorfilm.bearings.contact import FixedSteps, RollingBall, SineLoad
-from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion
 from rotorfilm.core.answers import WorkUnit
-from rotorfilm.core.errors import InputError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.contact import FollowedFilm, grid_rung, law_rung, lowest, slow_rung
-from rotorfilm.scenes import Scene, parse_scene
+from rotorfilm.scenes import Lubricant, QuestionTable, Scene, parse_scene
 from rotorfilm.scenes.contact_motions import (
     INLETS,
     OUTLET,
     QUANTITIES,
     SPACINGS,
-    RestingFilms,
+    StaticContactFilms,
     contact_motion,
     contact_numbers,
     natural_frequency,
 )
-from rotorfilm.scenes.lubricant_table import Lubricant
-from rotorfilm.scenes.scene import QuestionTable
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
@@ -111,7 +109,7 @@ def test_rectangle_is_extrapolated_to_the_infinite_one():
         speed=speed,
         load=10.0,
     )
-    films = RestingFilms(table=table, quantity="approach")
+    films = StaticContactFilms(table=table, quantity="approach")
     assert (pytest.approx(0.1), pytest.approx(5.0)) == (films.ball.V, films.ball.Q0)
     rungs = {rung.name: rung for rung in ladder_of(scene.with_tables(contact=table)).rungs}
     found = rungs["grid 96 x 96, unbounded"].answer(None)
@@ -122,7 +120,7 @@ def test_rectangle_is_extrapolated_to_the_infinite_one():
 @pytest.mark.convergence
 @pytest.mark.parametrize("quantity", ["approach", "central_film"])
 def test_change_beyond_the_rectangle_is_that_of_a_third_one(quantity):
-    films = RestingFilms(table=scene_of().contact, quantity=quantity)
+    films = StaticContactFilms(table=scene_of().contact, quantity=quantity)
     near, far = INLETS[0], INLETS[2]
     predicted = films.beyond({}) * (1.0 - (near / far) ** QUANTITIES[quantity].reach)
     cells = [round(SPACINGS[0] * (inlet + OUTLET)) for inlet in (near, far)]
@@ -131,7 +129,7 @@ def test_change_beyond_the_rectangle_is_that_of_a_third_one(quantity):
 
 
 def test_rectangle_without_a_companion_is_said_to_be_what_fails():
-    films = RestingFilms(table=scene_of().contact, quantity="approach")
+    films = StaticContactFilms(table=scene_of().contact, quantity="approach")
     short, longer = ([round(spacing * (inlet + OUTLET)) for spacing in SPACINGS] for inlet in INLETS[:2])
     films.known.update({(INLETS[0], n, 1.0): -1.8 for n in (24, *short)})
     films.known.update({(INLETS[1], n, 1.0): math.nan for n in longer})
@@ -141,7 +139,7 @@ def test_rectangle_without_a_companion_is_said_to_be_what_fails():
 
 
 def test_linearized_film_is_the_slope_of_the_film_at_rest():
-    films = RestingFilms(table=scene_of().contact, quantity="central_film")
+    films = StaticContactFilms(table=scene_of().contact, quantity="central_film")
     contact = films.contact(24)
     rest, more = contact.stationary(), contact.stationary(1.002)
     small = SmallMotion(contact.equations, rest.pressure.ravel(), rest.delta)
@@ -162,7 +160,7 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
     answer = scene.ask()
     assert answer.model == "at rest under the extreme load"
     assert answer.met
-    films = RestingFilms(table=scene.contact, quantity="central_film")
+    films = StaticContactFilms(table=scene.contact, quantity="central_film")
     contact = films.contact(24)
     run = contact.simulate(
         contact.stationary(), duration=60.0, W=0.1,
@@ -178,7 +176,7 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
 
 def test_step_is_met_by_law_and_film_alike():
     scene = scene_of("approach", 0.03, STEP)
-    films, shaken = RestingFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
+    films, shaken = StaticContactFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
     law = law_rung(films, shaken)
     found = law.answer(None)
     about = law.estimate(found, None, 0.03)
@@ -224,7 +222,7 @@ def test_what_cannot_shake_a_ball_is_refused(excitation, message):
 
 def test_load_that_lifts_the_ball_is_in_doubt_for_the_law_and_at_rest():
     scene = scene_of("approach", 0.1, SINE.format("60 N", 1000.0))
-    films, shaken = RestingFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
+    films, shaken = StaticContactFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
     slow = slow_rung(films, shaken)
     assert slow.estimate(slow.answer(None), None, 0.1).doubt == "the ball leaves the film"
     law = law_rung(films, shaken)

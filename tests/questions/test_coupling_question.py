@@ -12,18 +12,15 @@ import scene_battery
 from families import FAMILIES
 from scipy.integrate import solve_ivp
 
+from rotorfilm import Groove, InputError
 from rotorfilm.analysis import simulate
-from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.core.errors import InputError
 from rotorfilm.cosim import GaussSeidel, Jacobi, SIExp, SIExp3, critical_macro_step
 from rotorfilm.cosim.coupling_error import SCHEMES, CouplingCase, inner_motion, law_forces, propagated
 from rotorfilm.questions import ladder_of
-from rotorfilm.rotors import RigidRotor
-from rotorfilm.rotors.force_law import ForceLaw
-from rotorfilm.scenes import Scene, bundled_scene
+from rotorfilm.rotors import ForceLaw, RigidRotor
+from rotorfilm.scenes import QuestionTable, Scene, bundled_scene
 from rotorfilm.scenes.excitation_table import StepLoadTable
-from rotorfilm.scenes.scene import QuestionTable
 from rotorfilm.studies.coupling_cost import cost_case
 
 ROOT = Path(__file__).parents[2]

@@ -2,11 +2,11 @@
 
 import pytest
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.questions import ladder_of
+from rotorfilm import InputError
+from rotorfilm.questions import QUANTITIES, ladder_of
 from rotorfilm.questions.film_statics import StaticRung, WhirlRung
-from rotorfilm.questions.quantities import QUANTITIES, TEMPERATURES
-from rotorfilm.scenes.scene import read_scene
+from rotorfilm.questions.quantities import TEMPERATURES
+from rotorfilm.scenes import read_scene
 
 JOURNAL = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.02}
 PADS = {"radius": 0.05, "length": 0.05, "assembled_clearance": 7e-5, "viscosity": 0.02}

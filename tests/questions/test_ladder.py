@@ -5,8 +5,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
+from rotorfilm import FilmContactError, InputError, RotorfilmError
 from rotorfilm.core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound
-from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.questions.walk import Meter, walk
 
 CALLS, MAPS, GRIDS = WorkUnit("calls"), WorkUnit("maps", nominal=7.0), WorkUnit("grids")

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm
-from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")

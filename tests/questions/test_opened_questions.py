@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import GroovedMapFilm, fitted_bearing
-from rotorfilm.questions.walk import Meter, ladder_of
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.walk import Meter
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.film_rungs import COARSE_MAP
-from rotorfilm.scenes.scene import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 
@@ -54,7 +55,7 @@ def test_an_orbit_that_a_grid_answers_makes_no_map(cache):
 
 
 def test_maps_that_are_to_be_made_are_foreseen_and_not_tried(cache):
-    scene = scene_of("blade_loss_peak", 0.05, excitation=LOST_BLADE)
+    scene = scene_of("peak_displacement", 0.05, excitation=LOST_BLADE)
     ladder = ladder_of(scene)
     coarse, fine = (
         next(r for r in ladder.rungs if r.name == f"linear, {name}map with grooves")
@@ -69,7 +70,7 @@ def test_maps_that_are_to_be_made_are_foreseen_and_not_tried(cache):
 @pytest.mark.parametrize("revolutions", [1, 10])
 def test_many_forces_are_worth_a_coarse_map_and_few_are_not(revolutions):
     lost = LOST_BLADE.replace("10", str(revolutions))
-    names = [rung.name for rung in ladder_of(scene_of("blade_loss_peak", 0.05, excitation=lost)).rungs]
+    names = [rung.name for rung in ladder_of(scene_of("peak_displacement", 0.05, excitation=lost)).rungs]
     places = [
         names.index(name)
         for name in (

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import ReynoldsFilm, equilibrium, film_state
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError, ReynoldsFilm, equilibrium, film_state
 from rotorfilm.scenes import read_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")

@@ -10,8 +10,7 @@ import pytest
 from scipy.signal import lsim
 
 from rotorfilm import AnnularSeal, ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
-from rotorfilm.questions import shaft_orbits as shaft_peaks
-from rotorfilm.questions.walk import ladder_of
+from rotorfilm.questions import ladder_of, shaft_orbits as shaft_peaks
 from rotorfilm.rotors.shaft_rotor import split
 from rotorfilm.scenes import read_scene
 from rotorfilm.scenes.rotor_runs import largest_distance

@@ -11,6 +11,7 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm import InputError, SceneError, TabulatedBearing
 from rotorfilm.analysis import (
     critical_speeds,
     periodic_orbit,
@@ -31,14 +32,12 @@ from rotorfilm.analysis.speed_events import (
 )
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.bearings.journal.map.map_potential import potential
-from rotorfilm.bearings.linear import TabulatedBearing
-from rotorfilm.core.errors import AbsentError, InputError, SceneError
+from rotorfilm.core import AbsentError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.shaft_films import REST_BOUNDS, coefficient_bounds, field_rests, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
 from rotorfilm.rotors.shaft_rotor import ShaftModel, shaft_models, split
-from rotorfilm.scenes import Scene, parse_scene, read_scene
-from rotorfilm.scenes.scene import QuestionTable
+from rotorfilm.scenes import QuestionTable, Scene, parse_scene, read_scene
 from rotorfilm.scenes.solve_shaft import beam_remarks
 
 ROOT = Path(__file__).parents[2]

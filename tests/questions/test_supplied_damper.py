@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from rotorfilm import JFODamper, damper_turn, simulate
-from rotorfilm.core.errors import InputError, SceneError
+from rotorfilm import InputError, JFODamper, SceneError, simulate
+from rotorfilm.bearings import damper_turn
+from rotorfilm.questions import ladder_of
 from rotorfilm.questions.damper import LEVELS, follow, of_turn
-from rotorfilm.questions.walk import ladder_of
-from rotorfilm.scenes import read_scene
+from rotorfilm.scenes import read_scene, run_damper
 from rotorfilm.scenes.damper_films import damper_models
-from rotorfilm.scenes.solve_damper import run_damper
 
 SUPPLY = {
     "supply_pressure": "0.5 bar",
@@ -131,7 +130,7 @@ HOLES = {
 def test_peak_after_a_lost_blade_is_within_its_estimate():
     damper = {**DAMPER, "supply": HOLES}
     peak = scene(
-        quantity="blade_loss_peak",
+        quantity="peak_displacement",
         damper=damper,
         excitation=LOST,
         rigid_rotor={"mass": "20 kg"},
@@ -171,8 +170,8 @@ def test_orbit_past_holes_balances_the_film_that_is_stepped_along_it():
 
 def test_what_knows_no_supply_says_so():
     named = {**DAMPER, "film": {"name": "short"}}
-    peak = scene("blade_loss_peak", excitation=LOST, rigid_rotor={"mass": "20 kg"}, damper=named)
-    with pytest.raises(InputError, match=r"damper.film must be left out beside supply for blade_loss_peak"):
+    peak = scene("peak_displacement", excitation=LOST, rigid_rotor={"mass": "20 kg"}, damper=named)
+    with pytest.raises(InputError, match=r"damper.film must be left out beside supply for peak_displacement"):
         peak.solve()
     with pytest.raises(InputError, match=r"damper.supply must be left out for cosimulation_error"):
         scene(quantity="cosimulation_error").solve()

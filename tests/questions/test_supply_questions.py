@@ -3,14 +3,21 @@
 import numpy as np
 import pytest
 
-from rotorfilm import HeatedJFOFilm, JFOFilm, equilibrium, heated_equilibrium
-from rotorfilm.core.errors import InputError, SceneError, ValidityWarning
-from rotorfilm.core.units import CELSIUS
+from rotorfilm import (
+    HeatedJFOFilm,
+    InputError,
+    JFOFilm,
+    SceneError,
+    ValidityWarning,
+    equilibrium,
+    heated_equilibrium,
+)
+from rotorfilm.core import CELSIUS
 from rotorfilm.cosim import SIExp3
-from rotorfilm.questions.walk import ladder_of
+from rotorfilm.questions import ladder_of
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.cosimulate_scene import run_scene
 from rotorfilm.scenes.film_heat import bush_of
-from rotorfilm.scenes.scene import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

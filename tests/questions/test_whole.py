@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from rotorfilm.questions.walk import whole_ladder
+from rotorfilm.questions.walk import all_models
 from rotorfilm.scenes import Scene
 
 QUESTION = Path(__file__).parents[2] / "examples" / "question.toml"
@@ -14,7 +14,7 @@ QUESTION = Path(__file__).parents[2] / "examples" / "question.toml"
 
 def test_the_chosen_rung_is_the_one_that_answers():
     scene = Scene.load(QUESTION)
-    answer, whole = scene.ask(), whole_ladder(scene)
+    answer, whole = scene.ask(), all_models(scene)
     assert [row.name for row in whole.rungs if row.chosen] == [answer.model]
     assert [row.name for row in whole.rungs] == [rung.name for rung in answer.rungs]
     above = whole.rungs[[row.chosen for row in whole.rungs].index(True) + 1 :]

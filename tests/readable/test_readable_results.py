@@ -14,14 +14,12 @@ import pytest
 from scipy.integrate import BDF
 
 import rotorfilm
-from rotorfilm import bearings
-from rotorfilm.analysis.continuation import Bifurcation
+from rotorfilm import Coefficients, Equilibrium, Trajectory, WhirlThreshold, bearings
+from rotorfilm.analysis import Bifurcation
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.charts.result_charts import PICTURES
-from rotorfilm.core.errors import AbsentError
-from rotorfilm.core.readable import Drawable, Readable, explained, quantity, texts
-from rotorfilm.core.results import Coefficients, Equilibrium, Trajectory, WhirlThreshold
-from rotorfilm.core.units import DISPLAY_UNITS, parse_quantity
+from rotorfilm.core import DISPLAY_UNITS, AbsentError, Readable, parse_quantity
+from rotorfilm.core.readable import Drawable, explained, quantity, texts
 
 pytest.importorskip("pandas")
 pytest.importorskip("xarray")
@@ -40,12 +38,12 @@ NO_RESULTS = {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
         *("FilmField", "StudyCase", "Study", "BushRun"),
         *("RossRotor", "DemoResult", "PublishedStage"),
-        *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("RestingBalls", "RestJudge"),
+        *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "DrivenBall"),
+        *("BallEquilibriumCase", "RestJudge"),
         *("HeatCase", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel"),
         *("FilmRest", "FilmCandidate", "PadCandidate", "TiltingCandidate"),
         *(
-            "RestingFilms",
+            "StaticContactFilms",
             "DamperFilm",
             "FilmRung",
             "Panel",
@@ -313,7 +311,7 @@ def test_what_a_result_in_a_result_repeats_is_left_out():
 def test_equal_bearings_are_both_shown():
     one = Coefficients(stiffness=np.eye(2), damping=2.0 * np.eye(2), position=np.zeros(2), speed=1.0)
     loads = {"left": np.zeros(2), "right": np.zeros(2)}
-    rest = rotorfilm.RotorEquilibrium(
+    rest = rotorfilm.analysis.RotorEquilibrium(
         speed=1.0,
         coefficients={"left": one, "right": one},
         loads=loads,

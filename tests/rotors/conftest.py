@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm import LinearBearing
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
 from rotorfilm.rotors import ClassicalBeam, FourthOrderBeam, ShaftElement, cowper_coefficient
 from rotorfilm.rotors.shaft_elements import Section, beam_matrices
 

@@ -19,8 +19,8 @@ HELD = STIFF * 1e9 / (STIFF + 1e9)
 
 
 def cracked(reduction=0.1, rotor=JEFFCOTT, breathing=None, **crack):
-    crack = rf.JeffcottCrack(reduction=reduction, **crack)
-    return rf.CrackedRotor(rotor=rotor, crack=crack, breathing=breathing or rf.MayesDaviesBreathing())
+    crack = rf.rotors.JeffcottCrack(reduction=reduction, **crack)
+    return rf.CrackedRotor(rotor=rotor, crack=crack, breathing=breathing or rf.rotors.MayesDaviesBreathing())
 
 
 def response(rotor, steps=64, **options):
@@ -40,7 +40,9 @@ def test_without_depth_nothing_changes():
     assert_allclose(A, bare, rtol=0.0, atol=0.0)
 
 
-@pytest.mark.parametrize("breathing", [rf.MayesDaviesBreathing(), rf.GaschHinge(edge=0.2)], ids=type)
+@pytest.mark.parametrize(
+    "breathing", [rf.rotors.MayesDaviesBreathing(), rf.rotors.GaschHinge(edge=0.2)], ids=type
+)
 def test_a_run_up_against_an_own_integration(breathing):
     profile = rf.SpeedProfile(times=(0.0, 0.02), speeds=(80.0, 140.0))
     rotor = dataclasses.replace(JEFFCOTT, speed=profile, journal_mass=1.0)
@@ -49,7 +51,7 @@ def test_a_run_up_against_an_own_integration(breathing):
     run = rf.simulate(whole, bearing, duration=0.02, samples=5, rtol=1e-9)
 
     def share(angle):  # from the direction of gravity
-        if isinstance(breathing, rf.MayesDaviesBreathing):
+        if isinstance(breathing, rf.rotors.MayesDaviesBreathing):
             return 0.5 * (1.0 + np.cos(angle))
         s = np.clip(0.5 + (np.pi / 2 - np.arccos(np.cos(angle))) / 0.4, 0.0, 1.0)
         return 3.0 * s**2 - 2.0 * s**3
@@ -79,7 +81,7 @@ def test_an_open_crack_is_an_asymmetric_shaft(speed):
     weak = 0.9 * STIFF * 1e9 / (0.9 * STIFF + 1e9) / MASS
     w2 = speed**2
     roots = np.roots([1.0, 0.0, weak + strong + 2.0 * w2, 0.0, (weak - w2) * (strong - w2)])
-    found = response(cracked(0.1, undamped(speed), rf.OpenCrack()), steps=128)
+    found = response(cracked(0.1, undamped(speed), rf.rotors.OpenCrack()), steps=128)
     assert_allclose(found.growth_rate, roots.real.max(), atol=1e-5)
     assert found.stable is (found.growth_rate < 0.0)
     if weak < w2 < strong:
@@ -137,7 +139,10 @@ def test_twice_the_speed_resounds_at_half_of_the_critical():
 
 def test_the_periodic_response_is_what_a_run_settles_to():
     rotor = dataclasses.replace(JEFFCOTT, journal_mass=1.0, external_damping=4000.0)
-    whole, soft = cracked(0.2, rotor, rf.GaschHinge(edge=0.5)), rf.LinearBearing(stiffness=1e7, damping=3e3)
+    whole, soft = (
+        cracked(0.2, rotor, rf.rotors.GaschHinge(edge=0.5)),
+        rf.LinearBearing(stiffness=1e7, damping=3e3),
+    )
     found = rf.cracked_response(rf.mount(whole, {"": soft}), harmonics=12, steps=256)
     turn = 2.0 * np.pi / 150.0
     run = rf.simulate(whole, soft, duration=3 * turn, times=np.linspace(2.5, 3, 5) * turn, rtol=1e-6)
@@ -161,7 +166,9 @@ def test_the_compliance_of_a_shallow_crack():
     radius, modulus, nu = 0.05, 2.1e11, 0.3
     for part in (1e-3, 1e-4):
         a = part * radius
-        weak, strong = rf.crack_compliance(depth=a, radius=radius, young_modulus=modulus, poisson_ratio=nu)
+        weak, strong = rf.rotors.crack_compliance(
+            depth=a, radius=radius, young_modulus=modulus, poisson_ratio=nu
+        )
         scale = 32.0 * (1.0 - nu**2) / (np.pi * modulus * radius**8)
         shallow = scale * radius**2 * 1.122**2 * 8.0 / 15.0 * a**2 * np.sqrt(2.0 * radius * a)
         assert_allclose(weak, shallow, rtol=6.0 * part)
@@ -180,12 +187,14 @@ def shaft(beam, elements=4, depth=0.015, **change):
         "beam": beam,
     }
     rotor = rf.ShaftRotor(**{**given, **change})
-    crack = rf.ShaftCrack(element=1, depth=depth, crack_angle=-np.pi / 2)
-    return rf.CrackedRotor(rotor=rotor, crack=crack, breathing=rf.OpenCrack())
+    crack = rf.rotors.ShaftCrack(element=1, depth=depth, crack_angle=-np.pi / 2)
+    return rf.CrackedRotor(rotor=rotor, crack=crack, breathing=rf.rotors.OpenCrack())
 
 
 @pytest.mark.closed_form
-@pytest.mark.parametrize("beam", [rf.ClassicalBeam(), rf.FourthOrderBeam()], ids=["classical", "fourth"])
+@pytest.mark.parametrize(
+    "beam", [rf.ClassicalBeam(), rf.rotors.FourthOrderBeam()], ids=["classical", "fourth"]
+)
 def test_the_deflection_of_a_cracked_shaft(beam):
     # By virtual work the crack adds h M m: M of the load, m of the unit load, where the crack is.
     whole = shaft(beam)
@@ -195,7 +204,9 @@ def test_the_deflection_of_a_cracked_shaft(beam):
     load[n + 4] = -1000.0
     rows = whole.weakness.rows
     sound, weak = (np.linalg.solve(K, load)[n + 4] for K in (held, held - rows.T @ whole.lost(0.0) @ rows))
-    h, _ = rf.crack_compliance(depth=0.015, radius=0.025, young_modulus=2.1e11, poisson_ratio=2.1 / 1.6 - 1.0)
+    h, _ = rf.rotors.crack_compliance(
+        depth=0.015, radius=0.025, young_modulus=2.1e11, poisson_ratio=2.1 / 1.6 - 1.0
+    )
     moment = 0.5 * 0.375
     assert_allclose(sound - weak, 1000.0 * h * moment**2, rtol=1e-7)
 
@@ -221,17 +232,17 @@ def test_what_cracks_refuse():
     with pytest.raises(rf.InputError, match="opening_angle must be given for a rotor without gravity"):
         cracked(0.1, still)
     with pytest.raises(rf.InputError, match="reduction must be from cross_reduction"):
-        rf.JeffcottCrack(reduction=0.1, cross_reduction=0.2)
+        rf.rotors.JeffcottCrack(reduction=0.1, cross_reduction=0.2)
     with pytest.raises(rf.InputError, match="a ShaftRotor for a ShaftCrack"):
-        rf.CrackedRotor(rotor=JEFFCOTT, crack=rf.ShaftCrack(element=0, depth=1e-3))
+        rf.CrackedRotor(rotor=JEFFCOTT, crack=rf.rotors.ShaftCrack(element=0, depth=1e-3))
     with pytest.raises(rf.InputError, match=r"depth must not exceed the radius 0.025, got 0.03"):
         shaft(rf.ClassicalBeam(), depth=0.03)
     with pytest.raises(rf.InputError, match=r"poisson_ratio must be above -1 and at most 0.5, got 2.0"):
-        rf.crack_compliance(depth=0.01, radius=0.025, young_modulus=2.1e11, poisson_ratio=2.0)
+        rf.rotors.crack_compliance(depth=0.01, radius=0.025, young_modulus=2.1e11, poisson_ratio=2.0)
     with pytest.raises(rf.InputError, match="element must be from 0 to 0"):
         shaft(rf.ClassicalBeam(), elements=1)
     with pytest.raises(rf.InputError, match="edge must not exceed a quarter"):
-        rf.GaschHinge(edge=2.0)
+        rf.rotors.GaschHinge(edge=2.0)
     film = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
     with pytest.raises(rf.InputError, match="must be a LinearBearing"):
         rf.cracked_response(rf.mount(cracked(), {"": film}))

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
 
 SIZE = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 5e-3}
 STIFFNESS, MASS, SPEED = 2e6, 3.0, 600.0
@@ -62,7 +62,7 @@ def test_an_orbit_lasts(name):
     assert_allclose(np.hypot(*run.position), radius, rtol=1e-5)
     housing = np.hypot(run["force_x"], run["force_y"]) / (1e-4 * SPEED**2)
     assert_allclose(housing, orbit.transmissibility, rtol=1e-5)
-    poles = rf.orbit_system(rotor(), support, orbit).poles()
+    poles = rf.analysis.orbit_system(rotor(), support, orbit).poles()
     assert_allclose(poles.real.max(), orbit.growth_rate, rtol=1e-9)
 
 
@@ -153,7 +153,7 @@ def test_a_shaft_with_a_free_station_has_the_derivatives_of_its_equations():
     "ask",
     [
         lambda damper: rf.whirl_threshold(damper, load=[0.0, -10.0], mass=MASS),
-        lambda damper: rf.coefficient_table(damper, [0.0, -10.0], [100.0]),
+        lambda damper: rf.analysis.coefficient_table(damper, [0.0, -10.0], [100.0]),
     ],
     ids=["whirl_threshold", "coefficient_table"],
 )

@@ -5,9 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated, knowns_of, references_of, unknowns_of
+from rotorfilm import InputError
+from rotorfilm.fmu import export_fmu, extracted, instantiated
+from rotorfilm.fmu.instance import knowns_of, references_of, unknowns_of
 from rotorfilm.rotors import (
     ForceLaw,
     JeffcottRotor,

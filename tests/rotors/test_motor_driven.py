@@ -13,7 +13,6 @@ from rotorfilm import (
     JeffcottRotor,
     JournalBearing,
     LinearBearing,
-    LinearMotor,
     MotorDrivenRotor,
     RigidRotor,
     RigidShaft,
@@ -21,6 +20,7 @@ from rotorfilm import (
     mount,
     simulate,
 )
+from rotorfilm.rotors import LinearMotor
 
 SPRINGS = LinearBearing(stiffness=((4e5, 0.0), (0.0, 5e5)), damping=60.0)
 MOTOR = LinearMotor(stall_torque=2.0, idle_speed=300.0, resistance=1e-3)

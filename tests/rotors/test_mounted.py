@@ -9,13 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from rotorfilm import Dynamic, InputError, LinearBearing, Reaction
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Dynamic, Reaction
-from rotorfilm.core.signals import names
+from rotorfilm.core import names
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import ClassicalBeam, RigidShaft, SpeedProfile, mount
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
 from rotorfilm.rotors import SpeedProfile
 
 RUN = SpeedProfile(times=(0.5, 1.5, 2.0, 4.0), speeds=(-10.0, 40.0, 40.0, 5.0))

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Dynamic
-from rotorfilm.core.signals import names
+from rotorfilm import Dynamic, InputError, LinearBearing
+from rotorfilm.core import names
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,

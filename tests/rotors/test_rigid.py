@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Dynamic
-from rotorfilm.core.signals import names
+from rotorfilm import Dynamic, InputError
+from rotorfilm.core import names
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 RAMP = SpeedProfile(times=(0.0, 2.0), speeds=(30.0, -90.0))

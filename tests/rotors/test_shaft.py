@@ -5,9 +5,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.model import Dynamic
-from rotorfilm.core.signals import names
+from rotorfilm import Dynamic, InputError
+from rotorfilm.core import names
 from rotorfilm.fmu.python.codec import decode, encode
 from rotorfilm.rotors import (
     ClassicalBeam,

@@ -5,9 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
+from rotorfilm import InputError, LinearBearing
 from rotorfilm.analysis import critical_speed_map, rotor_modes
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import (
     ClassicalBeam,
     FourthOrderBeam,

@@ -30,7 +30,7 @@ def test_skew_of_a_rigid_disk_on_a_tilt_spring(diametral, polar):
                 skew_angle=angle,
             ),
         ),
-        tilt_springs=(rf.TiltSpring(node=0, stiffness=k),),
+        tilt_springs=(rf.rotors.TiltSpring(node=0, stiffness=k),),
         probes=(rf.Probe(node=1, name="rim"),),
         speed=0.0,
         beam=rf.ClassicalBeam(),
@@ -70,7 +70,7 @@ def test_bow_of_a_jeffcott_rotor_with_unbalance():
     bow = 5e-6 * np.exp(1.1j)
     stiffness = 48.0 * 2e11 * math.pi * 0.08**4 / 64.0
     s, ratio = SPEEDS / math.sqrt(stiffness / 200.0), 2e4 / (2.0 * math.sqrt(stiffness * 200.0))
-    bent = rf.bow_response(rotor, bearings, SPEEDS, [0.0, bow, 0.0])
+    bent = rf.analysis.bow_response(rotor, bearings, SPEEDS, [0.0, bow, 0.0])
     turned = rf.unbalance_response(rotor, bearings, SPEEDS)
     place = list(bent.output_labels).index("mid_x")
     assert list(turned.output_labels) == list(bent.output_labels)
@@ -82,10 +82,10 @@ def test_bow_of_a_jeffcott_rotor_with_unbalance():
 @pytest.mark.closed_form
 def test_a_slow_shaft_moves_as_it_is_bent():
     rotor, bearings = jeffcott()
-    slow = rf.bow_response(rotor, bearings, [0.1], [0.0, 1e-5, 0.0])
+    slow = rf.analysis.bow_response(rotor, bearings, [0.1], [0.0, 1e-5, 0.0])
     assert slow.frdata[list(slow.output_labels).index("mid_x"), 0, 0] == pytest.approx(1e-5, rel=2e-4)
     with pytest.raises(rf.InputError, match="bow must be 3 finite numbers"):
-        rf.bow_response(rotor, bearings, [0.1], [0.0, 1e-5])
+        rf.analysis.bow_response(rotor, bearings, [0.1], [0.0, 1e-5])
 
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
@@ -123,13 +123,13 @@ def test_proportional_damping_of_elements():
     moving, own = ((shape.conj().T @ mass @ shape).real[0, 0] for mass in (whole, shaft))
     np.testing.assert_allclose(on_disk, alpha / (2.0 * w) * own / moving + beta * w / 2.0, rtol=1e-3)
     with pytest.raises(rf.InputError, match="layers must have equal mass_damping"):
-        rf.LayeredElement(layers=(FREE.elements[0], pieces[0]))
+        rf.rotors.LayeredElement(layers=(FREE.elements[0], pieces[0]))
 
 
 @pytest.mark.closed_form
 def test_modal_damping_on_bearings():
     wanted = (0.01, 0.02, 0.005)
-    damped = rf.ModallyDampedRotor(
+    damped = rf.rotors.ModallyDampedRotor(
         rotor=FREE, damping_ratios=wanted, bearing_stiffness=1e7, speed=0.0, gravity=(0.0, 0.0)
     )
     springs = dict.fromkeys(("left", "right"), rf.LinearBearing(stiffness=1e7))
@@ -143,6 +143,6 @@ def test_bad_damping():
     with pytest.raises(rf.InputError, match="mass_damping must be finite and not negative"):
         replace(FREE, mass_damping=-1.0)
     with pytest.raises(rf.InputError, match=r"damping_ratios\[0\] must be"):
-        rf.ModallyDampedRotor(rotor=FREE, damping_ratios=(-0.1,), speed=0.0, gravity=(0.0, 0.0))
+        rf.rotors.ModallyDampedRotor(rotor=FREE, damping_ratios=(-0.1,), speed=0.0, gravity=(0.0, 0.0))
     with pytest.raises(rf.InputError, match="skew must be"):
         rf.Disk(node=0, mass=1.0, skew=math.nan)

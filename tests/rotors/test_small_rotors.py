@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.core.errors import InputError
-from rotorfilm.core.signals import names
+from rotorfilm import InputError, LinearBearing
+from rotorfilm.core import names
 from rotorfilm.rotors import JeffcottRotor, RigidRotor, RigidShaft, mount
 
 

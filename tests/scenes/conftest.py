@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from rotorfilm.scenes import scene
-from rotorfilm.scenes.scene import json_schema
+from rotorfilm.scenes import json_schema, scene
 
 KINDS = {"object": Mapping, "array": list, "string": str, "integer": int, "number": int | float}
 

@@ -12,20 +12,22 @@ from numpy.testing import assert_allclose
 
 from rotorfilm import (
     BallBearing,
+    InputError,
     RaceControl,
     RollingMaterial,
     RunningBalls,
+    Scene,
+    SceneError,
     StaticBalls,
     back_to_back,
     coefficients,
     equilibrium,
     tandem,
 )
-from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.fmu import describe_fmu
+from rotorfilm.scenes import parse_scene, read_scene
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.rolling import ball_numbers, rest_under, single_of
-from rotorfilm.scenes.scene import Scene, parse_scene, read_scene
 from rotorfilm.sweeps.point import solve_point
 
 ROW = 'balls = 10\nball_diameter = "7.938 mm"\npitch_diameter = "33.5 mm"\n'

@@ -10,11 +10,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm import EndSeal, FiniteSqueeze, FullFilm, RigidRotor, SqueezeFilmDamper, synchronous_orbits
+from rotorfilm import (
+    EndSeal,
+    FiniteSqueeze,
+    FullFilm,
+    InputError,
+    RigidRotor,
+    SceneError,
+    Sprung,
+    SqueezeFilmDamper,
+    synchronous_orbits,
+)
 from rotorfilm.analysis import simulate
-from rotorfilm.bearings.assemblies import Sprung
-from rotorfilm.bearings.damper.neglected_effects import JudgedDamper, neglected_force
-from rotorfilm.core.errors import InputError, SceneError
+from rotorfilm.bearings import JudgedDamper
+from rotorfilm.bearings.damper.neglected_effects import neglected_force
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.damper_films import damper_fmus, damper_models
@@ -164,7 +173,7 @@ def test_seals_and_air_are_remarked():
 
 @pytest.mark.parametrize("more", [FULL + SEALS, "", FULL + SEALS + "offset = [1e-5, -5e-6]\n"])
 def test_lost_blade_is_that_of_an_integration(more):
-    found = scene(more, LOSS, "blade_loss_peak")
+    found = scene(more, LOSS, "peak_displacement")
     rung = next(r for r in ladder_of(found).rungs if r.name == "nonlinear, 192 steps, finite film")
     models = damper_models(found.with_tables(damper=replace(found.damper, film=rung.film.law)))
     run = simulate(models.rotor, models.support, duration=models.duration, samples=400, rtol=1e-5)

@@ -5,8 +5,8 @@ import math
 
 import pytest
 
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.new_scene import new_scene
-from rotorfilm.scenes.scene import parse_scene
 
 
 @pytest.fixture

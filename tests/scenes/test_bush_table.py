@@ -5,11 +5,9 @@ from dataclasses import replace
 
 import pytest
 
+from rotorfilm import Friction, SceneError
+from rotorfilm.bearings import ApproximateShaft, GlobalBalance, LocalMelting
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush.bearing import Friction
-from rotorfilm.bearings.bush.bush_reaction import LocalMelting
-from rotorfilm.bearings.bush.melting import ApproximateShaft, GlobalBalance
-from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import parse_scene
 
 HEAD = 'schema = 1\n[bush]\nmelting_heat = "1e8 J/m3"\n'

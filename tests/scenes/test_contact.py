@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from rotorfilm import ContactGrid, PointContact, SceneError, StepLoad, ValidityWarning, reduce_contact, ride
-from rotorfilm.scenes import solve_contact
-from rotorfilm.scenes.scene import parse_scene
+from rotorfilm import ContactGrid, PointContact, SceneError, ValidityWarning, reduce_contact
+from rotorfilm.bearings import StepLoad, ball_transient
+from rotorfilm.scenes import parse_scene, solve_contact
 from rotorfilm.scenes.solve_contact import ContactCase, respond
 
 TEXT = """
@@ -84,9 +84,9 @@ def test_a_response_within_the_loads_of_its_law_is_ridden_once(monkeypatch):
 
     def counted(*args, **options):
         rides.append(args)
-        return ride(*args, **options)
+        return ball_transient(*args, **options)
 
-    monkeypatch.setattr(solve_contact, "ride", counted)
+    monkeypatch.setattr(solve_contact, "ball_transient", counted)
     law = reduce_contact(case.contact, 3)
     assert respond(case, law, StepLoad(amplitude=0.2), duration=1.0).model == "reduced law"
     assert len(rides) == 1

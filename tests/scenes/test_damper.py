@@ -9,25 +9,25 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
-    AxialFeed,
     FiniteMapSqueeze,
     FiniteSqueeze,
-    MapSqueeze,
+    FmuError,
+    FullFilm,
+    InputError,
     PorousCage,
     PorousDamper,
-    PublishedSqueeze,
     RadialFeed,
+    SceneError,
     ShortSqueeze,
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.bearings.films.geometry import FullFilm
-from rotorfilm.core.errors import FmuError, InputError, SceneError
-from rotorfilm.scenes import bundled_scene, parse_scene
+from rotorfilm.bearings import AxialFeed, MapSqueeze, PublishedSqueeze
+from rotorfilm.scenes import bundled_scene, parse_scene, run_damper
 from rotorfilm.scenes.damper_films import damper_models
 from rotorfilm.scenes.excitation_table import StepLoadTable
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.solve_damper import couple_damper, run_damper
+from rotorfilm.scenes.solve_damper import couple_damper
 
 DAMPER = """
 schema = 1

@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from rotorfilm import scenes
+from rotorfilm import InputError, scenes
 from rotorfilm.analysis import equilibrium
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
 from rotorfilm.bearings.oil import Oil
 from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.main import main
-from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import demo as demo_module
 from rotorfilm.scenes.demo import plain_results, run_demo, running_bearing
 

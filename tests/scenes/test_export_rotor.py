@@ -10,10 +10,10 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from rotorfilm import ConvergenceError, InputError
 from rotorfilm.analysis import rotor_equilibrium, unbalance_response
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.core.errors import ConvergenceError, InputError
-from rotorfilm.core.signals import names
+from rotorfilm.core import names
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import (

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from rotorfilm.core.errors import SceneError
+from rotorfilm import SceneError
 from rotorfilm.scenes import read_scene
 
 DATA = Path(str(resources.files("rotorfilm.scenes"))) / "data"

@@ -9,11 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.core.errors import SceneError
-from rotorfilm.core.inputs import units_of
-from rotorfilm.core.units import si_name
-from rotorfilm.scenes import reading as tables
-from rotorfilm.scenes.scene import Scene, json_schema, read_scene
+from rotorfilm import Scene, SceneError
+from rotorfilm.core import si_name, units_of
+from rotorfilm.scenes import json_schema, read_scene, reading as tables
 
 from .conftest import SCHEMA, obeys
 

@@ -4,16 +4,8 @@ import math
 
 import pytest
 
-from rotorfilm.bearings.films.geometry import (
-    FeedHole,
-    FreeStart,
-    FullFilm,
-    Groove,
-    HalfSommerfeld,
-    HeldLine,
-    Pad,
-    WidestGap,
-)
+from rotorfilm import FeedHole, FullFilm, Groove, Pad, SceneError
+from rotorfilm.bearings import FixedOnset, FreeOnset, HalfSommerfeld, MaximumGapOnset
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
@@ -25,7 +17,6 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
-from rotorfilm.core.errors import SceneError
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.excitation_table import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
 
@@ -177,9 +168,9 @@ def test_a_named_map_refuses_openings_of_finite_length():
 @pytest.mark.parametrize(
     ("start", "made"),
     [
-        ('{ kind = "free" }', FreeStart()),
-        ('{ kind = "widest_gap" }', WidestGap()),
-        ('{ kind = "line", line = "90 deg" }', HeldLine(line=math.radians(90.0))),
+        ('{ kind = "free" }', FreeOnset()),
+        ('{ kind = "widest_gap" }', MaximumGapOnset()),
+        ('{ kind = "line", line = "90 deg" }', FixedOnset(line=math.radians(90.0))),
     ],
 )
 def test_start_of_the_film_has_its_keys(start, made):

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import Cooling, JournalBearing, Oil, SceneError, equilibrium
-from rotorfilm.scenes import parse_scene
-from rotorfilm.scenes.lubricant_table import Lubricant
+from rotorfilm.scenes import Lubricant, parse_scene
 
 SCENE = """
 schema = 1

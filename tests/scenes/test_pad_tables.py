@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm import SceneError
 from rotorfilm.analysis import coefficients, equilibrium
 from rotorfilm.bearings.pads import (
     Lobe,
@@ -18,13 +19,11 @@ from rotorfilm.bearings.pads import (
     lobe_set,
     pressure_dam_pads,
 )
-from rotorfilm.core.errors import SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.questions.pads import COARSE_MAP
-from rotorfilm.scenes import pad_tables as lobed_table, pad_tables as tilting_table
+from rotorfilm.scenes import pad_tables as lobed_table, pad_tables as tilting_table, parse_scene
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.pad_tables import pad_numbers
-from rotorfilm.scenes.scene import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

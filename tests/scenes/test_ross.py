@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import InputError, LinearBearing, TabulatedBearing
 from rotorfilm.analysis import coefficients, rotor_modes
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
-from rotorfilm.core.errors import InputError
 from rotorfilm.scenes import read_ross, to_ross_force
 
 STEEL = 'name = "Steel"\nrho = 7810.0\nE = 211e9\nG_s = 81.2e9\n'

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import InputError, LinearBearing, TabulatedBearing
 from rotorfilm.analysis import (
     coefficient_table,
     critical_speed_map,
@@ -20,8 +21,6 @@ from rotorfilm.analysis import (
 )
 from rotorfilm.analysis.closed_loop import second_order
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.bearings.linear import LinearBearing, TabulatedBearing
-from rotorfilm.core.errors import InputError
 from rotorfilm.rotors import Probe, Unbalance, mount, reduce_rotor
 from rotorfilm.scenes import read_ross, to_ross, to_ross_force
 

@@ -11,19 +11,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
+    BaseExcitedRotor,
     BaseMotion,
     InputError,
     SceneError,
-    ShakenBaseRotor,
     ValidityWarning,
     mount,
     rotor_equilibrium,
     simulate_rotor,
 )
-from rotorfilm.scenes import Scene, read_scene, rotor_runs
+from rotorfilm.scenes import Scene, read_scene, rotor_runs, run_damper
 from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
 from rotorfilm.scenes.rotor_runs import run_rotor
-from rotorfilm.scenes.solve_damper import run_damper
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -53,7 +52,7 @@ def test_ground_of_a_scene_is_that_of_its_record(tmp_path):
     still = rotor_equilibrium(shaft, films, speed).displacement
     x, y = (0.0, 4.0, -2.0), (0.0, 2.0, 0.0)
     ground = BaseMotion(times=(0.0, 0.02, 0.05), acceleration_x=x, acceleration_y=y)
-    model = ShakenBaseRotor(rotor=replace(shaft, initial=(*still, *0.0 * still)), base=ground)
+    model = BaseExcitedRotor(rotor=replace(shaft, initial=(*still, *0.0 * still)), base=ground)
     wanted = simulate_rotor(mount(model, films), duration=0.05, times=run.trajectory.time, rtol=1e-9)
     assert_allclose(run.trajectory["disk_x"], wanted["disk_x"], atol=1e-9)
     assert run.peaks["disk"] == pytest.approx(np.hypot(wanted["disk_x"], wanted["disk_y"]).max(), rel=1e-4)

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import InputError, LinearBearing, SceneError
 from rotorfilm.analysis import critical_speeds, rotor_threshold, unbalance_response
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.bearings.linear import LinearBearing
-from rotorfilm.core.errors import InputError, SceneError
 from rotorfilm.rotors import (
     ClassicalBeam,
     Coupling,
@@ -364,6 +363,6 @@ def test_a_shaft_in_a_scene_takes_no_ball_bearings():
     text = (Path(__file__).parents[2] / "examples" / "flexible_rotor.toml").read_text(encoding="utf-8")
     wrong = text + '\n[[shaft.bearings]]\nname = "balls"\nnode = 3\nball_bearing = {}\n'
     with pytest.raises(
-        SceneError, match=r"shaft\.bearings\[2\]\.ball_bearing must be left out: .*TiltingBalls"
+        SceneError, match=r"shaft\.bearings\[2\]\.ball_bearing must be left out: .*MomentCarryingBalls"
     ):
         parse_scene(wrong, "balls.toml")

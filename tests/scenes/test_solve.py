@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm import EquilibriumError, InputError
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.core.errors import EquilibriumError, InputError
-from rotorfilm.core.results import to_plain
+from rotorfilm.core import to_plain
 from rotorfilm.scenes import bundled_scene, parse_scene
 
 SCENE = """

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.core.errors import SceneError
+from rotorfilm import SceneError
 from rotorfilm.scenes import Scene, parse_scene, read_scene
 from rotorfilm.scenes.reading import Quantity, Table, TableList, Variant, keyed, nearest
 

@@ -10,8 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
-from rotorfilm.core.errors import InputError, SceneError
+from rotorfilm import InputError, JournalBearing, SceneError, ShortFilm, equilibrium, sweep
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.reading import quantity_of
 from rotorfilm.sweeps.sweep_run import Store

@@ -537,8 +537,8 @@ class BushReaction(Called):
         return at
 
     @cached_property
-    def _liner(self) -> HeldLiner:
-        return HeldLiner(self)
+    def _liner(self) -> LinerAtTemperature:
+        return LinerAtTemperature(self)
 
     def _pressed(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array, Pressed]:
         wear, values = self._point(x, u)
@@ -564,7 +564,7 @@ COVERED_TO = 0.05
 """Share of the losses by which friction heat may fall short without a word."""
 
 
-class HeldLiner:
+class LinerAtTemperature:
     """What a `BushReaction` computes with: the numbers of its bush at one contact temperature.
 
     Parameters

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from ...core.sources import show
 
 if TYPE_CHECKING:
-    from .ball_support import BallSupport as BallSupport, ride as ride
+    from .ball_support import BallSupport as BallSupport, ball_transient as ball_transient
     from .contact_grid import (
         ContactGrid as ContactGrid,
         ContactScheme,

@@ -168,8 +168,8 @@ class BallSupport(Called):
     ) -> ReducedCoefficients:
         """Return Re K(i frequency) and Im K(i frequency)/frequency; see `analysis.coefficients`.
 
-        Without a frequency they are `MemoryCoefficients`, at that of the shaft: modes, thresholds and
-        responses of rotors go by K(s).
+        Without a frequency they are `FrequencyDependentCoefficients` at that of the shaft: modes, thresholds
+        and responses of rotors go by K(s).
 
         Parameters
         ----------
@@ -333,7 +333,7 @@ class _Rider(NamedTuple):
 
 
 @arguments
-def ride(
+def ball_transient(
     law: ContactLaw,
     *,
     mass: float,

@@ -39,7 +39,7 @@ from ..films.mass_conserving import (
     warn_of_air,
 )
 from ..films.mass_conserving_steps import (
-    FilmMemory,
+    ConservedFilmState,
     OilNumbers,
     SteppedFilm,
     after_step,
@@ -246,26 +246,28 @@ class JFODamper(SteppedFilm):
         """Return 0: the race does not spin."""
         return 0.0
 
-    def answer(self, state: FilmMemory) -> Array:
+    def answer(self, state: ConservedFilmState) -> Array:
         """Return the outputs of a state, shape (9,), the force with that of the springs."""
         found = super().answer(state)
         found[:2] -= self.stiffness * state.motion[:2]
         return found
 
     def step(
-        self, state: FilmMemory, t: float, u: ArrayLike, dt: float
-    ) -> tuple[FilmMemory, Array, dict[str, int]]:
+        self, state: ConservedFilmState, t: float, u: ArrayLike, dt: float
+    ) -> tuple[ConservedFilmState, Array, dict[str, int]]:
         """Return state, outputs and counters of work after dt [s]; see `SteppedFilm.step`."""
         end, _, report = super().step(state, t, u, dt)
         return end, self.answer(end), report
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
+    def attempt(
+        self, state: ConservedFilmState, u: Array, dt: float, near: ConservedFilmState | None = None
+    ) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.reaction`."""
         film = super().attempt(state, u, dt, near)
         slope = film.stiffness + self.stiffness * np.eye(2)
         return film._replace(output=self.answer(film.state), stiffness=slope)
 
-    def slopes(self, state: FilmMemory) -> Array:
+    def slopes(self, state: ConservedFilmState) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
         found = super().slopes(state)
         found[:, :2] -= self.stiffness * np.eye(2)

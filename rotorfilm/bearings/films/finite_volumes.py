@@ -23,7 +23,7 @@ from ...core.model import Array
 from ...native.film_kernels import Batch, FilmKernel, Status
 from ...native.library import loops
 from ...native.structs import structure
-from .geometry import TURN, Cavitation, FilmGeometry, FilmStart, FreeStart, Span
+from .geometry import TURN, Cavitation, FilmGeometry, FilmOnset, FreeOnset, Span
 from .law import report_law
 
 LEVELS = 3
@@ -41,7 +41,7 @@ LONG = 4.0
 ROUNDOFF = 1e-9
 """Shares of the length that differ by less are one."""
 
-FREE = FreeStart()
+FREE = FreeOnset()
 
 
 def require_cells(cells: object) -> None:
@@ -120,7 +120,7 @@ class Grid(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def ring_spans(geometry: FilmGeometry, start: FilmStart = FREE) -> Spans:
+def ring_spans(geometry: FilmGeometry, start: FilmOnset = FREE) -> Spans:
     """Return the edges of a geometry, or of a film that starts at a line."""
     spans = _with_cells(geometry, start)
     return Spans(
@@ -133,7 +133,7 @@ def ring_spans(geometry: FilmGeometry, start: FilmStart = FREE) -> Spans:
 
 @lru_cache(maxsize=64)
 def ring_grids(
-    geometry: FilmGeometry, around: int, along: int, slenderness: float, start: FilmStart = FREE
+    geometry: FilmGeometry, around: int, along: int, slenderness: float, start: FilmOnset = FREE
 ) -> tuple[Grid, ...]:
     """Return the grids of a geometry, finest first.
 
@@ -147,7 +147,7 @@ def ring_grids(
         ends of openings, where there are some.
     slenderness : float [1]
         Length / diameter, or `LONG` for any below it.
-    start : FilmStart
+    start : FilmOnset
         Where the film of a geometry without openings starts.
     """
     spans = _with_cells(geometry, start)
@@ -190,14 +190,14 @@ def _shares(geometry: FilmGeometry) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _start_line(geometry: FilmGeometry, start: FilmStart) -> list[Span]:
+def _start_line(geometry: FilmGeometry, start: FilmOnset) -> list[Span]:
     """Return the line at which the film starts, as an opening at ambient pressure; none if it is free."""
     if start.line is None and not start.turning:
         return []
     return [Span((start.line or 0.0) % TURN, 0.0, 0.0)]
 
 
-def _with_cells(geometry: FilmGeometry, start: FilmStart) -> list[Span]:
+def _with_cells(geometry: FilmGeometry, start: FilmOnset) -> list[Span]:
     """Return the spans that have an extent; a line groove is an edge of its neighbors only."""
     if geometry.openings():
         return [span for span in geometry.spans() if span.extent > 0.0]

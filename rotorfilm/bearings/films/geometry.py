@@ -356,7 +356,7 @@ def _fold(view: _View) -> int:
 
 
 @dataclass(frozen=True)
-class FreeStart:
+class FreeOnset:
     """The film starts where Reynolds' equation lets it: oil is there wherever pressure can be."""
 
     line: ClassVar[float | None] = None
@@ -367,7 +367,7 @@ class FreeStart:
 
 
 @dataclass(frozen=True)
-class WidestGap:
+class MaximumGapOnset:
     """The film starts at the widest gap, opposite to the journal's displacement, with which the line turns.
 
     So do the printed tables of Butenschoen (1976) and others. At the center the gap is equal all round, and
@@ -383,7 +383,7 @@ class WidestGap:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class HeldLine:
+class FixedOnset:
     """The film starts at a line that stays in the bearing, such as a supply that is not a groove.
 
     Parameters
@@ -401,7 +401,7 @@ class HeldLine:
         require_finite("line", self.line)
 
 
-FilmStart = FreeStart | WidestGap | HeldLine
+FilmOnset = FreeOnset | MaximumGapOnset | FixedOnset
 """Where a film starts: at a `line` [rad] at ambient pressure, at one `turning` with the journal, or free."""
 
 

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import FileWarning, InputError, RotorfilmError, warn_user
-from ...core.files import read_sealed, write_sealed, write_whole
+from ...core.files import read_sealed, write_atomically, write_sealed
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
@@ -56,7 +56,7 @@ class StoredTable(ABC):
 
     def save(self, path: str | Path) -> None:
         """Write the table to a file."""
-        write_whole(path, self.to_bytes())
+        write_atomically(path, self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
@@ -252,7 +252,7 @@ class MapTable(StoredTable):
 
     def save(self, path: str | Path, quantum: float = 0.0) -> None:
         """Write the table to a file; see `to_bytes`."""
-        write_whole(path, self.to_bytes(quantum))
+        write_atomically(path, self.to_bytes(quantum))
 
 
 def stretch(eccentricity_ratio: Array | float) -> Array:

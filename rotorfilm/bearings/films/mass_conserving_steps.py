@@ -46,7 +46,7 @@ MOST_GROWTH = 2.0
 """Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
 
 
-class OilMemory(NamedTuple):
+class OilHistory(NamedTuple):
     """What a film that conserves its oil knows of its past.
 
     Attributes
@@ -69,18 +69,24 @@ class OilMemory(NamedTuple):
     full: np.ndarray
 
 
-def remembered(state: ConservedState) -> OilMemory:
+def remembered(state: ConservedState) -> OilHistory:
     """Return the memory of a film that has long stood as it is."""
-    return OilMemory(state.content, state.content, 0.0, *state.solution[:3])
+    return OilHistory(state.content, state.content, 0.0, *state.solution[:3])
 
 
-def after_step(memory: OilMemory, state: ConservedState, dt: float) -> OilMemory:
+def after_step(memory: OilHistory, state: ConservedState, dt: float) -> OilHistory:
     """Return the memory after a step of length dt [s] that ended at a state."""
-    return OilMemory(state.content, memory.content, dt, *state.solution[:3])
+    return OilHistory(state.content, memory.content, dt, *state.solution[:3])
 
 
 def oil_step(
-    film: ConservedFilm, memory: OilMemory, gap: Gap, rate: float, dt: float, *, near: OilMemory | None = None
+    film: ConservedFilm,
+    memory: OilHistory,
+    gap: Gap,
+    rate: float,
+    dt: float,
+    *,
+    near: OilHistory | None = None,
 ) -> ConservedState:
     """Return the film at the end of a step.
 
@@ -91,14 +97,14 @@ def oil_step(
     Parameters
     ----------
     film : ConservedFilm
-    memory : OilMemory
+    memory : OilHistory
     gap : Gap
         At the end of the step.
     rate : float [1/s]
         Half the speed there.
     dt : float [s]
         Length of the step.
-    near : OilMemory, optional
+    near : OilHistory, optional
         A film near that at the end, as the last iterate: its theta tells by how much transport of second
         order differs from that of upstream values. By default that at the beginning.
 
@@ -134,18 +140,18 @@ def passed_oil(before: Array, flow: Array, state: ConservedState, dt: float) -> 
     return (dt * flow + share * before) / (rate * dt)
 
 
-def packed_oil(memory: OilMemory, **further: Array) -> bytes:
+def packed_oil(memory: OilHistory, **further: Array) -> bytes:
     """Return a memory, and further numbers, as bytes to the last bit."""
     buffer = io.BytesIO()
     np.savez(buffer, **memory._asdict(), **further)  # type: ignore[arg-type]
     return buffer.getvalue()
 
 
-def unpacked_oil(content: bytes, shape: tuple[int, ...]) -> tuple[OilMemory, dict[str, Array]]:
+def unpacked_oil(content: bytes, shape: tuple[int, ...]) -> tuple[OilHistory, dict[str, Array]]:
     """Return what `packed_oil` made bytes of; raise InputError if it is not of a shape (N, M)."""
     with np.load(io.BytesIO(content), allow_pickle=False) as file:
         rows = {name: file[name] for name in file.files}
-    memory = OilMemory(**{name: rows.pop(name) for name in OilMemory._fields})
+    memory = OilHistory(**{name: rows.pop(name) for name in OilHistory._fields})
     if memory.content.shape != shape:
         raise InputError(f"content must be of {shape} cells, got {memory.content.shape}")
     return memory._replace(length=float(memory.length)), rows
@@ -170,12 +176,12 @@ FLOW_NAMES = {
 }
 
 
-class FilmMemory(NamedTuple):
+class ConservedFilmState(NamedTuple):
     """State of a film in motion.
 
     Attributes
     ----------
-    oil : OilMemory
+    oil : OilHistory
     motion : ndarray, shape (5,) [m, m, m/s, m/s, rad/s]
         x, y, vx, vy, speed of the journal.
     output : ndarray, shape (9,) [N, N, m3/s, m3/s, m3/s, m3, m3/s, m3/s, m3/s]
@@ -183,7 +189,7 @@ class FilmMemory(NamedTuple):
         Of side flow, what is drawn in and inflow, in the last inner step.
     """
 
-    oil: OilMemory
+    oil: OilHistory
     motion: Array
     output: Array
     passed: Array
@@ -248,7 +254,7 @@ class SteppedFilm:
         held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
         return (*force_outputs(force * NOMINAL_SPEED), *flows, held, *means)
 
-    def start(self, u: ArrayLike) -> FilmMemory:
+    def start(self, u: ArrayLike) -> ConservedFilmState:
         """Return the steady film at rest at u = (x, y, vx, vy, speed); the velocity counts later.
 
         Raises
@@ -267,8 +273,8 @@ class SteppedFilm:
         return self._remembered(block)
 
     def step(
-        self, state: FilmMemory, t: float, u: ArrayLike, dt: float
-    ) -> tuple[FilmMemory, Array, dict[str, int]]:
+        self, state: ConservedFilmState, t: float, u: ArrayLike, dt: float
+    ) -> tuple[ConservedFilmState, Array, dict[str, int]]:
         """Return state, outputs and counters of work after dt [s] in which the journal goes to u.
 
         Raises
@@ -293,18 +299,20 @@ class SteppedFilm:
         end = self._remembered(block)
         return end, end.output.copy(), {"steps": work[0], "solutions": work[1]}
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
+    def attempt(
+        self, state: ConservedFilmState, u: Array, dt: float, near: ConservedFilmState | None = None
+    ) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.reaction`."""
         found = self._found(state, u, dt, near)
         sums = self._sums(found)
         passed = passed_oil(state.passed, sums[FLOWS], found, dt)
         output = np.concatenate([sums, passed / dt])
-        end = FilmMemory(after_step(state.oil, found, dt), u, output, passed)
+        end = ConservedFilmState(after_step(state.oil, found, dt), u, output, passed)
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
         return StepTrial(end, end.output, slope, found.solution.solutions + 1)
 
-    def slopes(self, state: FilmMemory) -> Array:
+    def slopes(self, state: ConservedFilmState) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
         rate = self.carrying(state.motion)
         gap = circular_gap(self.film.cells, state.motion[:2] / self.clearance)
@@ -313,18 +321,18 @@ class SteppedFilm:
         force, _ = self.scales
         return force * sudden_slopes(self.film, film) / np.array([*[self.clearance] * 4, 1.0])
 
-    def answer(self, state: FilmMemory) -> Array:
+    def answer(self, state: ConservedFilmState) -> Array:
         """Return the outputs of a state, shape (9,)."""
         return state.output.copy()
 
-    def pack(self, state: FilmMemory) -> bytes:
+    def pack(self, state: ConservedFilmState) -> bytes:
         """Return a state as bytes, to the last bit."""
         return packed_oil(state.oil, motion=state.motion, output=state.output, passed=state.passed)
 
-    def unpack(self, content: bytes) -> FilmMemory:
+    def unpack(self, content: bytes) -> ConservedFilmState:
         """Return the state in bytes; raise InputError if it is of other cells."""
         oil, further = unpacked_oil(content, self.film.cells.opening.shape)
-        return FilmMemory(oil, further["motion"], further["output"], further["passed"])
+        return ConservedFilmState(oil, further["motion"], further["output"], further["passed"])
 
     @property
     def _struct(self) -> Any:
@@ -334,14 +342,16 @@ class SteppedFilm:
             shape_of(self.film)[0], self.clearance, share, *self.scales, *limits
         )
 
-    def _remembered(self, block: Array) -> FilmMemory:
+    def _remembered(self, block: Array) -> ConservedFilmState:
         """Return the memory in the numbers that the compiled library goes on from."""
         length, *heads = np.split(block[:HEAD].copy(), np.cumsum(HEADS[:-1]))
         rows = dict(zip(ROWS, block[HEAD:].reshape(len(ROWS), *self.film.cells.opening.shape), strict=True))
         rows["full"] = rows["full"].astype(np.uint8)
-        return FilmMemory(OilMemory(length=float(length[0]), **rows), *heads)
+        return ConservedFilmState(OilHistory(length=float(length[0]), **rows), *heads)
 
-    def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
+    def _found(
+        self, state: ConservedFilmState, u: Array, dt: float, near: ConservedFilmState | None
+    ) -> ConservedState:
         gap = circular_gap(self.film.cells, u[:2] / self.clearance)
         like = None if near is None else near.oil
         return oil_step(self.film, state.oil, gap, self.carrying(u), dt, near=like)

@@ -731,7 +731,7 @@ def heat_numbers(bearing: WarmBearing, position: ArrayLike, speed: float) -> Hea
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FilmAtRest(Readable):
+class StaticFilm(Readable):
     """A film for a journal at rest; N lines around it.
 
     Attributes

@@ -29,7 +29,7 @@ from ..films.mass_conserving import (
     circular_gap,
     conserved_cells,
 )
-from .bearing import FilmAtRest, JournalBearing
+from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
     FilmProfile,
@@ -443,7 +443,7 @@ class HeatAccount(Readable):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState(FilmAtRest):
+class HeatedState(StaticFilm):
     """A film with its temperature, for a journal at rest; N lines with M nodes on each.
 
     Attributes

@@ -39,7 +39,7 @@ from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
 from ..reaction import ReducedCoefficients, coefficients_of
-from .bearing import FilmAtRest, JournalBearing, fitted_bearing
+from .bearing import JournalBearing, StaticFilm, fitted_bearing
 from .reynolds_film import ReynoldsFilm
 
 # What a film that conserves its oil takes from the shaft, and its flows at openings.
@@ -256,8 +256,8 @@ class JFOFilm(SteppedFilm):
     ) -> ReducedCoefficients:
         """Return Re K(i frequency) and Im K(i frequency)/frequency; see `analysis.coefficients`.
 
-        Without a frequency they are `MemoryCoefficients`, at that of the shaft: what takes them for modes,
-        thresholds or a critical mass goes by K(s).
+        Without a frequency they are `FrequencyDependentCoefficients` at that of the shaft: what takes them
+        for modes, thresholds or a critical mass goes by K(s).
 
         Parameters
         ----------
@@ -433,7 +433,7 @@ class JFOFilm(SteppedFilm):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class JFOState(FilmAtRest, Drawable):
+class JFOState(StaticFilm, Drawable):
     """A film that conserves its oil, for a journal at rest; N lines with M cells on each.
 
     Attributes

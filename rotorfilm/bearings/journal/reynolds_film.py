@@ -29,7 +29,7 @@ from ..films.finite_volumes import (
     ring_grids,
     ring_spans,
 )
-from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmStart, FreeStart
+from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 
 
@@ -62,9 +62,9 @@ class ReynoldsFilm(KernelFilm):
         many.
     cavitation : Cavitation
         `Complementarity()`, `HalfSommerfeld()` or `FullFilm()`.
-    film_start : FilmStart
-        Where the film of a bearing without openings or pads starts: `FreeStart()`, wherever pressure can be;
-        `WidestGap()`, opposite to the journal; or `HeldLine(line=...)`, at an angle of the bearing.
+    film_start : FilmOnset
+        Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can be;
+        `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the bearing.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
 
@@ -83,17 +83,17 @@ class ReynoldsFilm(KernelFilm):
 
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
-    film_start: FilmStart = field(default_factory=FreeStart)
+    film_start: FilmOnset = field(default_factory=FreeOnset)
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
         require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
-        require_kind("film_start", self.film_start, FilmStart, "such as FreeStart()")
+        require_kind("film_start", self.film_start, FilmOnset, "such as FreeOnset()")
         if self.film_start != FREE and not self.geometry.plain:
             raise InputError(
-                "film_start must be FreeStart() in a bearing with openings or pads, where the film starts at "
+                "film_start must be FreeOnset() in a bearing with openings or pads, where the film starts at "
                 f"these, got {self.film_start!r}"
             )
 

@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from .tilting_bearing import (
         PadEquilibrium as PadEquilibrium,
         PadMatrices as PadMatrices,
+        StaticTiltingPads,
         TiltedPads as TiltedPads,
         TiltingPadBearing as TiltingPadBearing,
-        TiltingPadsAtRest,
         differenced_slopes,
         even_pivots as even_pivots,
     )

@@ -254,9 +254,9 @@ class TiltingPadBearing(Called, PadBearing):
             return self.at_rest().state(np.zeros(2), 1.0)
         return self.moving(np.array(self.start))
 
-    def at_rest(self) -> TiltingPadsAtRest:
+    def at_rest(self) -> StaticTiltingPads:
         """Return the force on a journal at rest, each pad in its stable tilt."""
-        return TiltingPadsAtRest(self)
+        return StaticTiltingPads(self)
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the state with the journal and all pads at rest, shape (n_states,)."""
@@ -265,7 +265,7 @@ class TiltingPadBearing(Called, PadBearing):
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None:
-        """Return power loss, torques and oil flow under a journal at rest; see `TiltingPadsAtRest.losses`."""
+        """Return power loss, torques and oil flow under a journal at rest; see `StaticTiltingPads.losses`."""
         return self.at_rest().losses(position, velocity, speed, full_gap=full_gap)
 
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
@@ -595,7 +595,7 @@ class PadEquilibrium(Equilibrium):
 
 
 @dataclass(frozen=True, eq=False)
-class TiltingPadsAtRest:
+class StaticTiltingPads:
     """The force of tilting pads on a journal at rest, each pad in the stable tilt that it takes there.
 
     Its slopes are the stiffness in slow motion. It has no damping of its own: see `coefficients`.
@@ -782,7 +782,8 @@ class TiltingPadsAtRest:
     ) -> ReducedCoefficients:
         """Return what the journal feels at a frequency [rad/s], by default that of the shaft.
 
-        Without a frequency they are `MemoryCoefficients`: modes and thresholds of rotors go by K(s).
+        Without a frequency they are `FrequencyDependentCoefficients`: modes and thresholds of rotors go
+        by K(s).
         """
         found = self.matrices(position, speed)
         if frequency is not None:

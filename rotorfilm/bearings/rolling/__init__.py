@@ -9,19 +9,22 @@ if TYPE_CHECKING:
     from .ball_bearing import (
         BallBearing as BallBearing,
         BearingPair as BearingPair,
+        MomentCarryingBalls as MomentCarryingBalls,
         RollingMaterial as RollingMaterial,
-        TiltingBalls as TiltingBalls,
         Waviness as Waviness,
         back_to_back as back_to_back,
         face_to_face as face_to_face,
         tandem as tandem,
     )
-    from .ball_cage import FiveDegreeBalls as FiveDegreeBalls, TurningBalls as TurningBalls
+    from .ball_cage import (
+        FiveDegreeBalls as FiveDegreeBalls,
+        VariableComplianceBalls as VariableComplianceBalls,
+    )
     from .ball_element import (
         FRICTION_LIMITS,
         MOST_PRESSURE,
+        BallEquilibrium as BallEquilibrium,
         BallLoads as BallLoads,
-        BallRest as BallRest,
         EllipticContact as EllipticContact,
         RaceControl as RaceControl,
         RunningBalls as RunningBalls,

@@ -532,7 +532,7 @@ _RADIAL = [0, 1, 3, 4]
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TiltingBalls:
+class MomentCarryingBalls:
     """A ball bearing, or a pair, that holds a shaft in place and against tilt: four degrees of freedom.
 
     It goes into `rotor_equilibrium`, `rotor_modes`, `campbell`, `critical_speeds`, `unbalance_response` and
@@ -555,7 +555,7 @@ class TiltingBalls:
     >>> single = BallBearing(
     ...     balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=0.4363
     ... )
-    >>> held = TiltingBalls(bearing=back_to_back(single, distance=0.02, preload=150.0))
+    >>> held = MomentCarryingBalls(bearing=back_to_back(single, distance=0.02, preload=150.0))
     >>> held.tilting_coefficients([0.0, 0.0, 0.0, 0.0], 500.0).stiffness.shape
     (4, 4)
     """

@@ -21,7 +21,7 @@ from .ball_element import BallElement, require_balls
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TurningBalls(Called):
+class VariableComplianceBalls(Called):
     """A ball bearing, or a pair, with the angles of cage and shaft as states: a Reaction and a Dynamic.
 
     The cage turns with a fixed share of the speed; waves of the inner ring turn with the shaft. The force
@@ -46,7 +46,7 @@ class TurningBalls(Called):
     >>> bearing = BallBearing(
     ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6
     ... )
-    >>> round(TurningBalls(bearing=bearing).ratio, 4)
+    >>> round(VariableComplianceBalls(bearing=bearing).ratio, 4)
     0.3965
     """
 

@@ -129,7 +129,7 @@ class BallElement(KernelReaction, ABC):
         return self._loads(self._at(displacement, speed))
 
     @arguments
-    def rest(self, load: ArrayLike, speed: float = 0.0, *, start: ArrayLike | None = None) -> BallRest:
+    def rest(self, load: ArrayLike, speed: float = 0.0, *, start: ArrayLike | None = None) -> BallEquilibrium:
         """Return the equilibrium under a load in five degrees: wrench + load = 0.
 
         Parameters
@@ -171,7 +171,7 @@ class BallElement(KernelReaction, ABC):
                 f"load must press the balls on the shoulders of their rings, got {load.tolist()} (N, N m), "
                 f"under which the contact angles reach {balls.outer_angle.min():.3g} rad"
             )
-        return BallRest(
+        return BallEquilibrium(
             displacement=found.motion,
             external_load=load,
             speed=speed,
@@ -466,7 +466,7 @@ class BallLoads(Readable):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallRest(Readable):
+class BallEquilibrium(Readable):
     """A shaft at rest in its ball bearings under a load in five degrees.
 
     Attributes

@@ -39,7 +39,7 @@ from ..contact import (
 )
 from ..formulas import Ellipse, HamrockDowson
 from .ball_bearing import BallBearing, BearingPair
-from .ball_element import BallElement, BallLoads, BallRest, EllipticContact, require_balls
+from .ball_element import BallElement, BallEquilibrium, BallLoads, EllipticContact, require_balls
 
 USUAL_ELLIPTICITY = 4.0
 """Of the law that serves every race: from here on the relative stiffness hardly depends on it."""
@@ -380,7 +380,7 @@ class LubricatedBalls:
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-    rest : BallRest
+    rest : BallEquilibrium
         About which the films are linear.
     A, B, C, D : ndarray
         State space of one ball: what its films add to the force [N] over the approach of its grooves [m].
@@ -396,7 +396,7 @@ class LubricatedBalls:
     """
 
     bearing: BallElement
-    rest: BallRest
+    rest: BallEquilibrium
     A: Array
     B: Array
     C: Array
@@ -406,7 +406,7 @@ class LubricatedBalls:
 
     def __post_init__(self) -> None:
         require_balls(self.bearing)
-        require_kind("rest", self.rest, BallRest, "a BallRest of the bearing")
+        require_kind("rest", self.rest, BallEquilibrium, "a BallEquilibrium of the bearing")
         if np.shape(self.shares) != (len(self._moves),):
             raise InputError(f"shares must be one of each ball, got shape {np.shape(self.shares)}")
         require_state_space(self.A, self.B, self.C, self.D)
@@ -551,7 +551,7 @@ class _Balls(NamedTuple):
 @arguments
 def lubricated_balls(
     bearing: BallElement,
-    rest: BallRest,
+    rest: BallEquilibrium,
     *,
     viscosity: float,
     pressure_coefficient: float,
@@ -566,7 +566,7 @@ def lubricated_balls(
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-    rest : BallRest
+    rest : BallEquilibrium
         From `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
         At ambient pressure and the temperature of the races.
@@ -627,7 +627,7 @@ class FilmDamping(Readable):
 @arguments
 def film_damping(
     bearing: BallElement,
-    rest: BallRest,
+    rest: BallEquilibrium,
     *,
     viscosity: float,
     pressure_coefficient: float,
@@ -641,7 +641,7 @@ def film_damping(
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-    rest : BallRest
+    rest : BallEquilibrium
         From `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
         At ambient pressure and the temperature of the races.
@@ -683,11 +683,11 @@ def film_damping(
 
 
 def films_at(
-    bearing: BallElement, rest: BallRest, viscosity: float, pressure_coefficient: float
+    bearing: BallElement, rest: BallEquilibrium, viscosity: float, pressure_coefficient: float
 ) -> tuple[RaceFilm, RaceFilm]:
     """Return the inner and the outer film of the most loaded ball."""
     require_balls(bearing)
-    require_kind("rest", rest, BallRest, "a BallRest of the bearing")
+    require_kind("rest", rest, BallEquilibrium, "a BallEquilibrium of the bearing")
     single = bearing.bearing if isinstance(bearing, BearingPair) else bearing
     assert isinstance(single, BallBearing)
     load = float(np.max(rest.balls.inner_load))
@@ -707,7 +707,7 @@ def films_at(
     )
 
 
-def ball_blocks(bearing: BallElement, rest: BallRest, films: tuple[RaceFilm, RaceFilm]) -> Array:
+def ball_blocks(bearing: BallElement, rest: BallEquilibrium, films: tuple[RaceFilm, RaceFilm]) -> Array:
     """Return the damping of each ball over the (axial, radial) motion of its inner groove, (balls, 2, 2)."""
     slow = films[0].slow_damping, films[1].slow_damping
     return np.array(
@@ -735,7 +735,7 @@ def ball_moves(rows: Array) -> Array:
     return np.concatenate(moves)
 
 
-def _passed_on(bearing: BallElement, rest: BallRest) -> Iterator[tuple[Array, Array]]:
+def _passed_on(bearing: BallElement, rest: BallEquilibrium) -> Iterator[tuple[Array, Array]]:
     """Yield the approaches of inner and outer contact of each ball per motion of its inner groove, (2,)."""
     balls, still = rest.balls, np.zeros(2)
     counts = bearing.rows[:, ROW.index("count")].astype(int)

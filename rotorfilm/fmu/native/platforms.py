@@ -257,7 +257,7 @@ def host_libraries(folder: str, identifier: str) -> list[Path]:
     return [path for path in found if path.is_file()]
 
 
-def require_whole(path: Path) -> None:
+def require_complete_file(path: Path) -> None:
     """Raise unless a library has all the bytes that its headers speak of.
 
     Raises

@@ -8,10 +8,15 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.bush.bearing import BushGeometry, Friction, LinerMaterial, MeltingBush
-from rotorfilm.bearings.bush.melting import ApproximateShaft, ExactShaft, GlobalBalance
-from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.core.errors import InputError
+from rotorfilm import Friction, InputError, MeltingBush
+from rotorfilm.bearings import (
+    ApproximateShaft,
+    BushGeometry,
+    ExactShaft,
+    GlobalBalance,
+    LinerMaterial,
+    f4k20_bush,
+)
 
 BUSH = f4k20_bush()
 PUBLISHED = replace(BUSH, shaft_heat=ApproximateShaft())

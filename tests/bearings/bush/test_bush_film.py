@@ -8,9 +8,9 @@ import pytest
 from families.bush_truth import finite_volume_flux
 from hypothesis import given, strategies as st
 
+from rotorfilm import ValidityWarning
+from rotorfilm.bearings import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
 from rotorfilm.bearings.bush import contact_arc as contact, melting as bush_shaft
-from rotorfilm.bearings.bush.melting import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
-from rotorfilm.core.errors import ValidityWarning
 
 ANGLES = [1e-6, 1e-3, 0.1, 0.3, 0.499999, 0.5, 0.500001, 0.8, 1.2, 1.55]
 

@@ -9,15 +9,16 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from rotorfilm.bearings.bush import BushWear, f4k20_bush
-from rotorfilm.bearings.bush.melting import ApproximateShaft, GlobalBalance
-from rotorfilm.bearings.bush.wear_at_nodes import (
+from rotorfilm.bearings import (
+    ApproximateShaft,
+    GlobalBalance,
     Stage,
     Wearing,
     end_of_wear,
     wear_by_one_moment,
     wear_by_two_moments,
 )
+from rotorfilm.bearings.bush import BushWear, f4k20_bush
 
 BUSH = f4k20_bush()
 HEAT = 1e8

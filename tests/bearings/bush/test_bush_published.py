@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotorfilm import ConvergenceError, InputError
+from rotorfilm.bearings import ApproximateShaft
 from rotorfilm.bearings.bush import f4k20_bush, published_stage
-from rotorfilm.bearings.bush.melting import ApproximateShaft
-from rotorfilm.core.errors import ConvergenceError, InputError
 
 BUSH = replace(f4k20_bush(), shaft_heat=ApproximateShaft())
 LOAD = 3750.0

@@ -11,15 +11,20 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
+from rotorfilm import (
+    BushReaction,
+    BushWear,
+    ConvergenceError,
+    Dynamic,
+    FilmContactError,
+    InputError,
+    Reaction,
+    ValidityWarning,
+)
 from rotorfilm.analysis import OperatingPoint, coefficients, equilibrium, linearize
-from rotorfilm.bearings.bush.bush_reaction import BushReaction, LocalMelting, Melting, SharedMelting
-from rotorfilm.bearings.bush.bush_wear import BushWear
-from rotorfilm.bearings.bush.contact_arc import mean_weight
-from rotorfilm.bearings.bush.melting import GlobalBalance
-from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
-from rotorfilm.core.model import Dynamic, Reaction, Switched
-from rotorfilm.core.signals import names
+from rotorfilm.bearings import GlobalBalance, LocalMelting, SharedMelting, f4k20_bush, mean_weight
+from rotorfilm.bearings.bush.bush_reaction import Melting
+from rotorfilm.core import Switched, names
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:friction must cover the losses of a worn contact:rotorfilm.core.errors.ValidityWarning"

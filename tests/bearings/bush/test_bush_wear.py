@@ -11,17 +11,28 @@ from hypothesis import given, settings, strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotorfilm import (
+    BushReaction,
+    BushWear,
+    ConvergenceError,
+    Dynamic,
+    FilmContactError,
+    Friction,
+    InputError,
+    ValidityWarning,
+)
 from rotorfilm.analysis import OperatingPoint, linearize
-from rotorfilm.bearings.bush.bearing import Friction
-from rotorfilm.bearings.bush.bush_reaction import BushReaction, SharedMelting
-from rotorfilm.bearings.bush.bush_wear import BushWear
-from rotorfilm.bearings.bush.melting import GlobalBalance
-from rotorfilm.bearings.bush.published_bush import f4k20_bush
-from rotorfilm.bearings.bush.wear_at_nodes import Stage, Wearing, wear_at_nodes, wear_by_one_moment
-from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
-from rotorfilm.core.model import Dynamic, Switched
-from rotorfilm.core.signals import names
-from rotorfilm.fmu.reference import advance
+from rotorfilm.bearings import (
+    GlobalBalance,
+    SharedMelting,
+    Stage,
+    Wearing,
+    f4k20_bush,
+    wear_at_nodes,
+    wear_by_one_moment,
+)
+from rotorfilm.core import Switched, names
+from rotorfilm.fmu import advance
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:load and speed must keep a worn contact:rotorfilm.core.errors.ValidityWarning"

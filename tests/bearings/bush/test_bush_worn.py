@@ -6,17 +6,19 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from rotorfilm.bearings.bush import BushReaction, f4k20_bush
-from rotorfilm.bearings.bush.bush_reaction import LocalMelting, SharedMelting, arc_nodes
-from rotorfilm.bearings.bush.wear_at_nodes import (
+from rotorfilm import ConvergenceError
+from rotorfilm.bearings import (
+    LocalMelting,
+    SharedMelting,
     Stage,
     Wearing,
     end_of_local_wear,
-    settle_along,
     wear_at_nodes,
     wear_by_two_moments,
 )
-from rotorfilm.core.errors import ConvergenceError
+from rotorfilm.bearings.bush import BushReaction, f4k20_bush
+from rotorfilm.bearings.bush.bush_reaction import arc_nodes
+from rotorfilm.bearings.bush.wear_at_nodes import settle_along
 
 BUSH = f4k20_bush()
 HEAT = 1e8

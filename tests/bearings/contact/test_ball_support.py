@@ -11,9 +11,11 @@ from rotorfilm import (
     BallSupport,
     ContactLaw,
     Disk,
+    Dynamic,
     ElasticMaterial,
     InputError,
     LinearBearing,
+    Reaction,
     RigidRotor,
     ShaftElement,
     ShaftRotor,
@@ -25,7 +27,7 @@ from rotorfilm import (
     mount,
     simulate,
 )
-from rotorfilm.core.model import Dynamic, Reaction, Switched
+from rotorfilm.core import Switched
 
 ANGLES = (math.radians(-135), math.radians(-90), math.radians(-45), math.radians(90))
 

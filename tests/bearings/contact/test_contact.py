@@ -7,24 +7,20 @@ import pytest
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 from scipy.io import netcdf_file
 
-from rotorfilm import (
+from rotorfilm import ContactGrid, ConvergenceError, InputError, PointContact, ValidityWarning
+from rotorfilm.bearings import (
     AdaptiveSteps,
-    ContactGrid,
-    ConvergenceError,
     FixedSteps,
-    InputError,
-    PointContact,
     SineLoad,
+    SmallMotion,
     StaggeredScheme,
     StepLoad,
     UpwindScheme,
-    ValidityWarning,
     perturbed,
 )
 from rotorfilm.bearings.contact import contact_steps as contact_files
 from rotorfilm.bearings.contact.contact_steps import derivative_weights, extrapolation_weights
 from rotorfilm.bearings.contact.film_equations import TimeDerivative
-from rotorfilm.bearings.contact.stationary import SmallMotion
 
 
 def contact(cells=32, V=0.1, Q0=5.0, **change):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
+from rotorfilm import InputError
 from rotorfilm.bearings.contact import (
     BarusViscosity,
     ContactGrid,
@@ -15,7 +16,6 @@ from rotorfilm.bearings.contact import (
 from rotorfilm.bearings.contact.contact_grid import cell_deflection
 from rotorfilm.bearings.contact.film_equations import ContactEquations, TimeDerivative
 from rotorfilm.bearings.contact.stationary import dry_contact, stationary
-from rotorfilm.core.errors import InputError
 
 SCHEMES = (StaggeredScheme(), UpwindScheme())
 SMALL = ContactGrid(cells=(12, 8))

@@ -9,23 +9,20 @@ from scipy.interpolate import CubicSpline
 from rotorfilm import (
     ContactGrid,
     ConvergenceError,
-    FixedSteps,
+    Dynamic,
     InputError,
+    Linearization,
     PointContact,
     RollingBall,
-    SineLoad,
-    StepLoad,
     ValidityWarning,
     linearize,
     reduce_ball,
     reduce_contact,
-    ride,
 )
 from rotorfilm.analysis import OperatingPoint
+from rotorfilm.bearings import HERTZ_LOAD, FixedSteps, SineLoad, SmallMotion, StepLoad, ball_transient
 from rotorfilm.bearings.contact.contact_law import fit_static_law, transfer
 from rotorfilm.bearings.contact.reduction import fit_transfer
-from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, SmallMotion
-from rotorfilm.core.model import Dynamic, Linearization
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -113,7 +110,7 @@ def test_law_is_a_dynamic_model_with_exact_derivatives(law):
 def test_forced_motion_is_that_of_the_full_model(law, resting):
     load = SineLoad(amplitude=0.5, frequency=2.0)
     full = CONTACT.simulate(resting, duration=12.0, W=1.0, load=load, control=FixedSteps(step=0.05))
-    reduced = ride(
+    reduced = ball_transient(
         law, mass=1.0 / HERTZ_LOAD, load=load, start=resting.delta, duration=12.0, samples=full.time.size
     )
     error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
@@ -132,7 +129,9 @@ def test_ride_integrates_the_law(law, load):
     options = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.02}
     exact = solve_ivp(rate, (0.0, 6.0), begin, **options).y[:, -1]
     for rtol in (1e-4, 1e-8):
-        motion = ride(law, mass=0.4, load=load, start=law.operating, duration=6.0, samples=333, rtol=rtol)
+        motion = ball_transient(
+            law, mass=0.4, load=load, start=law.operating, duration=6.0, samples=333, rtol=rtol
+        )
         assert motion["z"][-1] == pytest.approx(exact[0], abs=2.0 * max(rtol, 1e-8))
         assert motion["force_z"][-1] == pytest.approx(law.output(6.0, exact[2:], exact[:1])[0], rel=1e-3)
     smooth = CubicSpline(motion.time, motion["z"])
@@ -146,7 +145,7 @@ def test_ride_integrates_the_law(law, load):
 def test_ball_that_has_left_falls_freely(law):
     load = StepLoad(amplitude=-1.8, start=0.5)
     with pytest.warns(ValidityWarning, match=r"force must stay within 0\.2 and 3, .* got 0 to "):
-        motion = ride(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
+        motion = ball_transient(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
     away = motion["z"] > law.offset + 1.0
     assert away.sum() > 20
     slope = np.polyfit(motion.time[away], motion["vz"][away], 1)[0]
@@ -157,7 +156,7 @@ def test_ball_that_has_left_falls_freely(law):
 def test_ride_says_when_a_motion_does_not_settle(law):
     rng = np.random.default_rng(0)
     with pytest.raises(ConvergenceError, match=r"halving the steps must settle the motion to 1\.0e-12"):
-        ride(
+        ball_transient(
             law, mass=0.4, load=lambda t: rng.normal(), start=law.operating, duration=0.05, samples=5,
             rtol=1e-12,
         )  # fmt: skip
@@ -174,10 +173,10 @@ def test_law_of_a_ball_is_the_dimensionless_one_in_si():
     z = bare.operating * ball.film_scale
     assert si.output(0.0, np.zeros(3), [z])[0] == pytest.approx(ball.load, rel=5e-3)
     motions = [
-        ride(
+        ball_transient(
             bare, mass=ball.W / HERTZ_LOAD, load=lambda t: 1.1, start=bare.operating, duration=5.0, rtol=1e-8
         ),
-        ride(
+        ball_transient(
             si,
             mass=ball.mass,
             load=lambda t: 1.1 * ball.load,
@@ -208,7 +207,7 @@ def test_a_bounce_is_that_of_the_full_film(law, resting):
     load = StepLoad(amplitude=-1.2, start=1.0, end=2.5)
     full = CONTACT.simulate(resting, duration=8.0, W=1.0, load=load, control=FixedSteps(step=0.05))
     assert full.delta.max() > 1.0  # it leaves
-    reduced = ride(
+    reduced = ball_transient(
         law, mass=1.0 / HERTZ_LOAD, load=load, start=resting.delta, duration=8.0, samples=full.time.size
     )
     error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
@@ -222,7 +221,7 @@ def test_a_motion_beyond_the_loads_of_the_law_is_said_and_better_on_a_law_about_
 
     def miss(law):
         options = {"mass": 1.0 / HERTZ_LOAD, "load": load, "start": resting.delta, "duration": 10.0}
-        motion = ride(law, **options, samples=full.time.size)
+        motion = ball_transient(law, **options, samples=full.time.size)
         error = np.interp(full.time, motion.time, motion["z"]) - full.delta
         return np.sqrt(np.mean(error**2) / np.mean((full.delta - full.delta.mean()) ** 2))
 

@@ -6,16 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import (
-    BarusViscosity,
-    ContactGrid,
-    DowsonHigginsonDensity,
-    InputError,
-    PointContact,
-    RoelandsViscosity,
-    interpolate_contact,
-    reduce_contact,
-)
+from rotorfilm import ContactGrid, InputError, Linearization, PointContact, reduce_contact
+from rotorfilm.bearings import BarusViscosity, DowsonHigginsonDensity, RoelandsViscosity, interpolate_contact
 from rotorfilm.bearings.contact import contact_law as contact_points
 from rotorfilm.bearings.contact.contact_law import (
     FREQUENCIES,
@@ -24,7 +16,6 @@ from rotorfilm.bearings.contact.contact_law import (
     transfer,
     under_load,
 )
-from rotorfilm.core.model import Linearization
 
 GRID = ContactGrid(cells=(20, 20))
 

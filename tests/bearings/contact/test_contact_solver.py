@@ -5,15 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from rotorfilm import (
-    ContactGrid,
-    ConvergenceError,
-    FixedSteps,
-    PointContact,
-    SineLoad,
-    StaggeredScheme,
-    UpwindScheme,
-)
+from rotorfilm import ContactGrid, ConvergenceError, PointContact
+from rotorfilm.bearings import HERTZ_LOAD, FixedSteps, SineLoad, StaggeredScheme, UpwindScheme
 from rotorfilm.bearings.contact import film_newton as coarse_correction
 from rotorfilm.bearings.contact.film_equations import TimeDerivative
 from rotorfilm.bearings.contact.film_newton import (
@@ -28,7 +21,7 @@ from rotorfilm.bearings.contact.film_newton import (
     restricted,
     settled_edge,
 )
-from rotorfilm.bearings.contact.stationary import HERTZ_LOAD, stationary, thinnest_speed
+from rotorfilm.bearings.contact.stationary import stationary, thinnest_speed
 
 
 def contact(cells, V=0.1, Q0=5.0, scheme=None):

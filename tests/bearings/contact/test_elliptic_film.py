@@ -6,18 +6,17 @@ import numpy as np
 import pytest
 from scipy import integrate, sparse
 
-from rotorfilm import (
-    ContactGrid,
+from rotorfilm import ContactGrid, InputError, PointContact
+from rotorfilm.bearings import (
     EllipticContact,
     FixedSteps,
-    InputError,
-    PointContact,
     RoelandsViscosity,
+    SmallMotion,
     StaggeredScheme,
     UpwindScheme,
 )
 from rotorfilm.bearings.contact.contact_law import under_load
-from rotorfilm.bearings.contact.stationary import SmallMotion, dry_contact
+from rotorfilm.bearings.contact.stationary import dry_contact
 from rotorfilm.bearings.formulas import CIRCLE, Ellipse
 
 SCHEMES = [UpwindScheme(), StaggeredScheme()]

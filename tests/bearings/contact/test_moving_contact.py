@@ -3,17 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm import (
-    ContactGrid,
-    ConvergenceError,
-    FixedSteps,
-    InputError,
-    MovingContact,
-    PointContact,
-    RollingBall,
-    Stepped,
-    moving_contact,
-)
+from rotorfilm import ContactGrid, ConvergenceError, InputError, PointContact, RollingBall, Stepped
+from rotorfilm.bearings import FixedSteps, MovingContact, moving_contact
 from rotorfilm.bearings.contact.contact_steps import Stepper
 
 CONTACT = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(20, 20)))

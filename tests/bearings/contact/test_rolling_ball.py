@@ -5,7 +5,8 @@ import math
 import pytest
 
 from rotorfilm import ContactGrid, InputError, RollingBall
-from rotorfilm.bearings.contact.point_contact import Moes, hamrock_dowson, moes_parameters
+from rotorfilm.bearings import moes_parameters
+from rotorfilm.bearings.contact.point_contact import Moes, hamrock_dowson
 
 BALL = RollingBall(
     radius=0.01,

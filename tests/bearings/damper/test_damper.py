@@ -9,19 +9,20 @@ from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
-    AxialFeed,
+    FilmContactError,
     FiniteSqueeze,
+    FullFilm,
+    InputError,
+    Model,
     PorousCage,
     PorousDamper,
-    PublishedSqueeze,
     RadialFeed,
+    Reaction,
     Sprung,
-    damper_groups,
+    ValidityWarning,
 )
+from rotorfilm.bearings import AxialFeed, Complementarity, PublishedSqueeze, damper_groups
 from rotorfilm.bearings.damper.squeeze_films import mean_permeability
-from rotorfilm.bearings.films.geometry import Complementarity, FullFilm
-from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
-from rotorfilm.core.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 0.01}
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)

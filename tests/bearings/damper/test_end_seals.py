@@ -8,9 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
+from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings.damper.squeeze_inertia import film_impedance
 from rotorfilm.bearings.damper.squeeze_laws import squeeze_motions
-from rotorfilm.core.errors import InputError, ValidityWarning
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
 FULL = rf.FullFilm()
@@ -18,11 +18,13 @@ AT_100_HZ = 200.0 * math.pi
 
 
 def land(length=25.4e-3, clearance=0.127e-3):
-    return rf.FilmSegment(length=length, clearance=clearance)
+    return rf.bearings.FilmSegment(length=length, clearance=clearance)
 
 
 def damper_of(*segments, seals=None):
-    return rf.SegmentedDamper(radius=63.5e-3, segments=segments, viscosity=2.5e-3, density=800.0, seals=seals)
+    return rf.bearings.SegmentedDamper(
+        radius=63.5e-3, segments=segments, viscosity=2.5e-3, density=800.0, seals=seals
+    )
 
 
 @pytest.mark.literature
@@ -43,7 +45,7 @@ def test_open_film_is_that_of_the_axial_series():
     assert_allclose(leaking.force(q, v), series.force(q, v), rtol=1e-5)
 
 
-@pytest.mark.parametrize("extent", [FULL, rf.HalfSommerfeld()])
+@pytest.mark.parametrize("extent", [FULL, rf.bearings.HalfSommerfeld()])
 def test_short_film_between_leaking_seals(extent):
     # The finite film, and a quadrature of the end pressure -h_t L/(2 G_s) over the film that is filled.
     shape = {"radius": 0.5, "length": 0.02, "clearance": 1e-4, "viscosity": 0.01, "extent": extent}
@@ -124,8 +126,8 @@ def test_impedance_has_no_step_where_its_series_begins():
 
 
 def test_leakage_of_a_gap_and_of_a_leak_test():
-    assert_allclose(rf.gap_seal(height=5e-5, length=2e-3, viscosity=2.5e-3).leakage, 5e-5**3 / 6e-5)
-    found = rf.leak_test_seal(flow=1e-6, pressure=2e5, radius=0.05, uncertainty=0.3)
+    assert_allclose(rf.bearings.gap_seal(height=5e-5, length=2e-3, viscosity=2.5e-3).leakage, 5e-5**3 / 6e-5)
+    found = rf.bearings.leak_test_seal(flow=1e-6, pressure=2e5, radius=0.05, uncertainty=0.3)
     assert_allclose(found.leakage, 1e-6 / (2.0 * math.pi * 0.05 * 2e5))
     low, high = found.bounds
     assert_allclose([low.leakage, high.leakage], [0.7 * found.leakage, 1.3 * found.leakage])
@@ -133,13 +135,13 @@ def test_leakage_of_a_gap_and_of_a_leak_test():
 
 def test_air_takes_damping_and_mass():
     damper = rf.SqueezeFilmDamper(**SIZE, density=800.0, extent=FULL)
-    found, bare = rf.aerated_damper(damper, 0.3).small_motion(0.0), damper.small_motion(0.0)
+    found, bare = rf.bearings.aerated_damper(damper, 0.3).small_motion(0.0), damper.small_motion(0.0)
     ratio = [found.damping / bare.damping, found.added_mass / bare.added_mass]
     assert_allclose(ratio, 0.7, rtol=1e-9)
-    given = rf.feed_squeeze_number(damper, flow=1e-5, amplitude=5e-5, frequency=500.0)
+    given = rf.bearings.feed_squeeze_number(damper, flow=1e-5, amplitude=5e-5, frequency=500.0)
     assert_allclose(given, 1e-5 / (math.pi * 0.127 * 25.4e-3 * 5e-5 * 500.0))
     with pytest.raises(InputError, match=r"air_fraction must be below 1, got 1\.0"):
-        rf.aerated_damper(damper, 1.0)
+        rf.bearings.aerated_damper(damper, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +150,7 @@ def test_air_takes_damping_and_mass():
         (lambda: rf.EndSeal(leakage=-1.0), "leakage must"),
         (lambda: rf.EndSeal(leakage=math.inf), "leakage must"),
         (lambda: rf.EndSeal(leakage=1e-10, uncertainty=1.0), "uncertainty must be below 1"),
-        (lambda: rf.gap_seal(height=0.0, length=1.0, viscosity=1.0), "height must be"),
+        (lambda: rf.bearings.gap_seal(height=0.0, length=1.0, viscosity=1.0), "height must be"),
         (
             lambda: rf.SqueezeFilmDamper(**SIZE, seals=rf.EndSeal(leakage=0.0)),
             "leakage of seals must be positive",

@@ -7,8 +7,8 @@ from scipy.sparse import diags, eye, kron
 from scipy.sparse.linalg import spsolve
 
 import rotorfilm as rf
+from rotorfilm import InputError
 from rotorfilm.bearings.damper.squeeze_inertia import film_impedance
-from rotorfilm.core.errors import InputError
 
 R, C, MU, RHO, G = 0.05, 1e-4, 5e-3, 850.0, 2e-11
 AROUND, ALONG = 144, 11
@@ -59,7 +59,7 @@ def by_volumes(leakage, nodes, frequency):
 def test_impedance_is_that_of_finite_volumes(seals, nodes):
     w = 2000.0
     right, bare = (by_volumes(LEAKS[seals], places, w) for places in (nodes, ()))
-    found = rf.hole_small_motion(film(seals), holes(*nodes), conductance=G, frequency=w)
+    found = rf.bearings.hole_small_motion(film(seals), holes(*nodes), conductance=G, frequency=w)
     own = film(seals).small_motion(w)
     impedance = found.damping + 1j * w * found.added_mass
     taken = (own.damping + 1j * w * own.added_mass) * np.eye(2) - impedance
@@ -73,7 +73,7 @@ def test_many_holes_are_a_line_that_leaks():
     # narrowing of the flow, log(2 sin(rim N/2)) of N holes in the circle.
     n, w, damper = 60, 0.0, film("open", length=0.05, density=0.0)
     spread = tuple(rf.FeedHole(center=2.0 * np.pi * k / n, diameter=4e-4) for k in range(n))
-    found = rf.hole_small_motion(damper, spread, conductance=G, frequency=w)
+    found = rf.bearings.hole_small_motion(damper, spread, conductance=G, frequency=w)
     Z, s = 12.0 * MU / C**2, 0.5
     own = -Z / C / (2.0 * np.pi) * np.log(2.0 * np.sin(0.5 * n * 2e-4 / R))
     line = n / (2.0 * np.pi) * Z / C / (1.0 / G + own)
@@ -88,7 +88,7 @@ def test_many_holes_are_a_line_that_leaks():
 
 def test_one_hole_between_tight_seals_moves_no_oil():
     damper = film("tight")
-    found = rf.hole_small_motion(damper, holes(7), conductance=G, frequency=100.0)
+    found = rf.bearings.hole_small_motion(damper, holes(7), conductance=G, frequency=100.0)
     own = damper.small_motion(100.0)
     assert_allclose(found.damping, own.damping * np.eye(2), atol=1e-9 * own.damping)
     assert_allclose(found.added_mass, own.added_mass * np.eye(2), atol=1e-9 * own.added_mass)
@@ -112,4 +112,4 @@ def test_what_it_refuses(changes, rule):
     given = {"damper": film("open"), "holes": holes(3), "conductance": G, "frequency": 10.0} | changes
     damper, places = given.pop("damper"), given.pop("holes")
     with pytest.raises(InputError, match=rule):
-        rf.hole_small_motion(damper, places, **given)
+        rf.bearings.hole_small_motion(damper, places, **given)

@@ -9,8 +9,8 @@ from families.built_truth import Place
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
+from rotorfilm import FilmContactError, InputError, ValidityWarning
 from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia, squeeze_motions
-from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
 
 ROOT = Path(__file__).parents[3]
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
@@ -127,7 +127,7 @@ def test_small_motion_is_that_of_the_film(seals):
 
 def dampers():
     sealed = {"film": rf.FiniteSqueeze(), "seals": rf.EndSeal(leakage=1e-10)}
-    for change in ({"extent": FULL}, {}, {"extent": FULL, **sealed}, {"film": rf.MapSqueeze()}):
+    for change in ({"extent": FULL}, {}, {"extent": FULL, **sealed}, {"film": rf.bearings.MapSqueeze()}):
         yield rf.SqueezeFilmDamper(**SIZE, density=OIL, **change)
 
 
@@ -156,7 +156,7 @@ def test_without_density_nothing_changes():
     assert_allclose(damper.force(q, v), rf.PorousDamper(**SIZE).force(q, v), rtol=0.0)
     assert not damper.mass(q, v).any()
     assert [signal.name for signal in damper.outputs] == ["force_x", "force_y"]
-    assert rf.SqueezeFilmDamper(**SIZE, film=rf.MapSqueeze()).native() is not None
+    assert rf.SqueezeFilmDamper(**SIZE, film=rf.bearings.MapSqueeze()).native() is not None
 
 
 def test_the_range_of_the_inertia_is_told():
@@ -180,7 +180,10 @@ def test_the_range_of_the_inertia_is_told():
             {"density": OIL, "cage": rf.PorousCage(thickness=2e-3, permeability=1e-14)},
             "density must be left out",
         ),
-        ({"density": OIL, "extent": FULL, "film": rf.PublishedSqueeze()}, "density must be 0 for Published"),
+        (
+            {"density": OIL, "extent": FULL, "film": rf.bearings.PublishedSqueeze()},
+            "density must be 0 for Published",
+        ),
     ],
 )
 def test_what_has_no_inertia_is_refused(change, text):

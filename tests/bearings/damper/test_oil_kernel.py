@@ -7,15 +7,15 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.analysis.compiled_rotor import heavy_call
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError
+from rotorfilm.analysis.compiled_rotor import call_with_added_mass
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
 FULL = rf.FullFilm()
 CASES = {
-    "ruptured": {"film": rf.MapSqueeze(), "density": 800.0},
-    "full": {"film": rf.MapSqueeze(), "density": 800.0, "extent": FULL},
-    "leaking": {"film": rf.MapSqueeze(), "density": 800.0, "seals": rf.EndSeal(leakage=1e-8)},
+    "ruptured": {"film": rf.bearings.MapSqueeze(), "density": 800.0},
+    "full": {"film": rf.bearings.MapSqueeze(), "density": 800.0, "extent": FULL},
+    "leaking": {"film": rf.bearings.MapSqueeze(), "density": 800.0, "seals": rf.EndSeal(leakage=1e-8)},
     "finite": {"film": rf.FiniteSqueeze(), "density": 800.0, "extent": FULL},
     "sealed": {
         "film": rf.FiniteSqueeze(),
@@ -52,4 +52,4 @@ def test_kernel_is_the_python_film(name):
 
 def test_inertia_without_a_kernel_is_refused_by_loops_in_c():
     with pytest.raises(InputError, match="reaction must have its added mass in C"):
-        heavy_call(rf.SqueezeFilmDamper(**SIZE, density=800.0, extent=FULL))
+        call_with_added_mass(rf.SqueezeFilmDamper(**SIZE, density=800.0, extent=FULL))

@@ -11,6 +11,8 @@ from scipy.integrate import quad, solve_ivp
 from scipy.sparse import diags_array, kron
 from scipy.sparse.linalg import spsolve
 
+from rotorfilm import UndefinedDerivativeError, ValidityWarning
+from rotorfilm.bearings import layer_modes
 from rotorfilm.bearings.damper.squeeze_films import (
     CavitatedSqueezeFilm,
     ClippedSqueezeFilm,
@@ -20,11 +22,9 @@ from rotorfilm.bearings.damper.squeeze_films import (
     axial_numbers,
     axial_shapes,
     circle_integrals,
-    layer_modes,
     leakage,
 )
 from rotorfilm.bearings.damper.squeeze_laws import parabola_mean
-from rotorfilm.core.errors import UndefinedDerivativeError, ValidityWarning
 
 SEALED = PorousLayer(
     permeability_number=0.01, grading=0.5, thickness_ratio=0.1, anisotropy=1.0, vented=False, thin=False
@@ -330,7 +330,7 @@ def test_finite_film_becomes_short(layer):
 
 
 def test_finite_film_equals_the_two_dimensional_reynolds_film():
-    from rotorfilm.bearings.films.geometry import FullFilm
+    from rotorfilm import FullFilm
     from rotorfilm.bearings.journal import ReynoldsFilm
 
     # A film is fed by w = v/c: the same source, in units of viscosity length radius^3 / clearance^2.

@@ -8,24 +8,27 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
+    ConvergenceError,
     FiniteMapSqueeze,
     FiniteSqueeze,
+    FullFilm,
+    InputError,
     JournalBearing,
     MapFilm,
-    MapSqueeze,
     PorousCage,
     PorousDamper,
     RadialFeed,
     RigidRotor,
     ShortSqueeze,
     Sprung,
+    UndefinedDerivativeError,
+    ValidityWarning,
     synchronous_orbits,
 )
+from rotorfilm.bearings import HalfSommerfeld, MapSqueeze, layer_modes
 from rotorfilm.bearings.damper import squeeze_map as squeeze_potential, squeeze_map as squeeze_table
-from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, PorousLayer, layer_modes
+from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, PorousLayer
 from rotorfilm.bearings.damper.squeeze_map import CavitatedPotential
-from rotorfilm.bearings.films.geometry import FullFilm, HalfSommerfeld
-from rotorfilm.core.errors import ConvergenceError, InputError, UndefinedDerivativeError, ValidityWarning
 
 LAYER = PorousLayer(
     permeability_number=0.01, grading=0.5, thickness_ratio=0.1, anisotropy=1.0, vented=False, thin=False

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
+from rotorfilm import Groove
+from rotorfilm.bearings import FilmGeometry, aligned_openings
 from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
 
 WIDTH = np.radians(20.0)

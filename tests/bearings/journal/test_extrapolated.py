@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from rotorfilm import FullFilm, Groove, InputError
+from rotorfilm.bearings import Complementarity, FilmGeometry, HalfSommerfeld
 from rotorfilm.bearings.films.finite_volumes import richardson
-from rotorfilm.bearings.films.geometry import Complementarity, FilmGeometry, FullFilm, Groove, HalfSommerfeld
 from rotorfilm.bearings.journal import ExtrapolatedFilm, JournalBearing, MapFilm, ReynoldsFilm
-from rotorfilm.core.errors import InputError
 
 E, W = np.array([0.5, 0.2]), np.array([-0.4, 0.6])
 

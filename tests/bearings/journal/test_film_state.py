@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, RegularGridInterpolator
 
+from rotorfilm import FilmContactError, FullFilm, Groove, InputError, Pad
 from rotorfilm.analysis import coefficients, equilibrium
-from rotorfilm.bearings.films.geometry import FullFilm, Groove, Pad
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     JournalBearing,
@@ -17,7 +17,6 @@ from rotorfilm.bearings.journal import (
     SplittingFilm,
     film_state,
 )
-from rotorfilm.core.errors import FilmContactError, InputError
 
 R, c, mu, omega = 0.05, 1e-4, 0.03, 150.0
 FILM = ReynoldsFilm(cells=(128, 12))

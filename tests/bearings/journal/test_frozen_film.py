@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm import Groove, Pad
 from rotorfilm.bearings.films.mass_conserving import Fluidity
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.bearings.journal.film_flow import FrozenFilm, film_cells

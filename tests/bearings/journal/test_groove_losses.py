@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import Cooling, Groove, JournalBearing, Oil, ReynoldsFilm, coefficients, equilibrium
-from rotorfilm.bearings.films.geometry import AlignedOpenings, FilmGeometry, aligned_openings
-from rotorfilm.bearings.films.law import static_rate
+from rotorfilm.bearings import AlignedOpenings, FilmGeometry, aligned_openings, static_rate
 from rotorfilm.bearings.journal import GroovedMapFilm
 from rotorfilm.bearings.journal.groove_map import (
     Resolution,

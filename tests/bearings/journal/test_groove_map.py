@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import Groove, InputError, Pad, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.analysis import coefficients, equilibrium
+from rotorfilm.bearings import Complementarity, FilmGeometry, FilmLaw, aligned_openings
 from rotorfilm.bearings.films.finite_volumes import LONG, RingKernel, richardson, ring_grids, ring_spans
-from rotorfilm.bearings.films.geometry import Complementarity, FilmGeometry, Groove, Pad, aligned_openings
-from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.map_fit import state_errors
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
 from rotorfilm.bearings.journal.groove_map import ORDER, Resolution, build_groove_table, symmetric_nodes
 from rotorfilm.bearings.journal.map.map_film import packaged_table
-from rotorfilm.core.errors import InputError, UndefinedDerivativeError, ValidityWarning
 
 COARSE = {"cells": (32, 4), "nodes": (6, 12, 12)}
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}

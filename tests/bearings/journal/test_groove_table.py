@@ -6,13 +6,13 @@ import os
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
+from rotorfilm import Groove, InputError, RotorfilmError
+from rotorfilm.bearings import FilmGeometry, aligned_openings
 from rotorfilm.bearings.films.map_fit import periodic_quintic, periodic_quintic_coefficients
 from rotorfilm.bearings.films.map_table import cache_folder, cached_table
 from rotorfilm.bearings.journal import GrooveMapTable
 from rotorfilm.bearings.journal.groove_map import CELLS, DIRECTIONS, Resolution
 from rotorfilm.bearings.journal.grooved_film import cache_path
-from rotorfilm.core.errors import InputError, RotorfilmError
 
 GROOVES = (Groove(center=0.1, width=0.2), Groove(center=2.0, width=0.3))
 FINE = Resolution((96, 8), (8, 24, 24), 0.9)

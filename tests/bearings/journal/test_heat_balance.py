@@ -18,8 +18,8 @@ from rotorfilm import (
     ShortFilm,
     coefficients,
     equilibrium,
-    heat_numbers,
 )
+from rotorfilm.bearings import heat_numbers
 from rotorfilm.bearings.oil.heated_bearing import carried_share, effective_flow, flow_slopes
 
 OIL = Oil.iso_vg(100)

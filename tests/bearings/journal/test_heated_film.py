@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from rotorfilm import FilmContactError, Groove, InputError, ValidityWarning
 from rotorfilm.analysis import coefficients, heated_equilibrium
-from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import (
     AdiabaticWalls,
     BushRing,
@@ -18,7 +18,6 @@ from rotorfilm.bearings.journal import (
     ReynoldsFilm,
 )
 from rotorfilm.bearings.oil import Cooling, Oil
-from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
 
 R, c, T_S = 0.05, 75e-6, 318.15
 OMEGA = 100.0 * np.pi

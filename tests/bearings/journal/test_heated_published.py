@@ -6,8 +6,8 @@ import functools
 import numpy as np
 import pytest
 
+from rotorfilm import Groove
 from rotorfilm.analysis import coefficients, heated_equilibrium
-from rotorfilm.bearings.films.geometry import Groove
 from rotorfilm.bearings.journal import (
     BushRing,
     HeatedFilm,

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import FilmContactError, InputError, Model, Reaction, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.bearings.journal import (
     JournalBearing,
     MapFilm,
@@ -12,8 +13,6 @@ from rotorfilm.bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
-from rotorfilm.core.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 bearing = JournalBearing(**DIMENSIONS)

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 import rotorfilm
+from rotorfilm import Groove, InputError, ValidityWarning
+from rotorfilm.bearings import FilmOptions, options
 from rotorfilm.bearings.damper import PorousDamper, ShortSqueeze
 from rotorfilm.bearings.damper.squeeze_laws import SqueezeOptions
-from rotorfilm.bearings.films.geometry import Groove
-from rotorfilm.bearings.films.law import FilmOptions, options
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.core.errors import InputError, ValidityWarning
-from rotorfilm.core.model import largest_eccentricity_ratio
+from rotorfilm.core import largest_eccentricity_ratio
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 STATE = [2e-5, -5e-5], [1e-3, 2e-3], -157.08

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from rotorfilm.bearings.films.map_fit import tabulate_film
+from rotorfilm import FilmContactError, UndefinedDerivativeError
+from rotorfilm.bearings import tabulate_film
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
@@ -15,7 +16,6 @@ from rotorfilm.bearings.journal import (
     SpectralArcFilm,
     SplittingFilm,
 )
-from rotorfilm.core.errors import FilmContactError, UndefinedDerivativeError
 
 CUT = FixedArc(start=0.3, extent=5.9)
 FILMS = {

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from rotorfilm import FilmContactError, FullFilm, Groove, InputError, Pad, RotorfilmError
 from rotorfilm.analysis import equilibrium
-from rotorfilm.bearings.films.geometry import FilmGeometry, FullFilm, Groove, Pad
-from rotorfilm.bearings.films.law import gap_shear
+from rotorfilm.bearings import FilmGeometry, gap_shear
 from rotorfilm.bearings.journal import (
     ExtrapolatedFilm,
     JournalBearing,
@@ -20,7 +20,6 @@ from rotorfilm.bearings.journal import (
 )
 from rotorfilm.bearings.journal.map.map_build import fit_loss_table, node_losses
 from rotorfilm.bearings.journal.map.map_film import LossTable, packaged_losses
-from rotorfilm.core.errors import FilmContactError, InputError, RotorfilmError
 
 R, c, mu, omega = 0.05, 1e-4, 0.02, 100.0
 PLAIN = JournalBearing(radius=R, length=2.0 * R, clearance=c, viscosity=mu)

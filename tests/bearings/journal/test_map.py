@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from rotorfilm import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.analysis import coefficients
-from rotorfilm.bearings.films.law import FilmLaw, FilmOptions, options
-from rotorfilm.bearings.films.map_fit import tabulate_film
+from rotorfilm.bearings import FilmLaw, FilmOptions, options, tabulate_film
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm, SplittingFilm
-from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.native import JournalKernel
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

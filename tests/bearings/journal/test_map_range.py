@@ -5,11 +5,11 @@ import logging
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.map_fit import tabulate_film
+from rotorfilm import InputError, ValidityWarning
+from rotorfilm.bearings import tabulate_film
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm, bearing_table
 from rotorfilm.bearings.journal.map import map_film as own_tables
 from rotorfilm.bearings.journal.map.map_potential import potential
-from rotorfilm.core.errors import InputError, ValidityWarning
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 

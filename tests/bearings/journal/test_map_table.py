@@ -4,15 +4,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, make_interp_spline
 
-from rotorfilm.bearings.films.map_fit import (
-    fit_map_table,
-    node_eccentricities,
-    quintic_coefficients,
-    tabulate_film,
-)
-from rotorfilm.bearings.films.map_table import MapTable, stretch, unstretch
+from rotorfilm import InputError, RotorfilmError
+from rotorfilm.bearings import MapTable, fit_map_table, tabulate_film
+from rotorfilm.bearings.films.map_fit import node_eccentricities, quintic_coefficients
+from rotorfilm.bearings.films.map_table import stretch, unstretch
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
-from rotorfilm.core.errors import InputError, RotorfilmError
 
 SMALL = tabulate_film(ShortFilm(), slenderness_range=(0.1, 4.0), cells=(8, 10, 5))
 

@@ -15,6 +15,7 @@ from rotorfilm import (
     FullFilm,
     Groove,
     HeatedFilm,
+    InputError,
     JournalBearing,
     MapFilm,
     Oil,
@@ -23,9 +24,7 @@ from rotorfilm import (
     ShortFilm,
     equilibrium,
 )
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
-from rotorfilm.bearings.films.law import gap_shear
-from rotorfilm.core.errors import InputError
+from rotorfilm.bearings import FilmGeometry, Pocket, gap_shear
 
 R, L, c, mu, omega = 0.05, 0.06, 1e-4, 0.02, 300.0
 REST = [0.0, 0.0]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from rotorfilm import ConvergenceError, InputError
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.map.map_build import grid_potential, richardson_potential
 from rotorfilm.bearings.journal.map.map_potential import (
@@ -15,7 +16,6 @@ from rotorfilm.bearings.journal.map.map_potential import (
     directed_potential,
     potential,
 )
-from rotorfilm.core.errors import ConvergenceError, InputError
 
 STATES = [(0.3, 0.5), (0.8, 0.2), (0.95, 0.9)]
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.bearings.films.map_table import stretch, unstretch
 from rotorfilm.bearings.journal.map.map_build import (
     FIELDS,
@@ -15,7 +16,6 @@ from rotorfilm.bearings.journal.map.map_build import (
     universal_axes,
 )
 from rotorfilm.bearings.journal.map.map_potential import potential
-from rotorfilm.core.errors import InputError
 
 NODES = Path(__file__).parents[3] / "tools" / "map_nodes.npz"
 

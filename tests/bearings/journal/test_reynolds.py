@@ -8,20 +8,17 @@ from hypothesis import given, settings, strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.films.geometry import (
+from rotorfilm import FilmContactError, FullFilm, Groove, InputError, Pad, UndefinedDerivativeError
+from rotorfilm.bearings import (
     Complementarity,
     FilmGeometry,
-    FreeStart,
-    FullFilm,
-    Groove,
+    FilmLaw,
+    FreeOnset,
     HalfSommerfeld,
-    Pad,
+    MaximumGapOnset,
     Pocket,
-    WidestGap,
 )
-from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.journal import FixedArc, MapFilm, ReynoldsFilm, ShortFilm, SpectralArcFilm
-from rotorfilm.core.errors import FilmContactError, InputError, UndefinedDerivativeError
 
 HALF_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 GROOVES = FilmGeometry(grooves=(Groove(center=0.4, width=0.3), Groove(center=-2.2)), supply=0.1)
@@ -40,7 +37,7 @@ FILMS = {
     "ruptured, pads": ReynoldsFilm(cells=(48, 4), geometry=PADS),
     "ruptured, pockets": ReynoldsFilm(cells=(48, 4), geometry=POCKETS),
     "ruptured, circumferential": ReynoldsFilm(cells=(48, 4), geometry=ALL_ROUND),
-    "ruptured, widest gap": ReynoldsFilm(cells=(48, 4), film_start=WidestGap()),
+    "ruptured, widest gap": ReynoldsFilm(cells=(48, 4), film_start=MaximumGapOnset()),
 }
 films = pytest.mark.parametrize("film", FILMS.values(), ids=FILMS.keys())
 PLAIN = [FILMS[name] for name in ("ruptured", "half", "full")]
@@ -225,7 +222,7 @@ def test_derivatives_in_the_eccentricity_converge_to_differences_of_the_force(fi
         errors[cells] = np.median(np.abs(jacobian - np.stack(slopes, axis=1)).max(axis=(0, 1)) / scale)
     # Edges of the film that begin at a line, or at a corner, jump more.
     bound = (
-        1.0 if film.film_start == FreeStart() and film.geometry in (FilmGeometry(), GROOVES, PADS) else 2.0
+        1.0 if film.film_start == FreeOnset() and film.geometry in (FilmGeometry(), GROOVES, PADS) else 2.0
     )
     assert errors[96, 8] < bound * 1e-2
     assert errors[192, 16] < bound * 3e-3

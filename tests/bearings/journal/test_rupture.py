@@ -9,6 +9,7 @@ from scipy.integrate import solve_bvp
 from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.linalg import spsolve
 
+from rotorfilm import ConvergenceError, InputError, ValidityWarning
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
@@ -19,7 +20,6 @@ from rotorfilm.bearings.journal import (
 )
 from rotorfilm.bearings.journal.complementarity import free_ends
 from rotorfilm.bearings.journal.rupture import Basis
-from rotorfilm.core.errors import ConvergenceError, InputError, ValidityWarning
 
 FOUR = Basis(4, constant=True)
 FREE = SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc())

@@ -7,8 +7,8 @@ import pytest
 from mpmath import mp
 from scipy.integrate import quad
 
+from rotorfilm import UndefinedDerivativeError
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.core.errors import UndefinedDerivativeError
 
 
 @pytest.mark.closed_form

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm import InputError, JournalBearing, ValidityWarning
-from rotorfilm.bearings.films.geometry import FilmGeometry, FullFilm, Pad
+from rotorfilm import FullFilm, InputError, JournalBearing, Pad, ValidityWarning
+from rotorfilm.bearings import FilmGeometry
 from rotorfilm.bearings.journal import FixedArc, ReynoldsFilm, SlitArc, SpectralArcFilm, SplittingFilm
 
 PAIR = SlitArc(slit=3.4, extent=2.2)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
 from rotorfilm.bearings.journal.splitting_film import (
     first_approximation,
@@ -11,7 +12,6 @@ from rotorfilm.bearings.journal.splitting_film import (
     load_function,
     second_approximation,
 )
-from rotorfilm.core.errors import InputError, ValidityWarning
 
 QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
 ECCENTRICITIES = np.array([0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.bearings.journal import AdiabaticWalls, BushRing, HeldWalls
-from rotorfilm.core.errors import InputError
 
 R, OUTER, K = 0.05, 0.1, 50.0
 N = np.arange(1.0, 6.0)

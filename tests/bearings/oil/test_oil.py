@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
 from rotorfilm.bearings.oil.oil import RANGE, viscosity_table
-from rotorfilm.core.errors import InputError, ValidityWarning
 from rotorfilm.native.structs import structure
 
 CELSIUS = 273.15

@@ -6,18 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import (
-    InputError,
-    Lobe,
-    LobedBearing,
-    Oil,
-    PadGridFilm,
-    PressureDamBearing,
-    Recess,
-    RecessedPad,
-    equilibrium,
-    pressure_dam_pads,
-)
+from rotorfilm import InputError, Lobe, LobedBearing, Oil, PressureDamBearing, equilibrium, pressure_dam_pads
+from rotorfilm.bearings import PadGridFilm, Recess, RecessedPad
 from rotorfilm.bearings.oil import Cooling
 
 BORE = {"radius": 0.05, "length": 0.05, "pad_clearance": 1e-4}

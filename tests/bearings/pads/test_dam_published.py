@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import PressureDamBearing, coefficients, critical_mass, equilibrium, pressure_dam_pads
-from rotorfilm.analysis.whirl import speed_parameter
+from rotorfilm.analysis import speed_parameter
 
 MIL, LB, REYN = 25.4e-6, 4.4482216, 6894.757
 STIFFNESS, DAMPING = 1e4 * LB / 0.0254, LB / 0.0254

@@ -12,8 +12,6 @@ from rotorfilm import (
     Lobe,
     LobedBearing,
     Pad,
-    PadGridFilm,
-    PadMapFilm,
     ReynoldsFilm,
     Sprung,
     TiltingPadBearing,
@@ -21,6 +19,7 @@ from rotorfilm import (
     equilibrium,
     lobe_set,
 )
+from rotorfilm.bearings import PadGridFilm, PadMapFilm
 from rotorfilm.bearings.pads import PadResolution
 
 DEGREE = np.pi / 180.0

@@ -14,8 +14,6 @@ from rotorfilm import (
     LobedBearing,
     Oil,
     Pad,
-    PadGridFilm,
-    PadMapFilm,
     ReynoldsFilm,
     RigidRotor,
     coefficients,
@@ -24,9 +22,9 @@ from rotorfilm import (
     lobe_set,
     simulate,
 )
-from rotorfilm.bearings.oil.heated_bearing import heat_surplus
+from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
 from rotorfilm.bearings.pads.pad_bearing import behind_pads
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
+from rotorfilm.bearings.pads.pad_build import build_pad_table, pad_grid
 
 DEGREE = np.pi / 180.0
 RADIUS, LENGTH, CLEARANCE, VISCOSITY, SPEED = 0.05, 0.05, 75e-6, 0.02, 314.0

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from rotorfilm import PadGridFilm, PadMapFilm
+from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution
 from rotorfilm.bearings.films.law import gap_integral
 from rotorfilm.bearings.films.map_fit import periodic_quintic, periodic_quintic_coefficients, spline_slopes
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, loss_states, pad_grid
+from rotorfilm.bearings.pads.pad_build import build_pad_table, loss_states, pad_grid
 from rotorfilm.bearings.pads.pad_table import (
     LARGEST,
     PadMapTable,

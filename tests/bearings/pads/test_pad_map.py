@@ -6,14 +6,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+from rotorfilm import Groove, InputError
+from rotorfilm.bearings import FilmGeometry, PadResolution, aligned_openings
 from rotorfilm.bearings.films import map_fit as table_pieces
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, aligned_openings
 from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
 from rotorfilm.bearings.pads.pad_build import (
     FINE,
     LEAST_FILMS,
     ORDER,
-    PadResolution,
     along_nodes,
     between_nodes,
     build_pad_table,
@@ -26,7 +26,6 @@ from rotorfilm.bearings.pads.pad_build import (
     seen_film,
 )
 from rotorfilm.bearings.pads.pad_table import least_film, wall
-from rotorfilm.core.errors import InputError
 from rotorfilm.native import GrooveMapKernel, Status
 
 DEGREE = np.pi / 180.0

@@ -5,10 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table
-from rotorfilm.bearings.pads.pad_film import PadMapFilm, pad_table
+from rotorfilm import InputError, RotorfilmError
+from rotorfilm.bearings import PadMapFilm, PadResolution
+from rotorfilm.bearings.pads.pad_build import build_pad_table
+from rotorfilm.bearings.pads.pad_film import pad_table
 from rotorfilm.bearings.pads.pad_table import PadMapTable
-from rotorfilm.core.errors import InputError, RotorfilmError
 
 COARSE = PadResolution(cells=(16, 4), nodes=(6, 6, 12), xi_range=(-0.3, 0.9))
 STATE = np.array([[0.3], [0.2]]), np.array([[0.4], [-0.7]])

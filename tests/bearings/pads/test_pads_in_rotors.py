@@ -10,11 +10,8 @@ from scipy.integrate import Radau
 from rotorfilm import (
     FilmContactError,
     LobedBearing,
-    PadGridFilm,
-    PadMapFilm,
     RigidRotor,
     TiltingPadBearing,
-    UnloadedPadWarning,
     ValidityWarning,
     coefficients,
     continue_orbits,
@@ -28,7 +25,8 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.analysis.equal_steps import march
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution
+from rotorfilm.core import UnloadedPadWarning
 
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(10, 9, 32)))
 BEARING = LobedBearing(

@@ -14,8 +14,6 @@ from rotorfilm import (
     JournalBearing,
     Pad,
     PressureDamBearing,
-    Recess,
-    RecessedPad,
     ReynoldsFilm,
     RigidRotor,
     UndefinedDerivativeError,
@@ -26,6 +24,7 @@ from rotorfilm import (
     pressure_dam_pads,
     simulate,
 )
+from rotorfilm.bearings import Recess, RecessedPad
 
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "assembled_clearance": 1e-4, "viscosity": 0.03}
 POSITION, VELOCITY, SPEED = np.array([2e-5, -6e-5]), np.array([1e-3, -2e-3]), 300.0

@@ -13,16 +13,16 @@ from rotorfilm import (
     ConvergenceError,
     EquilibriumError,
     InputError,
+    Reaction,
     RigidRotor,
     RollingMaterial,
     StaticBalls,
     coefficients,
     equilibrium,
     face_to_face,
-    palmgren_stiffness,
     simulate,
 )
-from rotorfilm.core.model import Reaction
+from rotorfilm.bearings import palmgren_stiffness
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from rotorfilm import BallBearing, InputError, StaticBalls, back_to_back, ball_films
+from rotorfilm import BallBearing, InputError, StaticBalls, back_to_back
+from rotorfilm.bearings import ball_films
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

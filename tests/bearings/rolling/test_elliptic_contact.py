@@ -8,14 +8,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk
 
-from rotorfilm import (
-    EllipticContact,
-    InputError,
-    RollingMaterial,
-    load_integrals,
-    palmgren_stiffness,
-    stribeck_load,
-)
+from rotorfilm import InputError, RollingMaterial
+from rotorfilm.bearings import EllipticContact, load_integrals, palmgren_stiffness, stribeck_load
 from rotorfilm.bearings.rolling import elliptic_integrals
 
 INCH, PSI, POUND = 0.0254, 6894.757293, 4.4482216153

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rotorfilm import InputError, PalmgrenBalls, coefficients, equilibrium, palmgren_stiffness
-from rotorfilm.core.model import Reaction
+from rotorfilm import InputError, Reaction, coefficients, equilibrium
+from rotorfilm.bearings import PalmgrenBalls, palmgren_stiffness
 
 SIZE = {"balls": 9, "ball_diameter": 9.525e-3, "contact_angle": math.radians(15.0)}
 BALLS = PalmgrenBalls(**SIZE, damping=30.0)

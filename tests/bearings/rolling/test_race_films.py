@@ -10,25 +10,28 @@ from scipy.integrate import solve_ivp
 
 from rotorfilm import (
     BallBearing,
-    BarusViscosity,
     ContactGrid,
-    EllipticContact,
+    Dynamic,
     InputError,
-    RaceFilm,
-    RoelandsViscosity,
     RunningBalls,
     StaticBalls,
     ValidityWarning,
     back_to_back,
     export_fmu,
-    film_damping,
     linearize,
     lubricated_balls,
-    race_films,
 )
 from rotorfilm.analysis import OperatingPoint
-from rotorfilm.bearings.contact.stationary import SmallMotion
-from rotorfilm.core.model import Dynamic, Switched
+from rotorfilm.bearings import (
+    BarusViscosity,
+    EllipticContact,
+    RaceFilm,
+    RoelandsViscosity,
+    SmallMotion,
+    film_damping,
+    race_films,
+)
+from rotorfilm.core import Switched
 
 DEEP = BallBearing(
     balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6, law=StaticBalls()

@@ -8,19 +8,22 @@ import pytest
 
 from rotorfilm import (
     BallBearing,
+    Dynamic,
     FiveDegreeBalls,
     InputError,
+    Model,
     OperatingPoint,
+    Reaction,
     RigidRotor,
     StaticBalls,
-    TurningBalls,
-    Waviness,
+    VariableComplianceBalls,
     back_to_back,
     linearize,
     simulate,
     variable_compliance,
 )
-from rotorfilm.core.model import Dynamic, Model, Reaction, Switched
+from rotorfilm.bearings import Waviness
+from rotorfilm.core import Switched
 
 WAVES = (
     Waviness(inner=True, lobes=9, radial_amplitude=0.3e-6, phase=0.4),
@@ -67,7 +70,7 @@ def test_derivatives_of_five_degrees_and_both_angles(bearing):
 
 @bearings
 def test_derivatives_of_a_turning_cage(bearing):
-    model = TurningBalls(bearing=bearing)
+    model = VariableComplianceBalls(bearing=bearing)
     u, x = np.array([2e-6, -8e-6, 1e-3, 2e-3, 900.0]), np.array([0.3, 1.1])
     found = model.linearization(0.0, x, u)
     by_state = slopes(lambda v: model.output(0.0, v, u), x, [1e-5, 1e-5])
@@ -131,7 +134,7 @@ def test_a_linear_system_of_five_degrees_at_rest():
 
 
 def test_events_tell_where_a_ball_comes_under_load():
-    model = TurningBalls(bearing=DEEP)
+    model = VariableComplianceBalls(bearing=DEEP)
     u = np.array([0.0, -9e-6, 0.0, 0.0, 300.0])
     loads = [DEEP.turned(angle).loads([0.0, -9e-6, 0.0, 0.0, 0.0]).inner_load for angle in (0.1, 0.3)]
     for angle, load in zip((0.1, 0.3), loads, strict=True):
@@ -144,7 +147,7 @@ def test_a_slow_rotor_follows_the_places_of_rest():
     """Far below its resonance a damped rotor swings as the quasi-static places over a pitch do."""
     bearing = replace(DEEP, damping=4000.0)
     slow = 20.0
-    balls = TurningBalls(bearing=bearing)
+    balls = VariableComplianceBalls(bearing=bearing)
     still = variable_compliance(bearing, (0.0, -500.0), slow, samples=32)
     start = tuple(still.position[:, 0].tolist())
     rotor = RigidRotor(mass=1.0, speed=slow, gravity=(0.0, 0.0), static_force=(0.0, -500.0), position=start)
@@ -159,7 +162,9 @@ def test_cage_ratio_is_that_of_the_balls():
     rest = fast.rest([0.0, 0.0, 400.0, 0.0, 0.0], 300.0)
     assert fast.cage_ratio == pytest.approx(rest.balls.orbit_speed.mean() / 300.0, rel=1e-2)
     assert (
-        TurningBalls(bearing=fast, cage_ratio=0.41).derivative(0.0, [0.0, 0.0], [0.0] * 4 + [100.0])[0]
+        VariableComplianceBalls(bearing=fast, cage_ratio=0.41).derivative(
+            0.0, [0.0, 0.0], [0.0] * 4 + [100.0]
+        )[0]
         == 41.0
     )
 
@@ -168,14 +173,17 @@ def test_cage_ratio_is_that_of_the_balls():
     ("call", "message"),
     [
         (
-            lambda: TurningBalls(bearing=DEEP, cage_ratio=1.5),
+            lambda: VariableComplianceBalls(bearing=DEEP, cage_ratio=1.5),
             "cage_ratio must be above 0 and below 1, got 1.5",
         ),
-        (lambda: TurningBalls(bearing=3), "bearing must be a BallBearing or a BearingPair"),
+        (lambda: VariableComplianceBalls(bearing=3), "bearing must be a BallBearing or a BearingPair"),
         (lambda: FiveDegreeBalls(bearing=3), "bearing must be a BallBearing or a BearingPair"),
         (lambda: FiveDegreeBalls(bearing=DEEP).output(0.0, [], [0.0]), r"u must have shape \(10,\)"),
         (lambda: FiveDegreeBalls(bearing=DEEP).inputs_at([0.0], 1.0), r"displacement must have shape \(5,\)"),
-        (lambda: TurningBalls(bearing=DEEP).output(0.0, [0.0], [0.0] * 5), r"x must have shape \(2,\)"),
+        (
+            lambda: VariableComplianceBalls(bearing=DEEP).output(0.0, [0.0], [0.0] * 5),
+            r"x must have shape \(2,\)",
+        ),
         (lambda: Waviness(inner=True, lobes=0, radial_amplitude=1e-6), "lobes must be"),
         (lambda: replace(DEEP, waviness=(1.0,)), r"waviness\[0\] must be a Waviness"),
     ],

@@ -22,7 +22,7 @@ def seal(slenderness=0.2, **change):
 @pytest.mark.literature
 def test_the_coefficients_of_black():
     # mu_0, mu_1, mu_2 of Black (1969) with friction that does not depend on the Reynolds number.
-    own = seal(friction=rf.HirsFriction(coefficient=0.008, exponent=0.0), inlet_loss=0.5)
+    own = seal(friction=rf.bearings.HirsFriction(coefficient=0.008, exponent=0.0), inlet_loss=0.5)
     found, flow = own.matrices(0.0), own.flow(0.0)
     a, sigma = 1.5, flow.friction_factor * own.length / own.clearance
     D, transit = a + 2.0 * sigma, own.length / flow.axial_velocity
@@ -50,7 +50,7 @@ def test_fluid_at_half_speed_turns_the_resting_seal():
 
 @pytest.mark.closed_form
 def test_laminar_flow_is_the_short_bearing():
-    laminar = rf.HirsFriction(coefficient=24.0, exponent=-1.0)
+    laminar = rf.bearings.HirsFriction(coefficient=24.0, exponent=-1.0)
     own = seal(0.1, viscosity=0.2, pressure_drop=1e4, friction=laminar)
     K, k, C, _, M = own.matrices(SPEED)
     mu, R, L, c = own.viscosity, own.radius, own.length, own.clearance
@@ -66,7 +66,7 @@ def test_laminar_flow_is_the_short_bearing():
 @pytest.mark.parametrize("viscosity", [0.02, 0.05, 0.2])
 def test_swirl_that_laminar_flow_loses_at_once(viscosity, monkeypatch):
     # Oil loses its swirl within 1/1600 to 1/26000 of the length.
-    laminar = rf.HirsFriction(coefficient=24.0, exponent=-1.0)
+    laminar = rf.bearings.HirsFriction(coefficient=24.0, exponent=-1.0)
     size = {"length": 0.02, "clearance": 1e-4, "viscosity": viscosity, "density": 870.0, "inlet_swirl": 0.0}
     own, speeds = seal(**size, friction=laminar), np.array([100.0, SPEED])
     found = own.matrices(speeds)
@@ -174,7 +174,7 @@ def test_a_driven_rotor_knows_how_the_mass_depends_on_its_speed():
     driven = rf.MotorDrivenRotor(
         rotor=rf.RigidRotor(mass=3.0, speed=SPEED, unbalance=1e-4),
         inertia=0.01,
-        torque=rf.LinearMotor(stall_torque=5.0, idle_speed=400.0),
+        torque=rf.rotors.LinearMotor(stall_torque=5.0, idle_speed=400.0),
     )
     whole = rf.mount(driven, {"": seal()})
     x = np.array([2e-5, -1e-5, 4e-3, 2e-3, 0.3, SPEED])
@@ -193,7 +193,7 @@ def test_coefficients_and_damped_modes_carry_the_mass():
     assert_allclose(found.damping, [[C, c], [-c, C]], rtol=1e-14)
     assert_allclose(found.mass, M * np.eye(2), rtol=1e-14)
     light = seal(added_mass=False)
-    assert not isinstance(rf.coefficients(light, [0.0, 0.0], SPEED), rf.InertialCoefficients)
+    assert not isinstance(rf.coefficients(light, [0.0, 0.0], SPEED), rf.bearings.InertialCoefficients)
     assert [signal.name for signal in light.outputs] == ["force_x", "force_y"]
 
 
@@ -243,6 +243,6 @@ def test_what_is_outside_of_its_range():
     with pytest.raises(rf.InputError, match="pressure_drop must be"):
         seal(pressure_drop=0.0)
     with pytest.raises(rf.InputError, match=r"exponent must be within -1 to 0, got 0.2"):
-        rf.HirsFriction(exponent=0.2)
+        rf.bearings.HirsFriction(exponent=0.2)
     with pytest.raises(rf.InputError, match="added_mass=False of a seal"):
-        rf.coefficient_table(seal(), [0.0, 0.0], [100.0, 200.0])
+        rf.analysis.coefficient_table(seal(), [0.0, 0.0], [100.0, 200.0])

@@ -15,7 +15,7 @@ LIGHT = rf.ElasticMaterial(young_modulus=2e11, shear_modulus=8e10, density=0.01)
 SHAFT = 48.0 * LIGHT.young_modulus * math.pi * DIAMETER**4 / 64.0 / LENGTH**3
 HEAVY = MASS
 
-IMPELLER = rf.Impeller(
+IMPELLER = rf.analysis.Impeller(
     power="700 kW", diameter="400 mm", width="12 mm", suction_density=20.0, discharge_density=30.0
 )
 
@@ -95,7 +95,7 @@ def test_cross_coupling_at_the_decrement_of_zero(found):
 @pytest.mark.closed_form
 def test_critical_speed_ratio_on_rigid_supports(found):
     rigid = math.sqrt(SHAFT / HEAVY)
-    assert rf.rigid_support_speed(jeffcott()) == pytest.approx(rigid, rel=1e-7)
+    assert rf.analysis.rigid_support_speed(jeffcott()) == pytest.approx(rigid, rel=1e-7)
     assert found.critical_speed_ratio == pytest.approx(SPEED / rigid, rel=1e-7)
 
 
@@ -108,18 +108,18 @@ def test_rigid_supports_of_a_gyroscopic_uniform_shaft():
     rotor = rf.ShaftRotor(elements=piece.split(12), stations=ends, speed=0.0, beam=rf.ClassicalBeam())
     b, r = math.pi, 0.1 / 4.0
     wanted = b**2 * math.sqrt(steel.young_modulus * r**2 / steel.density / (1.0 - (r * b) ** 2))
-    assert rf.rigid_support_speed(rotor) == pytest.approx(wanted, rel=1e-5)
+    assert rf.analysis.rigid_support_speed(rotor) == pytest.approx(wanted, rel=1e-5)
 
 
 @pytest.mark.literature
 def test_anticipated_cross_coupling_in_published_units():
     """API 617: C = 9.55 for N m/s, mm, rpm and kN/mm; 63 for hp, in, rpm and klbf/in."""
-    si = rf.Impeller(
+    si = rf.analysis.Impeller(
         power="700 kW", diameter="400 mm", width="12 mm", suction_density=20.0, discharge_density=30.0
     )
     wanted = 3.0 * 700e3 * 9.55 / (400.0 * 12.0 * 11000.0) * 30.0 / 20.0 * 1e6
     assert si.cross_coupling(11000.0 * math.pi / 30.0) == pytest.approx(wanted, rel=1e-4)
-    us = rf.Impeller(
+    us = rf.analysis.Impeller(
         power="940 hp",
         diameter="15.75 in",
         width="0.47 in",
@@ -129,7 +129,7 @@ def test_anticipated_cross_coupling_in_published_units():
     kip_per_inch = 4448.2216 / 0.0254
     wanted = 3.0 * 940.0 * 63.0 / (15.75 * 0.47 * 11000.0) * 1.9 / 1.25 * kip_per_inch
     assert us.cross_coupling(11000.0 * math.pi / 30.0) == pytest.approx(wanted, rel=5e-4)
-    blades = rf.AxialStage(power="500 kW", diameter="600 mm", height="80 mm")
+    blades = rf.analysis.AxialStage(power="500 kW", diameter="600 mm", height="80 mm")
     wanted = 1.5 * 500e3 * 9.55 / (600.0 * 80.0 * 11000.0) * 1e6
     assert blades.cross_coupling(-11000.0 * math.pi / 30.0) == pytest.approx(wanted, rel=1e-4)
 
@@ -143,13 +143,13 @@ def test_wachel_is_api_for_a_molecular_weight_of_thirty():
         "suction_density": 20.0,
         "discharge_density": 30.0,
     }
-    light = rf.Impeller.wachel(**given, molecular_weight=18.0)
+    light = rf.analysis.Impeller.wachel(**given, molecular_weight=18.0)
     # Wachel & von Nimitz (1981): 6300 hp MW / (D h N) rho_d / rho_s [lbf/in], D and h in inches
     hp, inch = 7e5 / 745.69987, 1.0 / 0.0254
     wanted = 6300.0 * hp * 18.0 / (0.4 * inch * 0.012 * inch * 9000.0) * 1.5 * 4.4482216 / 0.0254
     assert light.cross_coupling(300.0 * math.pi) == pytest.approx(wanted, rel=5e-4)
-    heavy = rf.Impeller.wachel(**given, molecular_weight=30.0)
-    assert heavy == rf.Impeller(**given)
+    heavy = rf.analysis.Impeller.wachel(**given, molecular_weight=30.0)
+    assert heavy == rf.analysis.Impeller(**given)
 
 
 @pytest.mark.literature
@@ -274,12 +274,14 @@ def test_rigid_supports_of_many_elements():
         speed=0.0,
         beam=few.beam,
     )
-    assert rf.rigid_support_speed(many) == pytest.approx(rf.rigid_support_speed(few), rel=1e-6)
+    assert rf.analysis.rigid_support_speed(many) == pytest.approx(
+        rf.analysis.rigid_support_speed(few), rel=1e-6
+    )
 
 
 def test_one_rigid_bearing_does_not_hold_a_rotor():
     with pytest.raises(rf.InputError, match="stations must hold the rotor"):
-        rf.rigid_support_speed(jeffcott(stations=(rf.Station(node=1, name="left"),)))
+        rf.analysis.rigid_support_speed(jeffcott(stations=(rf.Station(node=1, name="left"),)))
 
 
 def test_level_two_refuses_what_else_grows():

@@ -30,7 +30,7 @@ def signal(profile, duration, samples):
 @pytest.mark.parametrize(("first", "last"), [(400.0, 60.0), (60.0, 400.0)])
 def test_phasors_of_a_signal(first, last):
     profile = rf.SpeedProfile(times=(0.0, 30.0), speeds=(first, last))
-    found = rf.tracked_response(signal(profile, 30.0, 60001), profile, turns=4)
+    found = rf.analysis.tracked_response(signal(profile, 30.0, 60001), profile, turns=4)
     assert found.output_labels == ["mid_x", "mid_y"]
     speeds = np.asarray(found.frequency)
     assert np.all(np.diff(speeds) > 0.0)
@@ -49,7 +49,7 @@ def test_a_slow_coast_down_in_time_is_the_steady_response():
     profile = rf.SpeedProfile(times=(0.0, 40.0), speeds=(300.0, 120.0))
     rotor = rf.RigidRotor(mass=mass, speed=profile, unbalance=mass * ECCENTRICITY)
     run = rf.simulate(rotor, bearing, duration=40.0, times=np.linspace(0.0, 40.0, 40001), rtol=1e-6)
-    found = rf.tracked_response(run, profile, ["x"], turns=4)
+    found = rf.analysis.tracked_response(run, profile, ["x"], turns=4)
     speeds = np.asarray(found.frequency)
     late = speeds < 290.0
     wanted = steady(speeds)
@@ -58,7 +58,7 @@ def test_a_slow_coast_down_in_time_is_the_steady_response():
 
 def test_charts_of_a_coast_down():
     profile = rf.SpeedProfile(times=(0.0, 3.0), speeds=(400.0, 60.0))
-    found = rf.tracked_response(signal(profile, 3.0, 6001), profile)
+    found = rf.analysis.tracked_response(signal(profile, 3.0, 6001), profile)
     above, _ = plot_unbalance_response(found)
     assert len(above.get_lines()) == 2
     polar = plot_polar_response(found, ["mid_x"])
@@ -79,4 +79,4 @@ def test_charts_of_a_coast_down():
 def test_bad_runs(samples, ends, outputs, message):
     profile = rf.SpeedProfile(times=(0.0, 3.0), speeds=ends)
     with pytest.raises(rf.InputError, match=message):
-        rf.tracked_response(signal(profile, 3.0, samples), profile, outputs)
+        rf.analysis.tracked_response(signal(profile, 3.0, samples), profile, outputs)

@@ -8,7 +8,7 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm.analysis.unbalance_margins import _extrapolated
-from rotorfilm.core.model import carries_load
+from rotorfilm.core import carries_load
 
 STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
 LENGTH, DIAMETER = 2.0, 0.1
@@ -40,7 +40,7 @@ def test_a_shaft_on_both_ends_under_its_own_weight():
 
 
 @pytest.mark.closed_form
-@pytest.mark.parametrize("beam", [rf.ClassicalBeam(), rf.FourthOrderBeam()])
+@pytest.mark.parametrize("beam", [rf.ClassicalBeam(), rf.rotors.FourthOrderBeam()])
 def test_disks_and_overhang_by_statics(beam):
     """The moment of all that lies to the left of a place, cut by hand."""
     disks = (rf.Disk(node=3, mass=200.0), rf.Disk(node=8, mass=50.0))
@@ -140,7 +140,7 @@ def test_modes_of_a_free_shaft():
 
 
 @pytest.mark.convergence
-@pytest.mark.parametrize(("beam", "count"), [(rf.ClassicalBeam(), 8), (rf.FourthOrderBeam(), 4)])
+@pytest.mark.parametrize(("beam", "count"), [(rf.ClassicalBeam(), 8), (rf.rotors.FourthOrderBeam(), 4)])
 def test_mesh_convergence_measures_the_order_of_the_element(beam, count):
     """A stubby shaft that shears, on hinges: its exact frequency is what the estimate is for."""
     piece = rf.ShaftElement(length=0.6, outer_diameter=0.1, material=STEEL)
@@ -149,7 +149,7 @@ def test_mesh_convergence_measures_the_order_of_the_element(beam, count):
         elements=piece.split(count), stations=ends, speed=0.0, beam=beam, gravity=(0.0, 0.0)
     )
     stiff = dict.fromkeys(("left", "right"), rf.LinearBearing(stiffness=3e14))
-    found = rf.mesh_convergence(rotor, stiff, 0.0, 1)
+    found = rf.analysis.mesh_convergence(rotor, stiff, 0.0, 1)
     assert found.elements.tolist() == [count, 2 * count, 4 * count]
     assert found.order == pytest.approx(beam.order, abs=0.1)
     kappa = 6.0 * (1.0 + STEEL.poisson_ratio) / (7.0 + 6.0 * STEEL.poisson_ratio)
@@ -161,7 +161,7 @@ def test_mesh_convergence_measures_the_order_of_the_element(beam, count):
     assert found.estimate == pytest.approx(exact, rel=2e-6)
     assert found.relative_error == pytest.approx(found.frequency[0] / exact - 1.0, rel=0.05)
     with pytest.raises(rf.InputError, match="mode must be at most"):
-        rf.mesh_convergence(rotor, stiff, 0.0, 999)
+        rf.analysis.mesh_convergence(rotor, stiff, 0.0, 999)
 
 
 @pytest.mark.closed_form

@@ -6,15 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvals
 
-from rotorfilm import (
-    Coefficients,
-    ConvergenceError,
-    MemoryCoefficients,
-    coefficients,
-    critical_mass,
-    whirl_threshold,
-)
+from rotorfilm import Coefficients, ConvergenceError, coefficients, critical_mass, whirl_threshold
 from rotorfilm.analysis.frequency_dependent import growing_count, mass_borders, rigid_exponents, rigid_growing
+from rotorfilm.bearings import FrequencyDependentCoefficients
 from rotorfilm.bearings.films.mass_conserving import circular_gap, oil_outflow
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
 
@@ -53,7 +47,7 @@ class Springs:
 def remembered(motion, speed):
     K = motion.stiffness(1j * speed)
     given = {"position": np.zeros(2), "speed": speed, "frequency": speed, "motion": motion}
-    return MemoryCoefficients(stiffness=K.real, damping=K.imag / speed, **given)
+    return FrequencyDependentCoefficients(stiffness=K.real, damping=K.imag / speed, **given)
 
 
 def pencil(film, e, state):

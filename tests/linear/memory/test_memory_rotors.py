@@ -8,7 +8,6 @@ from rotorfilm import (
     ConvergenceError,
     Disk,
     ElasticMaterial,
-    PadMapFilm,
     RigidShaft,
     ShaftElement,
     ShaftRotor,
@@ -27,7 +26,7 @@ from rotorfilm import (
 from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
 from rotorfilm.analysis.frequency_dependent import rotor_growing
 from rotorfilm.analysis.speed_events import CRITICAL, Start, value_rate, whirl_of
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.bearings import PadMapFilm, PadResolution
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RIGID = RigidShaft(

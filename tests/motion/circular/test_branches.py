@@ -9,19 +9,25 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from rotorfilm import (
-    AxialFeed,
+    ContactError,
+    FullFilm,
+    Groove,
+    InputError,
     JournalBearing,
     PorousDamper,
     ReynoldsFilm,
-    orbit_system,
-    orbits_over_speed,
     simulate,
     synchronous_orbits,
+)
+from rotorfilm.analysis import (
+    bistability_limit,
+    bistable_map,
+    orbit_system,
+    orbits_over_speed,
+    polar_series,
     transmitted_ratio,
 )
-from rotorfilm.analysis import bistability_limit, bistable_map, polar_series
-from rotorfilm.bearings.films.geometry import FullFilm, Groove
-from rotorfilm.core.errors import ContactError, InputError
+from rotorfilm.bearings import AxialFeed
 
 
 @pytest.mark.closed_form

@@ -6,9 +6,8 @@ from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotorfilm import simulate, transmitted_ratio
-from rotorfilm.analysis import cartesian_state, polar_acceleration, polar_series
-from rotorfilm.core.errors import InputError
+from rotorfilm import InputError, simulate
+from rotorfilm.analysis import cartesian_state, polar_acceleration, polar_series, transmitted_ratio
 
 
 @settings(deadline=None, max_examples=25)

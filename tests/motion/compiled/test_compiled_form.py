@@ -14,10 +14,8 @@ from rotorfilm import (
     ElasticMaterial,
     Groove,
     GroovedMapFilm,
-    HalfSommerfeld,
     JournalBearing,
     LinearBearing,
-    MapSqueeze,
     Pad,
     PorousDamper,
     ReynoldsFilm,
@@ -35,6 +33,7 @@ from rotorfilm import (
     simulate_rotor,
 )
 from rotorfilm.analysis.compiled_rotor import compiled_form
+from rotorfilm.bearings import HalfSommerfeld, MapSqueeze
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP = JournalBearing(**SIZES)

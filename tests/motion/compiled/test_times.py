@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from rotorfilm import InputError
 from rotorfilm.analysis.compiled_march import require_longest_step, sample_times
-from rotorfilm.core.errors import InputError
 
 
 @pytest.mark.parametrize("step", [0.0, -1.0, math.nan, -math.inf])

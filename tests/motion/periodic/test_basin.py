@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm import InputError, basin_scan, continue_orbits, hopf_point, periodic_orbit, simulate_rotor
+from rotorfilm import InputError, continue_orbits, hopf_point, periodic_orbit, simulate_rotor
+from rotorfilm.analysis import basin_scan
 
 
 @pytest.fixture(scope="module")

@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 
 from rotorfilm import (
-    Bifurcation,
     InputError,
     RigidRotor,
-    basin_scan,
     continue_orbits,
     hopf_point,
     mount,
     periodic_orbit,
     simulate_rotor,
 )
+from rotorfilm.analysis import Bifurcation, basin_scan
 
 
 @pytest.mark.closed_form

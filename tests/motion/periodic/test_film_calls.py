@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings, strategies as st
 
-from rotorfilm import JournalBearing, LinearBearing, MapSqueeze, PorousDamper, ShortFilm, Sprung
+from rotorfilm import JournalBearing, LinearBearing, PorousDamper, ShortFilm, Sprung
 from rotorfilm.analysis.compiled_rotor import JournalFilms, film_call
+from rotorfilm.bearings import MapSqueeze
 from rotorfilm.native import Status
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}

@@ -10,6 +10,7 @@ from scipy.linalg import expm
 from rotorfilm import (
     ClassicalBeam,
     ContactError,
+    ConvergenceError,
     Disk,
     ElasticMaterial,
     InputError,
@@ -32,7 +33,6 @@ from rotorfilm import (
 from rotorfilm.analysis.compiled_march import March, radau_scheme
 from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
 from rotorfilm.bearings.reaction import StaticReaction
-from rotorfilm.core.errors import ConvergenceError
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rotorfilm.core.errors import FilmContactError
-from rotorfilm.core.model import static_linearization
-from rotorfilm.core.signals import force_outputs, journal_inputs
+from rotorfilm import FilmContactError
+from rotorfilm.core import force_outputs, journal_inputs, static_linearization
 
 
 @dataclass(frozen=True)

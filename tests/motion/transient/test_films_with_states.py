@@ -28,14 +28,13 @@ from rotorfilm import (
     LobedBearing,
     Oil,
     OperatingPoint,
-    PadMapFilm,
     RigidRotor,
     ShaftElement,
     ShaftRotor,
     Station,
     TiltingPadBearing,
-    TurningBalls,
     Unbalance,
+    VariableComplianceBalls,
     base_response,
     base_system,
     closed_loop,
@@ -43,7 +42,6 @@ from rotorfilm import (
     equilibrium,
     even_pivots,
     export_fmu,
-    f4k20_bush,
     linearize,
     lobe_set,
     mount,
@@ -56,7 +54,7 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.bearings import PadMapFilm, PadResolution, f4k20_bush
 from rotorfilm.rotors import translations
 
 SPEED = 300.0
@@ -94,7 +92,7 @@ FILMS = {
         **SIZE, pad_clearance=1e-4, lobes=lobe_set("three_lobe", preload=0.3), film=PADS, **OIL
     ),
     "lubricated balls": BallSupport(law=LAW, angles=EIGHT, gap=float(LAW.approach(120.0))),
-    "turning balls": TurningBalls(
+    "turning balls": VariableComplianceBalls(
         bearing=BallBearing(
             balls=9, ball_diameter=8e-3, pitch_diameter=33e-3, contact_angle=0.35, axial_load=300.0
         )

@@ -200,7 +200,7 @@ def test_derivatives_of_the_ring_in_python_and_compiled():
         slope = (ring.force(*up) - ring.force(*down)) / (2.0 * step)
         assert_allclose(slope, jacobian[:, k], atol=1e-7 * np.abs(jacobian[:, k]).max())
     from rotorfilm.analysis.compiled_rotor import kernel_call
-    from rotorfilm.native.library import loops
+    from rotorfilm.native import loops
 
     both = rf.ParallelReaction((ring, rf.LinearBearing(stiffness=1e6, damping=30.0)))
     for reaction, name in ((ring, "rf_rub_at"), (both, "rf_both_at")):
@@ -263,8 +263,7 @@ def test_parallel_reactions_add_up():
 
 def test_where_one_of_two_touches_its_wall_nothing_is_added():
     from rotorfilm.analysis.compiled_rotor import kernel_call
-    from rotorfilm.native import Status
-    from rotorfilm.native.library import loops
+    from rotorfilm.native import Status, loops
 
     film = rf.JournalBearing(radius=0.05, length=0.02, clearance=3e-4, viscosity=0.02)
     call = kernel_call(rf.ParallelReaction((RING, film)))

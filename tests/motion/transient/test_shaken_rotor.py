@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm.analysis.equal_steps import ShakenRotor, StatesAlong
-from rotorfilm.bearings.damper.neglected_effects import JudgedDamper
+from rotorfilm.analysis.equal_steps import ExcitedRotor, StatesAlong
+from rotorfilm.bearings import JudgedDamper
 from rotorfilm.scenes.film_rungs import counted_calls
 
 SPEED = 300.0
@@ -33,7 +33,7 @@ def states(count=4):
 
 
 def rotor(film):
-    return ShakenRotor(film, 3.0, SPEED, np.zeros(2), lambda t: np.zeros(2))
+    return ExcitedRotor(film, 3.0, SPEED, np.zeros(2), lambda t: np.zeros(2))
 
 
 @pytest.mark.closed_form

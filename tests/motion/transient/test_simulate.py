@@ -6,12 +6,11 @@ from numpy.testing import assert_allclose
 from scipy.integrate import DOP853, LSODA, solve_ivp
 
 import rotorfilm
+from rotorfilm import InputError, JournalBearing, UndefinedDerivativeError
 from rotorfilm.analysis import equilibrium, simulate
 from rotorfilm.analysis.simulate import Coupled
 from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.core.errors import InputError, UndefinedDerivativeError
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 MASS, STIFFNESS, DAMPING, SPEED = 2.0, 8e4, 60.0, 150.0

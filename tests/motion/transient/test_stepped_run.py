@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from rotorfilm import (
+    ContactError,
+    ConvergenceError,
     ElasticMaterial,
     Groove,
+    InputError,
     JeffcottRotor,
     JFOFilm,
     JournalBearing,
@@ -24,7 +27,6 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.analysis.stepped_run import Moment, StepError
-from rotorfilm.core.errors import ContactError, ConvergenceError, InputError
 
 R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm import ContactError, ConvergenceError, FilmContactError, JournalBearing
 from rotorfilm.analysis import simulate
-from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.reaction import Feedthrough
-from rotorfilm.core.errors import ContactError, ConvergenceError, FilmContactError
 from rotorfilm.rotors import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)

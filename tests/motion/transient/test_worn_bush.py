@@ -8,11 +8,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from rotorfilm import ContactError, InputError
 from rotorfilm.analysis import simulate
 from rotorfilm.analysis.simulate import Coupled
 from rotorfilm.bearings.bush import BushReaction, f4k20_bush
-from rotorfilm.core.errors import ContactError, InputError
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal
 from rotorfilm.rotors import RigidRotor
 
 WORN = BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=32, extent=1.4, retardation=2e-4)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from ....core.errors import ConvergenceError, InputError
-from ....core.files import write_whole
+from ....core.files import write_atomically
 from ....core.model import Array
 from ...films.law import film_flow, film_shear
 from ...films.map_fit import node_eccentricities, periodic_quintic_coefficients, quintic_coefficients
@@ -108,7 +108,7 @@ def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     content = io.BytesIO()
     arrays = {**axes._asdict(), **{name: fields[name] for name in FIELDS}}
     np.savez_compressed(content, **arrays)
-    write_whole(path, content.getvalue())
+    write_atomically(path, content.getvalue())
 
 
 # Potential by finite volumes with complementarity: slow, second order, independent of `potential`.

@@ -9,21 +9,24 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorfilm import (
+    ConvergenceError,
     DamperSupply,
     FeedHole,
+    FilmContactError,
     FiniteMapSqueeze,
     FiniteSqueeze,
     FullFilm,
+    InputError,
     JFODamper,
     PorousDamper,
     RigidRotor,
+    ValidityWarning,
     coefficients,
-    damper_turn,
     orbit_coefficients,
     simulate,
     synchronous_orbits,
 )
-from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
+from rotorfilm.bearings import damper_turn
 
 R, c, mu, OMEGA = 0.05, 1e-4, 0.01, 300.0
 UNIT = 12.0 * mu * (R / c) ** 2 * OMEGA

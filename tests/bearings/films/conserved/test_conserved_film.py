@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rotorfilm import ReynoldsFilm
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pocket
+from rotorfilm import Groove, ReynoldsFilm
+from rotorfilm.bearings import FilmGeometry, Pocket
 from rotorfilm.bearings.films.mass_conserving import circular_gap, step_storage
 
 WIDEST = FilmGeometry(grooves=(Groove(center=np.pi),))

@@ -5,7 +5,8 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
+from rotorfilm import Groove
+from rotorfilm.bearings import FilmGeometry
 from rotorfilm.bearings.films.mass_conserving import (
     ConservedCells,
     ConservedFilm,

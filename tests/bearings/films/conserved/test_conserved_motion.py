@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
+from rotorfilm.bearings import FilmGeometry, Pocket
 from rotorfilm.bearings.films.mass_conserving import circular_gap, step_storage
 from rotorfilm.bearings.films.mass_conserving_steps import (
     dynamic_stiffness,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
+from rotorfilm.bearings import FilmGeometry, Pocket
 from rotorfilm.bearings.films.mass_conserving import (
     FILM,
     ConservedCells,
@@ -13,7 +13,7 @@ from rotorfilm.bearings.films.mass_conserving import (
     step_storage,
 )
 from rotorfilm.bearings.films.mass_conserving_steps import (
-    OilMemory,
+    OilHistory,
     after_step,
     oil_step,
     remembered,
@@ -46,7 +46,7 @@ def carried_slug(lines, limited, supply, turns=150.0 / 360.0):
     film = ring(lines, supply)
     angle, gap = film.cells.angle, circular_gap(film.cells, np.zeros(2))
     theta = np.tile(0.3 + 0.5 * np.exp(-(((angle - 1.5) / np.radians(15.0)) ** 2))[:, None], (1, 4))
-    memory = OilMemory(theta, theta, 0.0, 0.0 * theta, theta, np.zeros(theta.shape, dtype=np.uint8))
+    memory = OilHistory(theta, theta, 0.0, 0.0 * theta, theta, np.zeros(theta.shape, dtype=np.uint8))
     steps = 2 * lines
     for _ in range(steps):
         dt = turns * 2.0 * np.pi / 0.5 / steps
@@ -129,6 +129,6 @@ def test_a_cell_never_gives_more_oil_than_it_has(supply):
     film = ring(36, supply)
     gap = circular_gap(film.cells, np.zeros(2))
     now, before = np.full((36, 4), 0.1), np.full((36, 4), 0.9)
-    memory = OilMemory(now, before, 0.1, 0.0 * now, now, np.zeros(now.shape, dtype=np.uint8))
+    memory = OilHistory(now, before, 0.1, 0.0 * now, now, np.zeros(now.shape, dtype=np.uint8))
     state = oil_step(film, memory, gap, 0.5, 0.1)
     np.testing.assert_allclose(state.content, 0.1, rtol=1e-12)

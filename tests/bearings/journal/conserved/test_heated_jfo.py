@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 
 from rotorfilm import (
-    BushRing,
     Cooling,
     FeedHole,
+    FilmContactError,
     Groove,
     HeatedFilm,
     HeatedJFOFilm,
-    HeldWalls,
+    InputError,
     JFOFilm,
     JournalBearing,
-    LayeredTemperature,
-    MeanTemperature,
     Oil,
     RigidRotor,
     coefficients,
@@ -25,9 +23,9 @@ from rotorfilm import (
     heated_equilibrium,
     simulate,
 )
+from rotorfilm.bearings import BushRing, HeldWalls, LayeredTemperature, MeanTemperature
 from rotorfilm.bearings.oil.heated_bearing import carried_share
-from rotorfilm.charts.film_charts import plot_heated_film
-from rotorfilm.core.errors import FilmContactError, InputError
+from rotorfilm.charts import plot_heated_film
 
 R, L, c, T_S = 0.05, 0.05, 75e-6, 318.15
 OMEGA, POSITION, LOAD = 314.0, np.array([22e-6, -37e-6]), np.array([0.0, -5000.0])

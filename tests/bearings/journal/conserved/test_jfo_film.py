@@ -7,16 +7,18 @@ import pytest
 
 from rotorfilm import (
     FeedHole,
+    FilmContactError,
     Groove,
+    InputError,
     JFOFilm,
     JournalBearing,
     Pad,
-    ReducedCoefficients,
     ReynoldsFilm,
+    ValidityWarning,
     coefficients,
     equilibrium,
 )
-from rotorfilm.core.errors import FilmContactError, InputError, ValidityWarning
+from rotorfilm.bearings import ReducedCoefficients
 
 from ..butenschoen import BUTENSCHOEN
 

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from rotorfilm import Groove, JFOFilm, JournalBearing, Stepped
+from rotorfilm import ConvergenceError, FilmContactError, Groove, InputError, JFOFilm, JournalBearing, Stepped
 from rotorfilm.bearings.films.mass_conserving import circular_gap
-from rotorfilm.bearings.films.mass_conserving_steps import FilmMemory, remembered
-from rotorfilm.core.errors import ConvergenceError, FilmContactError, InputError
+from rotorfilm.bearings.films.mass_conserving_steps import ConservedFilmState, remembered
 
 R, c, omega = 0.05, 1e-4, 314.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
@@ -188,7 +187,7 @@ def test_sudden_slopes_are_those_of_moves_with_the_same_oil(flow):
     fed = dataclasses.replace(BEARING, supply_pressure=0.0 if flow else 2e5)
     film, u, dt = JFOFilm(bearing=fed, cells=(36, 4), supply_flow=flow), motion(0.0), 1e-6 * TURN
     oil = remembered(film.film.solve(circular_gap(film.film.cells, u[:2] / c), 0.5 * omega))
-    state, none = FilmMemory(oil, u, np.zeros(9), np.zeros(3)), np.zeros(2)
+    state, none = ConservedFilmState(oil, u, np.zeros(9), np.zeros(3)), np.zeros(2)
     moves = [(np.eye(5)[k] * 1e-9, none) for k in (0, 1)]
     moves += [(np.zeros(5), 1e-6 * unit) for unit in np.eye(2)]
     moves += [(np.eye(5)[4] * 1e-3 * omega, none)]

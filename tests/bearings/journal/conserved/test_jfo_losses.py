@@ -7,15 +7,15 @@ from rotorfilm import (
     Cooling,
     FeedHole,
     Groove,
+    InputError,
     JFOFilm,
     JournalBearing,
     Oil,
     Pad,
     ReynoldsFilm,
     equilibrium,
-    rupture_error,
 )
-from rotorfilm.core.errors import InputError
+from rotorfilm.bearings import rupture_error
 
 R, c, mu, omega = 0.05, 1e-4, 0.02, 314.0
 BAR = 0.0053 * omega * 12.0 * mu * (R / c) ** 2

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import pytest
 
-from rotorfilm import PadGridFilm, TiltingPadBearing, even_pivots
-from rotorfilm.native.film_kernels import ShortKernel
+from rotorfilm import TiltingPadBearing, even_pivots
+from rotorfilm.bearings import PadGridFilm
+from rotorfilm.native import ShortKernel
 
 DEGREE = math.pi / 180.0
 

@@ -5,18 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from rotorfilm import (
-    Cooling,
-    InputError,
-    Oil,
-    PadGridFilm,
-    PadMapFilm,
-    coefficients,
-    equilibrium,
-    whirl_threshold,
-)
-from rotorfilm.bearings.oil.heated_bearing import heat_surplus
-from rotorfilm.bearings.pads.pad_build import PadResolution, build_pad_table, pad_grid
+from rotorfilm import Cooling, InputError, Oil, coefficients, equilibrium, whirl_threshold
+from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
+from rotorfilm.bearings.pads.pad_build import build_pad_table, pad_grid
 from rotorfilm.bearings.pads.tilting_bearing import directions, turning
 
 DEGREE = np.pi / 180.0

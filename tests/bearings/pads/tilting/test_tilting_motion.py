@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from rotorfilm import (
+    Dynamic,
     FilmContactError,
     OperatingPoint,
+    Reaction,
     RigidRotor,
     ValidityWarning,
     coefficients,
@@ -20,7 +22,6 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.pads.tilting_bearing import directions
-from rotorfilm.core.model import Dynamic, Reaction
 
 SPEED = 300.0
 KINDS = {

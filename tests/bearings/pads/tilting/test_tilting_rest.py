@@ -7,19 +7,10 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from rotorfilm import (
-    FilmContactError,
-    InputError,
-    PadGridFilm,
-    PadMapFilm,
-    ReducedCoefficients,
-    TiltingPadBearing,
-    UnloadedPadWarning,
-    coefficients,
-    equilibrium,
-    even_pivots,
-)
+from rotorfilm import FilmContactError, InputError, TiltingPadBearing, coefficients, equilibrium, even_pivots
+from rotorfilm.bearings import PadGridFilm, PadMapFilm, ReducedCoefficients
 from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
+from rotorfilm.core import UnloadedPadWarning
 
 SPEED = 300.0
 

@@ -9,8 +9,6 @@ import pytest
 
 from rotorfilm import (
     EquilibriumError,
-    PadGridFilm,
-    PadMapFilm,
     TiltingPadBearing,
     ValidityWarning,
     coefficients,
@@ -18,6 +16,7 @@ from rotorfilm import (
     even_pivots,
     whirl_threshold,
 )
+from rotorfilm.bearings import PadGridFilm, PadMapFilm
 from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
 
 SPEED = 300.0
