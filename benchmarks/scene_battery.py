@@ -1,7 +1,6 @@
 """A battery of random scenes: whether estimates are right and tolerances met, and what it costs.
 
     python benchmarks/scene_battery.py --count 200 --seed 1 --out battery.csv
-    python benchmarks/scene_battery.py --count 40 --families lobes dam tilting
     python benchmarks/scene_battery.py --family heated --count 40
     python benchmarks/scene_battery.py --family supplied --count 60
     python benchmarks/scene_battery.py --family "built damper" --count 30 --seed 20297

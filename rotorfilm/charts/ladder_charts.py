@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..studies import FilmFamily, HeatModel, StudyResult, StudyRung, pareto_front
+from ..studies import FilmFamily, HeatModel, StudyResult, StudyRow, pareto_front
 from .canvas import FAMILY_COLORS, FRONT, Label, new_grid, place_labels
 
 Line = tuple[str, str, str]
@@ -104,11 +104,11 @@ class DrawnPanel(NamedTuple):
     axes: Axes
     panel: StudyPanel
     style: StudyStyle
-    rungs: Sequence[StudyRung]
+    rungs: Sequence[StudyRow]
     band: float
 
     @property
-    def shown(self) -> list[StudyRung]:
+    def shown(self) -> list[StudyRow]:
         """Rungs that have an error and a cost."""
         x, y = self.panel.x, self.panel.y
         least = 0.0 if self.panel.scale == "log" else -math.inf
@@ -193,7 +193,7 @@ def _draw_panel(drawn: DrawnPanel) -> None:
         _draw_front(axes, panel, [rung for rung in drawn.shown if rung.family != style.champion], ":")
 
 
-def _draw_rung(axes: Axes, panel: StudyPanel, rung: StudyRung, color: str) -> None:
+def _draw_rung(axes: Axes, panel: StudyPanel, rung: StudyRow, color: str) -> None:
     x, high = rung[panel.x], rung[panel.y]
     if panel.median:
         axes.plot([x, x], [rung[panel.median], high], "-", color=color, linewidth=1.0, alpha=0.5)
@@ -214,7 +214,7 @@ def _draw_families(drawn: DrawnPanel) -> None:
             axes.plot(bad, [top] * len(bad), "x", color=color)
 
 
-def _draw_front(axes: Axes, panel: StudyPanel, rungs: Sequence[StudyRung], style: str) -> None:
+def _draw_front(axes: Axes, panel: StudyPanel, rungs: Sequence[StudyRow], style: str) -> None:
     """Draw the staircase below which no rung lies, by cost and error."""
     if not rungs:
         return
@@ -245,7 +245,7 @@ def _write_labels(drawn: DrawnPanel) -> None:
         axes.text(0.99, 0.01, told, transform=axes.transAxes, ha="right", fontsize=8, color="0.35")
 
 
-def _draw_gain(axes: Axes, panel: StudyPanel, style: StudyStyle, rungs: Sequence[StudyRung]) -> None:
+def _draw_gain(axes: Axes, panel: StudyPanel, style: StudyStyle, rungs: Sequence[StudyRow]) -> None:
     """Draw how much cheaper the champion is than the closest of the other rungs."""
     first = [rung for rung in rungs if rung.family == style.champion]
     others = [rung for rung in rungs if rung.family != style.champion]

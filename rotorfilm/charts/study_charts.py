@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from ..studies import Panel, StudyResult, StudyRung, failures, limit_curves
+from ..studies import Panel, StudyResult, StudyRow, failures, limit_curves
 from ..studies.bearing_types import ALWAYS, NEVER, UNCARRIED
 from .canvas import labeled, new_axes, new_grid
 from .ladder_charts import SCHEME_LINES, TYPE_LINES
@@ -197,7 +197,7 @@ def plot_coupling_limits(result: StudyResult) -> list[Axes]:
     return shown
 
 
-def _points(rungs: list[StudyRung], *headings: str) -> list[list[float]]:
+def _points(rungs: list[StudyRow], *headings: str) -> list[list[float]]:
     return [[rung[heading] for rung in rungs] for heading in headings]
 
 

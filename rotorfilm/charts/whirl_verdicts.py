@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from ..studies import StudyResult, StudyRung
+from ..studies import StudyResult, StudyRow
 from ..studies.journal_accuracy import TENSION
 from ..studies.journal_stability import (
     ASYMMETRY,
@@ -161,7 +161,7 @@ def _draw_table(axes: Axes, result: StudyResult) -> None:
             axes.text(left + 0.012, row + 0.5, text, va="center", fontsize=8.5)
 
 
-def verdicts(rows: Sequence[StudyRung]) -> tuple[Cell, Cell, Cell, Cell]:
+def verdicts(rows: Sequence[StudyRow]) -> tuple[Cell, Cell, Cell, Cell]:
     """Return what the table says of a film: deviation, where it is wrong, tension, symmetry of damping."""
     gaps = [abs(row[DEVIATION]) for row in rows if is_judged(row[REFERENCE]) and row[DEVIATION] is not None]
     wrong = [row[RATIO] for row in rows if row[WRONG] or row[MISSING] or row[INVENTED]]
@@ -183,7 +183,7 @@ def verdicts(rows: Sequence[StudyRung]) -> tuple[Cell, Cell, Cell, Cell]:
     )
 
 
-def _column(rows: Sequence[StudyRung], heading: str) -> np.ndarray:
+def _column(rows: Sequence[StudyRow], heading: str) -> np.ndarray:
     return np.array([np.nan if row[heading] is None else row[heading] for row in rows])
 
 

@@ -1,11 +1,11 @@
-"""The source of this package as data: which modules a module imports, a digest, and names that load late.
+"""Names of a package that load late, and the import graph of this package.
 
 A package whose names load on first use (PEP 562), so that each caller imports what it needs alone, lists them
 once, as imports that type checkers follow and Python does not execute:
 
     if TYPE_CHECKING:
         from .bearing import JournalBearing as JournalBearing
-        from .arc_pressure import tension
+        from .film_state import tension
     else:
         show(__name__)
 
@@ -98,7 +98,7 @@ def module_path(name: str) -> str:
     return folder if (ROOT.parent / folder).is_file() else f"{path}.py"
 
 
-class LatePackage(ModuleType):
+class LazyPackage(ModuleType):
     """A package that imports a name when it is asked for."""
 
     @property
@@ -131,7 +131,7 @@ class LatePackage(ModuleType):
 
 def show(package: str) -> None:
     """Let a package show what its source imports for type checkers."""
-    sys.modules[package].__class__ = LatePackage
+    sys.modules[package].__class__ = LazyPackage
 
 
 OFFERED: dict[str, str] = {}

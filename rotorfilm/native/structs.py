@@ -1,4 +1,4 @@
-"""What the headers of the C library declare, as ctypes reads it: structures, prototypes and constants."""
+"""Structures, prototypes and constants of the C library, parsed from its headers for ctypes."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ from ..core.errors import ConvergenceError, FilmContactError, InputError, Rotorf
 from ..core.model import Array
 from ..scenes.excitation_table import StepLoadTable
 from ..scenes.families import Remark, said
-from .variants import VariantRung
+from .variants import FunctionRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -51,7 +51,7 @@ CLOSED_ERROR = 1e-3
 """Order of magnitude of the error of its closed form."""
 
 
-def speed_rung(bush: MeltingBush, load: float) -> VariantRung:
+def speed_rung(bush: MeltingBush, load: float) -> FunctionRung:
     """Return the critical speed [rad/s] of the unworn bush under a load [N], by its heat into the shaft."""
     is_exact = isinstance(bush.shaft_heat, ExactShaft)
     unit, exact = (
@@ -72,7 +72,7 @@ def speed_rung(bush: MeltingBush, load: float) -> VariantRung:
         error = abs(change) / (at.shaft_flux + change + at.liner_flux)
         return ErrorEstimate(error, "defect of the exact flux", {exact: 1})
 
-    return VariantRung(
+    return FunctionRung(
         name="exact" if is_exact else FLUX,
         answer=answer,
         estimate=estimate,
@@ -288,7 +288,7 @@ def wear_rung(
     *,
     within: float = AT_CRITICAL,
     prior: float = 0.0,
-) -> VariantRung:
+) -> FunctionRung:
     """Return a rung of the wear [m]: by how much farther than unworn the shaft settles.
 
     Its error is that by `judge`, unless there is no wear or it begins at the critical speed itself. No wear
@@ -304,10 +304,10 @@ def wear_rung(
         certain = found.value == 0.0 and margin < -within
         return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
 
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=expected, prior=prior)
+    return FunctionRung(name=name, answer=answer, estimate=estimate, expected=expected, prior=prior)
 
 
-def moment_rung(run: BushRun, *, closed: bool, moments: int) -> VariantRung:
+def moment_rung(run: BushRun, *, closed: bool, moments: int) -> FunctionRung:
     """Return wear by one or two moments of the profile, under a load that does not fall."""
     own = run.closed if closed else run.exact
     name = f"{'one moment' if moments == 1 else 'two moments'}{CLOSED if closed else ''}"
@@ -366,7 +366,7 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     return error, doubt if apart > DISAGREEMENT else ""
 
 
-def end_rung(run: BushRun) -> VariantRung:
+def end_rung(run: BushRun) -> FunctionRung:
     """Return where the wear under a constant load ends: the critical speed has grown to the speed."""
     rich, own, stage = run.exact, run.closed, run.stages[-1]
 
@@ -411,7 +411,7 @@ def require_end(size: float) -> float:
     return size
 
 
-def local_end_rung(run: BushRun) -> VariantRung:
+def local_end_rung(run: BushRun) -> FunctionRung:
     """Return where the wear under a constant load ends if each point melts by itself, in closed form."""
     stage = run.stages[0]
 
@@ -431,7 +431,7 @@ def local_end_rung(run: BushRun) -> VariantRung:
     return wear_rung(run, "end of the wear", answer, judge, lambda _: {ENDS: 1})
 
 
-def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> VariantRung:
+def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> FunctionRung:
     """Return wear by nodes, so many a side, on an arc that the contact just fills at the end.
 
     It is for loads that fall, and where each point melts by itself.

@@ -29,7 +29,7 @@ from ..scenes.film_rungs import (
     tangent,
 )
 from .heat_levels import field_rung
-from .variants import VariantRung, counted_rung, with_estimate
+from .variants import FunctionRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
     from ..scenes.journal_tables import JournalTable
@@ -184,7 +184,7 @@ def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
         return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
     token, change = object(), question.conservation(scene.journal_bearing)
 
-    def ruptured(rung: Rung) -> VariantRung:
+    def ruptured(rung: Rung) -> FunctionRung:
         def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
             return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
 
@@ -218,7 +218,7 @@ def conserved_ladder(scene: Scene, question: Any) -> Ladder:
     )
 
 
-def conserved_rungs(scene: Scene, question: Any) -> tuple[VariantRung, ...]:
+def conserved_rungs(scene: Scene, question: Any) -> tuple[FunctionRung, ...]:
     """Return the rungs that conserve their oil, the coarsest first, on an oil with those of its heat.
 
     They have the cells of the scene, if it names such a film.
@@ -236,7 +236,7 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[VariantRung, ...]:
 
 def conserved_rung(
     question: Any, film: JFOFilm, heat: Callable[[], ErrorEstimate] | None = None
-) -> VariantRung:
+) -> FunctionRung:
     """Return the rung of an answer on the film that conserves its oil, of an oil in the balance of its heat.
 
     Its error is the change since half the lines, and since half the cells along: mostly thrice the error.

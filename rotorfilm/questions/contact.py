@@ -34,7 +34,7 @@ from ..scenes.contact_motions import (
     natural_frequency,
     unknowns,
 )
-from .variants import VariantRung
+from .variants import FunctionRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -72,7 +72,7 @@ def contact_rung(
     *,
     companion: str = "order increments",
     failures: tuple[type[Exception], ...] = (ConvergenceError,),
-) -> VariantRung:
+) -> FunctionRung:
     """Return a rung of a quantity [m].
 
     Parameters
@@ -103,10 +103,10 @@ def contact_rung(
         except failures as error:
             return ErrorEstimate(1.0, companion, work, doubt=f"no companion: {error}")
 
-    return VariantRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
+    return FunctionRung(name=name, answer=answered, estimate=estimate, expected=lambda _: expected())
 
 
-def formula_rung(films: StaticContactFilms, bound: float) -> VariantRung:
+def formula_rung(films: StaticContactFilms, bound: float) -> FunctionRung:
     """Return the film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     The dry contact has the approach -2, in Hertzian units. The bound was measured in `FORMULA_RANGE`.
@@ -125,10 +125,10 @@ def formula_rung(films: StaticContactFilms, bound: float) -> VariantRung:
         return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
 
     name = "formula of Nijenbanning et al."
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
+    return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {FORMULAS: 1})
 
 
-def grid_rung(films: StaticContactFilms, cells: int) -> VariantRung:
+def grid_rung(films: StaticContactFilms, cells: int) -> FunctionRung:
     """Return a stationary contact on cells x cells of the shortest rectangle.
 
     Its error is the order increment from less cells, and that from two rectangles on coarse grids. A film
@@ -152,7 +152,7 @@ def grid_rung(films: StaticContactFilms, cells: int) -> VariantRung:
     )
 
 
-def unbounded_rung(films: StaticContactFilms, place: int, cells: int) -> VariantRung:
+def unbounded_rung(films: StaticContactFilms, place: int, cells: int) -> FunctionRung:
     """Return a grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
     `place` is that of the rectangle in `INLETS`. The error is a share of both extrapolations, in the length
@@ -249,7 +249,7 @@ ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
 
 
-def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> VariantRung:
+def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> FunctionRung:
     """Return the deepest approach of a motion on the reduced law of the contact under its static load.
 
     Its error is that of grid and rectangle at rest, of the fit, and of the law's one load.
@@ -491,7 +491,7 @@ class FollowedFilm:
         return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
 
 
-def film_rung(followed: FollowedFilm, cells: int, *, extrapolated: bool = False) -> VariantRung:
+def film_rung(followed: FollowedFilm, cells: int, *, extrapolated: bool = False) -> FunctionRung:
     """Return the smallest value over the motion of the full film on one grid.
 
     Its error are the increments of steps, cells and rectangle; where it is `extrapolated`, without the errors
@@ -558,7 +558,7 @@ def newton(cells: int) -> WorkUnit:
     return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
 
 
-def motion_rungs(scene: Scene, films: StaticContactFilms) -> tuple[VariantRung, ...]:
+def motion_rungs(scene: Scene, films: StaticContactFilms) -> tuple[FunctionRung, ...]:
     """Return the rungs of a ball whose load jumps or swings."""
     shaken = contact_motion(scene)
     followed = FollowedFilm(films=films, shaken=shaken)
@@ -584,7 +584,7 @@ SLACKEST = 0.05
 """Load below which there is no contact at rest to speak of."""
 
 
-def slow_rung(films: StaticContactFilms, shaken: DrivenBall) -> VariantRung:
+def slow_rung(films: StaticContactFilms, shaken: DrivenBall) -> FunctionRung:
     """Return the extreme of a quantity over the loads, as if each had acted for long.
 
     Of the approach it is always that of the largest load. The error is that of grid and rectangle, and what

@@ -32,7 +32,7 @@ from ..scenes.film_heat import (
     uniform_rest,
 )
 from ..scenes.film_rungs import FilmCandidate, with_losses
-from .variants import VariantRung, counted_rung
+from .variants import FunctionRung, counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -98,7 +98,7 @@ def answer_below(level: HeatLevel | FieldLevel, before: Found | None) -> Found |
 # Rungs of T0 and T1 on each film of a question.
 
 
-def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: int) -> VariantRung:
+def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: int) -> FunctionRung:
     """Return the rung of an answer on a film of one temperature."""
     inner = question.make(film, count)
     name = f"{level.name}, {inner.name}"
@@ -181,7 +181,7 @@ def with_moving(moving: float, heat: HeatError, method: str) -> tuple[HeatError,
 # keeps the temperature of the rest.
 
 
-def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> VariantRung:
+def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> FunctionRung:
     """Return the rung of T2 or T3, the error of which is what steps towards T3 or coarser grids change."""
     bearing = film.reaction
     name = f"{level.name}, JFO" if isinstance(bearing, JFOFilm) else level.name
@@ -213,7 +213,7 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Variant
     return counted_rung(name, ("answers", name), question.field_rests * level.seconds, solve, judge)
 
 
-def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[VariantRung, ...]:
+def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[FunctionRung, ...]:
     """Return the first rungs of a motion on the film of T3 that keeps the temperature of the rest."""
 
     @cache
@@ -226,7 +226,7 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[VariantRung, ...]:
         own = film.frozen(rest(REFERENCE).reaction)
         return replace(own, rich=own.reaction, rich_name="itself")
 
-    def rung(count: int) -> VariantRung:
+    def rung(count: int) -> FunctionRung:
         def solve(before: Found | None) -> tuple[Any, WarmSolution]:
             own = question.make(frozen(), count)
             found = own.answer(answer_below(REFERENCE, before))

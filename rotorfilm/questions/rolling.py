@@ -34,7 +34,7 @@ from ..scenes.rolling import (
     single_of,
     with_law,
 )
-from .variants import VariantRung
+from .variants import FunctionRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -185,7 +185,7 @@ RESTS = WorkUnit("rests of a ball bearing")
 ANGLES = "contacts at their running angles"
 
 
-def closed_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
+def closed_rung(bearing: Balls, asked: BallQuestion) -> FunctionRung:
     """Return Stribeck's load and Palmgren's stiffness: a radial load, no clearance, no inertia."""
 
     def answer(before: Found | None) -> Found:
@@ -199,7 +199,7 @@ def closed_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
         near = asked.rest(with_law(bearing, StaticBalls()))
         return asked.moved(bearing, found.value, near, CLOSED)
 
-    return VariantRung(
+    return FunctionRung(
         name="closed form", answer=answer, estimate=estimate, expected=lambda _: {CLOSED: 1}, prior=0.05
     )
 
@@ -210,7 +210,7 @@ def is_radial(bearing: BallBearing) -> bool:
     return not bearing.separates and still and bearing.growth == 0.0
 
 
-def law_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
+def law_rung(bearing: Balls, asked: BallQuestion) -> FunctionRung:
     """Return the rest by the law of a bearing: static or running balls."""
 
     def answer(before: Found | None) -> Found:
@@ -223,10 +223,10 @@ def law_rung(bearing: Balls, asked: BallQuestion) -> VariantRung:
         return ErrorEstimate(asked.own_bound(found.solution), ANGLES, bound=True)
 
     name = "static balls" if is_static(bearing) else "running balls"
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {RESTS: 1})
+    return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {RESTS: 1})
 
 
-def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung:
+def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> FunctionRung:
     """Return the rest by running balls, with the oil films of the most loaded one in all contacts."""
     rich = with_inertia(bearing)
 
@@ -243,7 +243,7 @@ def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> VariantRung
         films = film_spread(wet) * asked.row.distance(asked.value(dry), found.value)
         return ErrorEstimate(asked.own_bound(wet) + films, f"{ANGLES}, films by load", bound=True)
 
-    return VariantRung(
+    return FunctionRung(
         name="running balls on films", answer=answer, estimate=estimate, expected=lambda _: {RESTS: 3}
     )
 

@@ -59,7 +59,7 @@ from .shaft_films import (
     with_fields,
 )
 from .shaft_orbits import PEAK, shaft_orbit_ladder, shaft_peak_ladder
-from .variants import VariantRung, counted_rung
+from .variants import FunctionRung, counted_rung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -317,7 +317,7 @@ RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 """Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
 
 
-def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> VariantRung:
+def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:
     """Return a critical speed, or the threshold, on films with a temperature field.
 
     It is found by secants from that by T1, of the rung, and its error is that of the model of the shaft, and

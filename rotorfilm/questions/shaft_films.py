@@ -43,7 +43,7 @@ from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
-from .variants import VariantRung, counted_rung, with_estimate
+from .variants import FunctionRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
     from ..scenes.journal_tables import JournalTable
@@ -346,7 +346,7 @@ class RotorHeat:
         return steps_error(rung, found, own, rests)
 
 
-def warm_rung(rung: ShaftRung, heat: RotorHeat) -> VariantRung:
+def warm_rung(rung: ShaftRung, heat: RotorHeat) -> FunctionRung:
     """Return a rung on films of one temperature, whose error is also that by heat, which a level shares."""
     name = f"{heat.level.name}, {rung.name}"
 
@@ -482,7 +482,7 @@ def field_orbit(
     rests: Callable[[], dict[str, WarmRest]],
     make: Callable[[ShaftFilms], ShaftRung],
     films: ShaftFilms,
-) -> VariantRung:
+) -> FunctionRung:
     """Return an orbit on films that keep a temperature field.
 
     Its error is that on these films, and what theirs changes of the linear orbit by T1, `uniform`.

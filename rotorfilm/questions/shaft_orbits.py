@@ -34,7 +34,7 @@ from .shaft_films import (
     film_levels,
     shaft_ladder_on,
 )
-from .variants import VariantRung
+from .variants import FunctionRung
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -332,7 +332,9 @@ class ShaftExcitation:
         return max(largest_distance(run.time, run[f"{name}_x"], run[f"{name}_y"]) for name in self.places)
 
 
-def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShaftExcitation) -> VariantRung:
+def peak_rung(
+    model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShaftExcitation
+) -> FunctionRung:
     """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
     Its error is the distance to the run in elements half as long, on richer films, in finer steps. Of those
@@ -368,7 +370,7 @@ def peak_rung(model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: Sh
         moved = abs(shaken.peak(thick) - found.value) / found.value * bound / share
         return ErrorEstimate(error + moved, f"{method}, and with the bound of the map", work)
 
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
+    return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
 
 
 def _largest_bound(films: ShaftFilms, run: Trajectory) -> float:

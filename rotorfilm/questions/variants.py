@@ -1,4 +1,4 @@
-"""A rung that is data: one variant of a family's models, by what it answers and how that is judged."""
+"""A rung built from functions in place of a class: what it answers, its error and its work."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..core.answers import ErrorEstimate, Found, Work, WorkUnit
 
 
 @dataclass(frozen=True, kw_only=True)
-class VariantRung:
+class FunctionRung:
     """A rung of a ladder, made of functions; see `rotorfilm.core.answers.Rung` for what they do.
 
     Attributes
@@ -27,7 +27,7 @@ class VariantRung:
     refines : tuple of object
         What its steps refine; empty without steps.
     shares : object
-        What its error has a part of; None without.
+        Key of the rungs with which it has one term of the error in common; None if there are none.
     film : object
         The candidate that it asks, if it is one.
     """
@@ -44,9 +44,9 @@ class VariantRung:
 
 def with_estimate(
     rung: Any, estimate: Callable[[Found, Found | None, float], ErrorEstimate], shares: object = None
-) -> VariantRung:
+) -> FunctionRung:
     """Return a rung with another estimate, as an effect makes it; `shares` counts where it has none."""
-    return VariantRung(
+    return FunctionRung(
         name=rung.name,
         answer=rung.answer,
         estimate=estimate,
@@ -65,7 +65,7 @@ def counted_rung(
     ask: Callable[[Found | None], tuple[Any, Any]],
     judge: Callable[[Found, Found | None, float], ErrorEstimate],
     **known: Any,
-) -> VariantRung:
+) -> FunctionRung:
     """Return a rung whose units of work are whole answers and whole estimates.
 
     Parameters
@@ -91,4 +91,4 @@ def counted_rung(
     def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         return judge(found, before, tolerance)._replace(work={done: 1})
 
-    return VariantRung(name=name, answer=answer, estimate=estimate, expected=lambda work: {unit: 1}, **known)
+    return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda work: {unit: 1}, **known)

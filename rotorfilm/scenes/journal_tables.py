@@ -65,7 +65,7 @@ STARTS = {"free": FreeOnset, "widest_gap": MaximumGapOnset, "line": FixedOnset}
 
 @dataclass(frozen=True, kw_only=True)
 class ConservedOil:
-    """`film = {name = "jfo"}`: the film that conserves its oil, which is no law of the moment; see `JFOFilm`.
+    """`film = {name = "jfo"}`: the film that conserves its oil, which is no quasi-static law; see `JFOFilm`.
 
     Parameters
     ----------
@@ -159,8 +159,8 @@ class JournalTable(OiledTable):
         """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
         if self.conserves:
             raise InputError(
-                f"journal.film must be a law of the moment for {what}, as map or reynolds, got one that "
-                "conserves its oil, and remembers"
+                f"journal.film must be a quasi-static film law such as map or reynolds for {what}, got a "
+                "mass-conserving (JFO) film"
             )
 
     def bearing(self) -> JournalBearing:

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
         StudyCase as StudyCase,
         StudyModel as StudyModel,
         StudyResult as StudyResult,
-        StudyRung as StudyRung,
+        StudyRow as StudyRow,
         film_costs as film_costs,
         pareto_front as pareto_front,
         relative_error as relative_error,

@@ -23,7 +23,7 @@ from .journal_accuracy import (
     random_states,
     require_cells,
 )
-from .study import States, StudyModel, StudyResult, StudyRung
+from .study import States, StudyModel, StudyResult, StudyRow
 
 THRESHOLD_CELLS = (384, 16)
 """Finer grid of the reference; each derivative is a mean of eight solutions on it."""
@@ -102,7 +102,7 @@ def journal_stability(
         for grid in (cells, (around // 2, along // 2))
     )
     sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
-    found: list[StudyRung] = []
+    found: list[StudyRow] = []
     for number, rung in enumerate(rungs):
         report((number + 1) / (len(rungs) + 1), f"whirl threshold by {rung.name}")
         found += _points(rung, bearing, ratios, exact, sample)
@@ -155,7 +155,7 @@ def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[st
 
 def _points(
     rung: StudyModel, bearing: JournalBearing, ratios: Array, exact: Parameters, sample: States
-) -> Iterator[StudyRung]:
+) -> Iterator[StudyRow]:
     """Yield what a rung says at each eccentricity ratio."""
     own = fitted_bearing(bearing, rung.law)
     still, moving = (
@@ -183,7 +183,7 @@ def _points(
             MOVING: share,
             "why none [-]": reason,
         }
-        yield StudyRung(name=rung.name, family=rung.family, label=rung.label, case="", values=values)
+        yield StudyRow(name=rung.name, family=rung.family, label=rung.label, case="", values=values)
 
 
 def is_judged(parameter: float | None) -> bool:
@@ -200,7 +200,7 @@ def _largest_gap(rough: Parameters, exact: Parameters) -> float:
     return max((abs(gap) for gap in gaps if gap is not None), default=0.0)
 
 
-def by_film(result: StudyResult) -> dict[str, list[StudyRung]]:
+def by_film(result: StudyResult) -> dict[str, list[StudyRow]]:
     """Return the rows of each film."""
     return {name: list(rows) for name, rows in groupby(result.rungs, key=lambda rung: rung.name)}
 

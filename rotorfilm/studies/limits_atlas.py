@@ -59,7 +59,7 @@ from .coupling_cost import resting_rotor
 from .damper_accuracy import compared_damper
 from .heat_accuracy import HeatAnswer, HeatCase, HeatModel, answered, position_error
 from .journal_accuracy import SPEED, comparison_bearing
-from .study import StudyResult, StudyRung, relative_error
+from .study import StudyResult, StudyRow, relative_error
 
 FAILED = 0.1
 """Relative error at which a simplification counts as failed."""
@@ -132,7 +132,7 @@ def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silen
     chosen = [each for each in PANELS if each.physics in physics]
     if not chosen:
         raise InputError(f"physics must name one of {', '.join(PHYSICS)}, got none")
-    found: list[StudyRung] = []
+    found: list[StudyRow] = []
     for number, each in enumerate(chosen):
         report(number / len(chosen), f"{each.physics}: {each.title}")
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):
@@ -142,7 +142,7 @@ def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silen
     return StudyResult(study="limits", reference="the next better model", notes=notes, rungs=tuple(found))
 
 
-def panel_points(each: Panel) -> Iterator[StudyRung]:
+def panel_points(each: Panel) -> Iterator[StudyRow]:
     """Yield the points of the curves of a panel."""
     for name, abscissa, ordinate in each.curves():
         for x, y in zip(np.asarray(abscissa), np.asarray(ordinate), strict=True):
@@ -155,7 +155,7 @@ def panel_points(each: Panel) -> Iterator[StudyRung]:
                 "ordinate": each.y_label,
                 "error or limit": float(y),
             }
-            yield StudyRung(name=name, family=name, label="", case=each.title, values=values)
+            yield StudyRow(name=name, family=name, label="", case=each.title, values=values)
 
 
 def limit_curves(atlas: StudyResult) -> dict[Panel, Curves]:

@@ -111,7 +111,7 @@ class Study:
 
 
 @dataclass(frozen=True, kw_only=True)
-class StudyRung(Readable):
+class StudyRow(Readable):
     """What a study says of one model in one case: its errors and its cost, or a point of its curve.
 
     Attributes
@@ -151,14 +151,14 @@ class StudyResult(Readable):
         What holds for all rows of the table, by headings with units.
     notes : dict of str to object
         What titles and further pictures show.
-    rungs : tuple of StudyRung
+    rungs : tuple of StudyRow
     """
 
     study: str
     reference: str
     conditions: dict[str, Any] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)
-    rungs: tuple[StudyRung, ...]
+    rungs: tuple[StudyRow, ...]
 
     def columns(self) -> dict[str, list[object]]:
         """Return the table of the rungs, headings with units; the conditions repeat in every row."""
@@ -185,7 +185,7 @@ def run_study(
         share = part_of(report, number / len(cases), (number + 1) / len(cases))
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             for model, (answer, cost) in zip(case.models, study.costs(study, case, share), strict=True):
-                rung = StudyRung(
+                rung = StudyRow(
                     name=model.name,
                     family=model.family,
                     label=model.label,

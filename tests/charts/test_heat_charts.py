@@ -19,7 +19,7 @@ from rotorfilm.charts import (
     plot_temperature_across,
     plot_temperature_field,
 )
-from rotorfilm.studies import HEAT_CASES, HeatModel, StudyResult, StudyRung
+from rotorfilm.studies import HEAT_CASES, HeatModel, StudyResult, StudyRow
 
 
 def state_of(profile):
@@ -93,7 +93,7 @@ def test_the_whole_film_is_one_figure(layered):
 
 def test_ladder_has_a_panel_for_each_bearing():
     rungs = tuple(
-        StudyRung(
+        StudyRow(
             name=model,
             family=model,
             label=model.said,

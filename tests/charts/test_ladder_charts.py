@@ -6,7 +6,7 @@ import pytest
 from rotorfilm.charts import new_axes, plot_journal_stability, plot_study, plot_thresholds
 from rotorfilm.charts.canvas import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, Label, place_labels
 from rotorfilm.charts.whirl_verdicts import verdicts
-from rotorfilm.studies import StudyResult, StudyRung, journal_rungs
+from rotorfilm.studies import StudyResult, StudyRow, journal_rungs
 from rotorfilm.studies.journal_stability import by_film
 
 
@@ -17,7 +17,7 @@ def accuracy(family, time, error):
         "force in a batch [s]": time,
         "force alone, prepare() [s]": 10.0 * time,
     }
-    return StudyRung(name=family, family=family, label="x", case="", values=values)
+    return StudyRow(name=family, family=family, label="x", case="", values=values)
 
 
 def stability(family, parameters, exact, *, rank_one=0, asymmetry=0.0, share=0.0):
@@ -37,7 +37,7 @@ def stability(family, parameters, exact, *, rank_one=0, asymmetry=0.0, share=0.0
             "tension/largest pressure at rest [1]": 0.0,
             "states of large motion in tension [1]": share,
         }
-        rows.append(StudyRung(name=f"{family} x", family=family, label="x", case="", values=values))
+        rows.append(StudyRow(name=f"{family} x", family=family, label="x", case="", values=values))
     return rows
 
 

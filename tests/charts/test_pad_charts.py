@@ -8,13 +8,13 @@ from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
 from rotorfilm import lobe_set
 from rotorfilm.charts import plot_bearing_thresholds, plot_study
-from rotorfilm.studies import StudyResult, StudyRung
+from rotorfilm.studies import StudyResult, StudyRow
 
 TURN = 2.0 * math.pi / 60.0
 
 
 def rung(name, **values):
-    return StudyRung(name=name, family=name, label="", case="", values=values)
+    return StudyRow(name=name, family=name, label="", case="", values=values)
 
 
 def test_coefficients_are_drawn_entry_by_entry():
@@ -73,7 +73,7 @@ def test_bearings_that_never_whirl_lie_on_the_edge():
 
 def test_films_of_pads_are_drawn_over_their_cost():
     rungs = [
-        StudyRung(
+        StudyRow(
             name=name,
             family=family,
             label="",

@@ -95,7 +95,7 @@ def test_orbit_has_the_conservation_of_oil_in_its_estimate_and_says_so():
     assert "conservation of oil" in answer.rungs[0].method
     assert any("no rung of this question follows the oil" in remark for remark in answer.remarks)
     assert not any("JFO" in rung.name for rung in answer.rungs)
-    with pytest.raises(InputError, match=r"journal\.film must be a law of the moment for unbalance"):
+    with pytest.raises(InputError, match=r"journal\.film must be a quasi-static film law .* for unbalance"):
         scene_of(HOLE + '\nfilm = { name = "jfo" }', quantity="unbalance_amplitude", further=rotor).ask()
 
 
@@ -162,7 +162,7 @@ def test_supply_that_cannot_be_is_an_error_at_its_key(film, message):
 def test_film_that_remembers_is_no_film_for_cosimulation():
     jfo = HOLE + '\nfilm = { name = "jfo" }'
     scene = scene_of(jfo, further="[rigid_rotor]\nmass = 100.0")
-    with pytest.raises(InputError, match="law of the moment for a co-simulation"):
+    with pytest.raises(InputError, match=r"quasi-static film law .* for a co-simulation"):
         run_scene(scene, SIExp3())
 
 
