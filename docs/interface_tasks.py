@@ -59,7 +59,7 @@ TASKS = {
     "Bearings fitted to measurements": ("identification",),
     "FMUs": (
         "fmu",
-        "scenes.rotor_runs",
+        "scenes.export_scene",
     ),
     "Coupling in co-simulation": ("cosim",),
     "Scenes, questions, sweeps": (

@@ -28,7 +28,7 @@ print(f"two FMUs: peak force {100.0 * force:+.2f} %, peak eccentricity {100.0 * 
 
 # The map ends at .99 of the clearance; the quadrature knows the film up to the wall.
 lost = replace(scene.excitation, unbalance=1.4e-3)
-worse = replace(scene, excitation=lost, damper=replace(scene.damper, film=ShortSqueeze()))
+worse = replace(scene, excitation=lost).with_tables(damper=replace(scene.damper, film=ShortSqueeze()))
 ended = run_damper(worse)
 print(f"1400 g mm: the rotor is at the wall after {1e3 * (ended.contact_time - lost.start):.2f} ms")
 

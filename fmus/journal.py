@@ -15,7 +15,7 @@ COMPONENT = "bearing"
 def scene() -> Scene:
     """Return the scene, with the film that runs without Python."""
     bundled = bundled_scene()
-    return replace(bundled, journal=replace(bundled.journal, film=MapFilm()))
+    return bundled.with_tables(journal=replace(bundled.journal, film=MapFilm()))
 
 
 def model() -> JournalBearing:

@@ -16,7 +16,7 @@ COMPONENT = "rotor"
 def scene() -> Scene:
     """Return the scene, with the film of `journal.py`."""
     bundled = bundled_scene()
-    return replace(bundled, journal=replace(bundled.journal, film=MapFilm()))
+    return bundled.with_tables(journal=replace(bundled.journal, film=MapFilm()))
 
 
 def model() -> RigidRotor:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -44,6 +44,12 @@ from .frequency_dependent import mass_borders, rigid_exponents, rigid_growing, w
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
+
+NO_MASS: Mapping[str, Any] = dict.fromkeys(("mass", "whirl_frequency", "whirl_ratio"))
+NO_THRESHOLD: Mapping[str, Any] = dict.fromkeys(
+    ("speed", "whirl_ratio", "critical_mass", "speed_parameter", "equilibrium")
+)
+"""Fields of a `CriticalMass` and of a `WhirlThreshold` that do not exist; both say why."""
 
 
 @arguments
@@ -158,12 +164,12 @@ def _searched(
         with _passing(passed):
             at = coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
         if damping_has_rank_one(at):
-            return WhirlThreshold(reason=critical_mass(at).reason)
+            return WhirlThreshold(**NO_THRESHOLD, reason=critical_mass(at).reason)
         stable.append(is_stable(at, mass))
         if before is not None and stable[-2:] == [True, False]:
             return _refined(reaction, load, mass, (before, at), passed)
         before = at
-    return WhirlThreshold(reason=_why_none(stable, speeds))
+    return WhirlThreshold(**NO_THRESHOLD, reason=_why_none(stable, speeds))
 
 
 def _settling(
@@ -184,7 +190,7 @@ def _settling(
 
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
-        return WhirlThreshold(reason=_why_none(stable, speeds))
+        return WhirlThreshold(**NO_THRESHOLD, reason=_why_none(stable, speeds))
     with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
@@ -305,9 +311,9 @@ class CriticalMass(Readable):
         Empty, or why there is no critical mass.
     """
 
-    mass: float | None = None
-    whirl_frequency: float | None = None
-    whirl_ratio: float | None = None
+    mass: float | None
+    whirl_frequency: float | None
+    whirl_ratio: float | None
     reason: str = ""
 
 
@@ -356,7 +362,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
         )
     reason = _why_no_border(coefficients)
     if reason:
-        return CriticalMass(reason=reason)
+        return CriticalMass(**NO_MASS, reason=reason)
     k = effective_stiffness(coefficients)
     squared = _shifted_determinant(coefficients, k) / _determinant(coefficients.damping)
     frequency = math.sqrt(squared)
@@ -374,7 +380,7 @@ def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
     if not borders:
         growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
         reason = "unstable whatever the mass" if growing else "stable whatever the mass"
-        return VerifiedCriticalMass(reason=reason, growing_below=growing, growing_above=growing)
+        return VerifiedCriticalMass(**NO_MASS, reason=reason, growing_below=growing, growing_above=growing)
     masses = [mass for mass, _ in borders]
     between = [math.sqrt(one * other) for one, other in pairwise(masses)]
     counts = [rigid_growing(film, mass) for mass in (0.5 * masses[0], *between, 2.0 * masses[-1])]
@@ -393,7 +399,7 @@ def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
                 growing_above=above,
             )
     reason = f"no light rotor is stable: {counts[0]} exponents grow"
-    return VerifiedCriticalMass(reason=reason, growing_below=counts[0], growing_above=counts[-1])
+    return VerifiedCriticalMass(**NO_MASS, reason=reason, growing_below=counts[0], growing_above=counts[-1])
 
 
 def effective_stiffness(coefficients: Coefficients) -> float:

@@ -155,11 +155,11 @@ class WhirlThreshold(Readable):
         Empty, or why there is no threshold.
     """
 
-    speed: float | None = None
-    whirl_ratio: float | None = None
-    critical_mass: float | None = None
-    speed_parameter: float | None = None
-    equilibrium: Equilibrium | None = None
+    speed: float | None
+    whirl_ratio: float | None
+    critical_mass: float | None
+    speed_parameter: float | None
+    equilibrium: Equilibrium | None
     reason: str = ""
 
     @property

@@ -35,7 +35,17 @@ NO_RESULTS = {
         "PadResolution",
     },
     "a part of the machinery": {
-        *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "StudyModel"),
+        *(
+            "WorkUnit",
+            "Unit",
+            "Family",
+            "PadTable",
+            "MarchMotion",
+            "Residual",
+            "ModalFilms",
+            "Corrected",
+            "StudyModel",
+        ),
         *("FilmField", "StudyCase", "Study", "BushRun"),
         *("RossRotor", "DemoResult", "PublishedStage"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "DrivenBall"),

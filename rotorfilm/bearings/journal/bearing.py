@@ -25,7 +25,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array, Tangent
 from ...core.readable import Readable
 from ...core.results import BearingLosses
-from ...native import JournalKernel, Status
+from ...native.film_kernels import JournalKernel, Status
 from ...native.loss_kernels import BalancedBatch, BalancedKernel, LossKernel
 from ...native.spec import NativeSpec, journal_spec
 from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad, Pocket
