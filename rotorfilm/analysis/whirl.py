@@ -254,6 +254,7 @@ def _refined(
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:
         return WhirlThreshold(
+            **NO_THRESHOLD,
             reason="static stability is lost (det K <= 0) between "
             f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s"
         )
