@@ -105,7 +105,7 @@ def lobes(random: np.random.Generator) -> Drawn:
     speed = log_uniform(random, 30.0, 600.0) * float(random.choice([-1.0, 1.0]))
     shape = {
         "preload": drawn["preload"],
-        "extent": USUAL[drawn["set"]].extent * drawn["share"],
+        "extent": USUAL[drawn["set"]][2] * drawn["share"],
         "turned": drawn["turned"],
     }
     pads = lobe_set(drawn["set"], **shape)
