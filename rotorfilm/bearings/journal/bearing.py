@@ -39,7 +39,7 @@ from ..oil.heated_bearing import (
     require_lubricant,
 )
 from ..oil.oil import viscosity_table
-from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_size
+from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_no_overflow, require_size
 from .map.map_film import MapFilm
 
 
@@ -510,6 +510,8 @@ def bearing_losses(
     ------
     FilmContactError
         If a journal touches the wall.
+    InputError
+        If the power overflows.
 
     Notes
     -----
@@ -533,6 +535,7 @@ def bearing_losses(
     inflow, arriving = flow * found.inflow, flow * found.arriving
     supplied = bearing.supply_pressure * (_supplied(bearing, inflow - arriving)).sum(axis=0)
     power = (drag + half) * speed - (force * velocity).sum(axis=0) + supplied
+    require_no_overflow(power, position, velocity, speed)
     return BearingLosses(
         power_loss=_number(power),
         friction_torque=_number(drag + half),
