@@ -64,10 +64,18 @@ def without_overflow(
     """Return law(position, velocity, speed), a force, slopes or a mass; InputError where it overflows."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found = law(position, velocity, speed)
-    if not np.isfinite(found).all():
-        state = ", ".join(brief(part.tolist()) for part in (position, velocity, speed))
-        raise InputError(f"position, velocity and speed must be finite and not overflow, got {state}")
+    require_no_overflow(found, position, velocity, speed)
     return found
+
+
+def require_no_overflow(found: Array, position: Array, velocity: Array, speed: Array) -> None:
+    """Raise InputError with the state of which something was found that is not finite."""
+    if not np.isfinite(found).all():
+        q, v, omega = (brief(part.tolist()) for part in (position, velocity, speed))
+        raise InputError(
+            "position, velocity and speed must be finite and not overflow, "
+            f"got {q} m, {v} m/s and {omega} rad/s"
+        )
 
 
 def input_vector(u: ArrayLike) -> Array:

@@ -14,6 +14,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import InitVar
 from functools import cache, wraps
 from itertools import chain, repeat
 from os import PathLike
@@ -417,7 +418,7 @@ def kinds_of(documented: Any) -> Mapping[str, Any]:
         for name, written in names.items():
             with suppress(NameError):  # of what type checkers alone import
                 kind = eval(written, where, {"ArrayLike": Numbers}) if isinstance(written, str) else written
-                found[name] = kind
+                found[name] = kind.type if isinstance(kind, InitVar) else kind
     found.pop("return", None)
     return found
 

@@ -550,7 +550,7 @@ class Adaptive:
     Raises
     ------
     InputError
-        If the tolerance is not positive.
+        If the tolerance is not positive, or the scheme takes no derivatives of the films.
     """
 
     tolerance: float = 1e-3
@@ -558,6 +558,11 @@ class Adaptive:
 
     def __post_init__(self) -> None:
         require_positive("tolerance", self.tolerance)
+        if not self.scheme.needs.derivatives:
+            raise InputError(
+                "scheme must be one that takes the derivatives of the films, as SIExp3(), "
+                f"got {self.scheme!r}"
+            )
 
     @property
     def order(self) -> int:

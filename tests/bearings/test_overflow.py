@@ -63,6 +63,20 @@ def test_a_seal_names_the_state_that_overflows(speed):
         rf.AnnularSeal(**SEAL).force([1e-5, 0.0], [0.0, 0.0], speed)
 
 
+@pytest.mark.parametrize(
+    "bearing", [rf.JournalBearing(**FILM), rf.LobedBearing(**PADS, lobes=rf.lobe_set("elliptical"))]
+)
+def test_losses_name_the_state_that_overflows(bearing):
+    with (
+        np.errstate(all="ignore"),
+        pytest.raises(
+            InputError,
+            match=r"^position, velocity and speed must be finite and not overflow, got .* and 1e\+160 rad/s",
+        ),
+    ):
+        bearing.losses(PLACE, np.zeros(2), 1e160)
+
+
 @pytest.mark.parametrize("name", ["pressure_drop", "viscosity", "density"])
 def test_a_seal_of_an_absurd_size_is_refused(name):
     with warnings.catch_warnings():

@@ -309,6 +309,11 @@ def test_other_arguments_are_checked(orbit):
         Newton(tolerance=0.0)
     with pytest.raises(InputError, match=r"tolerance must be finite and positive, got -1\.0"):
         Adaptive(tolerance=-1.0)
+    for other in (GaussSeidel(degree=1), Jacobi()):
+        with pytest.raises(InputError, match=r"scheme must be one that takes the derivatives.* got \w+\("):
+            Adaptive(scheme=other)
+    with pytest.raises(InputError, match="scheme must be a Scheme"):
+        Adaptive(scheme="best")
     with pytest.raises(InputError, match="scheme must be a scheme such as SIExp3"):
         cosimulate(rotor, bearing, macro_step=1e-4, duration=1e-3, scheme="best")
     with pytest.raises(InputError, match="films must be one at least, got none"):

@@ -180,15 +180,16 @@ class BallSupport(Called):
         Warns
         -----
         ValidityWarning
-            If the frequency is above that to which the law was fitted.
+            If the frequency, or without one the speed, is above that to which the law was fitted.
         """
-        if frequency is not None and abs(require_number("frequency", frequency)) > self.law.highest_frequency:
+        q, speed = require_pair("position", position), require_number("speed", speed)
+        name, asked = ("speed", speed) if frequency is None else ("frequency", frequency)
+        if abs(require_number(name, asked)) > self.law.highest_frequency:
             warn_user(
-                f"frequency should be at most {self.law.highest_frequency:.6g} rad/s, to which the law was "
-                f"fitted, got {frequency!r}"
+                f"{name} should be at most {self.law.highest_frequency:.6g} rad/s, to which the law was "
+                f"fitted, got {asked!r}"
             )
-        q = require_pair("position", position)
-        return coefficients_of(self._in_motion(q), q, require_number("speed", speed), frequency)
+        return coefficients_of(self._in_motion(q), q, speed, frequency)
 
     def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> Complex:
         """Return the exponents of a rigid mass [kg] with the films [1/s], the least damped first."""

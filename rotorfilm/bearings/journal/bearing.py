@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from dataclasses import dataclass, fields, replace
+from dataclasses import InitVar, dataclass, fields, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -39,7 +39,7 @@ from ..oil.heated_bearing import (
     require_lubricant,
 )
 from ..oil.oil import viscosity_table
-from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_size
+from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_no_overflow, require_size
 from .map.map_film import MapFilm
 
 
@@ -71,7 +71,7 @@ class JournalBearing(FilmReaction, WarmBearing):
     film : FilmLaw
         The film law. By default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
         too; and `ReynoldsFilm()` in a bearing of which there is no map, as with a supply pressure.
-        Exchangeable by `dataclasses.replace`.
+        Exchangeable by `dataclasses.replace`, which chooses a default film anew for other dimensions.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove or FeedHole
@@ -82,6 +82,8 @@ class JournalBearing(FilmReaction, WarmBearing):
     circumferential_groove : float or None [m]
         Width along the axis of a groove all round at mid-length, at the supply pressure: the film is that of
         the two lands beside it. None for none.
+    default_film : FilmLaw or None
+        Set by the bearing: the film that it chose, by which `dataclasses.replace` knows it for the default.
 
     Raises
     ------
@@ -116,8 +118,9 @@ class JournalBearing(FilmReaction, WarmBearing):
     grooves: tuple[Groove | FeedHole, ...] = ()
     supply_pressure: float = 0.0
     circumferential_groove: float | None = None
+    default_film: InitVar[FilmLaw | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, default_film: FilmLaw | None) -> None:
         require_size(self)
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_non_negative("supply_pressure", self.supply_pressure)
@@ -127,8 +130,11 @@ class JournalBearing(FilmReaction, WarmBearing):
             require_non_negative("circumferential_groove", self.circumferential_groove)
         if self.supply_pressure > 0.0 and not self.grooves and self.circumferential_groove is None:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
-        if self.film is None:
-            object.__setattr__(self, "film", usual_film(self.geometry, self.slenderness))
+        # `replace` hands on the very film that was chosen for the old dimensions.
+        if self.film is None or self.film is default_film:
+            default_film = usual_film(self.geometry, self.slenderness)
+            object.__setattr__(self, "film", default_film)
+            object.__setattr__(self, "default_film", default_film)
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         # Fitted here so that a geometry that is beyond the film is refused at once.
         low, high = self._options.slenderness_range
@@ -504,6 +510,8 @@ def bearing_losses(
     ------
     FilmContactError
         If a journal touches the wall.
+    InputError
+        If the power overflows.
 
     Notes
     -----
@@ -527,6 +535,7 @@ def bearing_losses(
     inflow, arriving = flow * found.inflow, flow * found.arriving
     supplied = bearing.supply_pressure * (_supplied(bearing, inflow - arriving)).sum(axis=0)
     power = (drag + half) * speed - (force * velocity).sum(axis=0) + supplied
+    require_no_overflow(power, position, velocity, speed)
     return BearingLosses(
         power_loss=_number(power),
         friction_torque=_number(drag + half),

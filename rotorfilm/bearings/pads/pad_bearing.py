@@ -15,6 +15,7 @@ from ...core.results import BearingLosses
 from ..films.geometry import TURN
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import WarmBearing, flow_slopes, require_lubricant
+from ..reaction import require_no_overflow
 from .pad_table import LossyPadFilm, PadFlows, gap_shear_of_pad, gap_slopes_of_pad
 
 _ROUNDOFF = 5e-14
@@ -247,8 +248,10 @@ def collected_losses(
     inflow, arriving = (
         unit * rows.reshape(len(starts), *shape) for rows in behind_pads(starts, *flows, omega >= 0.0)
     )
+    power = drag * omega - (force * v).sum(axis=0)
+    require_no_overflow(power, *state)
     return BearingLosses(
-        power_loss=_number(drag * omega - (force * v).sum(axis=0), shape),
+        power_loss=_number(power, shape),
         friction_torque=_number(drag, shape),
         bush_torque=_number(drag - cross(q, force), shape),
         side_flow=_number((inflow - arriving).sum(axis=0), shape),

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import pickle
 from itertools import pairwise
 
 import numpy as np
@@ -47,6 +48,22 @@ def test_openings_become_pockets_of_their_share():
     both = bearing(grooves=(SHORT,), circumferential_groove=0.01)
     assert both.geometry.pockets[0].share == pytest.approx(0.6)
     assert (both.film_length, both.slenderness) == (pytest.approx(0.05), pytest.approx(0.5))
+
+
+def test_a_default_film_is_chosen_anew_for_other_openings():
+    plain = JournalBearing(**SIZES)
+    wide = (Groove(center=0.0, width=2.0),)
+    for other in ({"grooves": (HOLE,), "supply_pressure": 1e5}, {"grooves": wide}):
+        fed = dataclasses.replace(plain, **other)
+        assert fed == JournalBearing(**SIZES, **other)
+        assert fed.film == ReynoldsFilm()
+        warm = pickle.loads(pickle.dumps(dataclasses.replace(fed, viscosity=0.01)))
+        assert dataclasses.replace(warm, viscosity=mu, grooves=(), supply_pressure=0.0) == plain
+    for film in (ReynoldsFilm(), ReynoldsFilm(cells=(48, 4))):
+        given = dataclasses.replace(fed, film=film)
+        assert dataclasses.replace(given, grooves=()).film is film
+    with pytest.raises(InputError, match="film must represent"):
+        dataclasses.replace(plain, film=ShortFilm(), grooves=wide)
 
 
 @pytest.mark.parametrize(
