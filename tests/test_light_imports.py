@@ -55,7 +55,12 @@ PATHS = {
         {"rich.progress"},
         OTHER_PARTS - {"cli", "rotors", "questions"}
         | OTHER_FAMILIES
-        | {"analysis.equal_steps", "analysis.periodic_orbit", "analysis.rotor_modes", "questions.film_motions"},
+        | {
+            "analysis.equal_steps",
+            "analysis.periodic_orbit",
+            "analysis.rotor_modes",
+            "questions.film_motions",
+        },
     ),
 }
 NEEDED = {"question": {"scipy"}}
