@@ -23,6 +23,7 @@ bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1
 bearing.force([3e-5, 0.0], [0.0, 0.0], 100.0)
 """
 SCENE = Path(__file__).parents[1] / "examples" / "friswell.toml"
+QUESTION = SCENE.with_name("question.toml")
 
 PATHS = {
     "import": ("import rotorfilm", {"numpy", "rich"}, {"analysis", "bearings", "core.errors", "core.model"}),
@@ -35,15 +36,34 @@ PATHS = {
         OTHER_PARTS - {"cli", "rotors"}
         | OTHER_FAMILIES
         | {
+            "analysis.frequency_dependent",
+            "analysis.modal_reduction",
+            "analysis.rotor_equilibrium",
             "analysis.simulate",
+            "bearings.linear",
             "bearings.rolling",
             "bearings.pads",
             "cli.chart_commands",
+            "rotors.base_excitation",
+            "rotors.motor",
+            "rotors.reduced_rotor",
             "scenes.new_scene",
         },
     ),
+    "question": (
+        CALL.format(["solve", str(QUESTION)]),
+        {"rich.progress"},
+        OTHER_PARTS - {"cli", "rotors", "questions"}
+        | OTHER_FAMILIES
+        | {
+            "analysis.equal_steps",
+            "analysis.periodic_orbit",
+            "analysis.rotor_modes",
+            "questions.film_motions",
+        },
+    ),
 }
-NEEDED = {"solve": {"scipy"}}
+NEEDED = {"question": {"scipy"}}
 """Packages of `FAR` that a path takes all the same."""
 
 

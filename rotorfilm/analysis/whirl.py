@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from ..bearings.reaction import FrequencyDependentCoefficients, InertialCoefficients
 from ..core.errors import (
@@ -38,9 +37,9 @@ from ..core.model import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium, WhirlThreshold
+from ..core.roots import bracketed_root
 from .coefficients import coefficients
 from .equilibrium import checked_load, equilibrium
-from .frequency_dependent import mass_borders, rigid_exponents, rigid_growing, whirl_exponent
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
@@ -179,6 +178,8 @@ def _settling(
 
     def least_damped(at: Equilibrium) -> complex:
         if isinstance(reaction, FrequencyDependent) and not isinstance(reaction, Dynamic):
+            from .frequency_dependent import rigid_exponents
+
             # Where nothing grows it is one that is damped, not always the least: only its sign counts.
             return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
         film = at_rest(settled(reaction, at.position, at.speed))
@@ -206,7 +207,7 @@ def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float
         stable.append(growth(speed) < 0.0)
         if stable[-2:] == [True, False]:
             low, high = np.log(speeds[k - 1 : k + 1]).tolist()
-            return math.exp(brentq(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
+            return math.exp(bracketed_root(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
     return None, stable
 
 
@@ -258,7 +259,7 @@ def _refined(
             reason="static stability is lost (det K <= 0) between "
             f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s"
         )
-    root = brentq(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
+    root = bracketed_root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))
     border = critical_mass(coefficients(reaction, onset.position, onset.speed))
     return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
@@ -377,6 +378,9 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
 def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
     """Return the lightest mass with which nothing grows below, and something above."""
+    # Imported where a film remembers: with it come flexible rotors and sparse matrices.
+    from .frequency_dependent import mass_borders, rigid_growing
+
     borders = mass_borders(film)
     if not borders:
         growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
@@ -495,6 +499,8 @@ def counted_threshold(reaction: FrequencyDependent, found: WhirlThreshold) -> Ve
     ConvergenceError
         If they are not 0 below and more above: then another whirl was missed.
     """
+    from .frequency_dependent import rigid_growing
+
     speed, at, mass = found.speed, found.equilibrium, found.critical_mass
     assert speed is not None
     assert at is not None
@@ -525,6 +531,8 @@ def threshold_near(
     ConvergenceError
         If the whirl is not followed, or the count says that another one was missed.
     """
+    from .frequency_dependent import whirl_exponent
+
     whole: Any = reaction  # a force at rest, which is what an equilibrium takes
 
     def exponent(speed: float) -> complex:
@@ -535,7 +543,8 @@ def threshold_near(
     for _ in range(MOST):
         last, speed = speed, speed * factor
         if (exponent(speed).real < 0.0) is not (own < 0.0):
-            onset = float(brentq(lambda at: exponent(at).real, min(last, speed), max(last, speed), rtol=NEAR))
+            ends = min(last, speed), max(last, speed)
+            onset = bracketed_root(lambda at: exponent(at).real, *ends, rtol=NEAR)
             at, ratio = equilibrium(whole, load, onset), abs(exponent(onset).imag) / onset
             return counted_threshold(reaction, _threshold(whole, at, mass, ratio, mass))
     raise AbsentError(

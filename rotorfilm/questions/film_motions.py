@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -47,9 +47,8 @@ from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
 from ..scenes.film_rungs import FilmCandidate, any_candidate
-from .coupling import coupling_ladder
-from .film_statics import FilmQuestion, Films, Units, film_ladder, static_ladder, whirl_ladder
-from .quantities import relative
+from .film_statics import FilmQuestion, Films, Units, film_ladder
+from .quantities import FORCE, ORBIT_UNITS, PHASE, relative
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -516,27 +515,6 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     return film_ladder(scene, lambda scene: known, question)
 
 
-def film_ladders(
-    points: Films, turns: Films, statics: Iterable[str]
-) -> dict[str, Callable[[Scene, str], Ladder]]:
-    """Return the ladders of a bearing with a film by quantity.
-
-    Parameters
-    ----------
-    points, turns : callable
-        Take a scene and return the candidates for some equilibria, and for states all round a turn.
-    statics : iterable of str
-        Quantities of the journal at rest that its films have.
-    """
-    return {
-        **dict.fromkeys(statics, partial(static_ladder, points)),
-        **dict.fromkeys(ORBIT_UNITS, partial(orbit_ladder, turns)),
-        "whirl_threshold": partial(whirl_ladder, points),
-        "peak_displacement": partial(blade_loss_ladder, turns),
-        "cosimulation_error": coupling_ladder,
-    }
-
-
 def lost_blade(scene: Scene) -> BladeLossTable:
     """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
     if not isinstance(scene.excitation, BladeLossTable):
@@ -547,12 +525,7 @@ def lost_blade(scene: Scene) -> BladeLossTable:
     return scene.excitation
 
 
-# What is asked about an orbit that an unbalance makes: amplitude, phase or force, and where.
-
-
-AMPLITUDE, PHASE, FORCE = "unbalance_amplitude", "unbalance_phase", "unbalance_force"
-ORBIT_UNITS = {AMPLITUDE: "m", PHASE: "rad", FORCE: "N"}
-"""Quantities of an orbit and their units."""
+# What is asked about an orbit that an unbalance makes, and where.
 
 WALL = 0.999
 """Distance from the center / clearance from which a journal touches."""

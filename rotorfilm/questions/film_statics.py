@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ..analysis import coefficients, equilibrium, whirl_threshold
-from ..analysis.speed_events import secant_speed
 from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import (
     ISOTHERMAL,
@@ -411,12 +410,15 @@ class WhirlQuestion(FilmQuestion):
     ----------
     mass : float [kg]
         Of the rotor.
+    secants : callable
+        `rotorfilm.analysis.speed_events.secant_speed`.
     levels : tuple of FieldLevel
     rests, field_rests : float
         As of any question.
     """
 
     mass: float
+    secants: Callable[..., Any]
 
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
     rests: ClassVar[int] = SPEEDS
@@ -440,7 +442,7 @@ class WhirlQuestion(FilmQuestion):
             own = level.rest(film.reaction, self.load, speed)
             return float(self.value(own)), own
 
-        at = secant_speed(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
+        at = self.secants(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
         judge = self.growth(at.speed, at.slope)
         return WarmSolution(level, Found(at.speed, {}), own=at.solution, judge=judge)
 
@@ -514,6 +516,9 @@ def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = Tr
     InputError
         If the scene has no rigid rotor.
     """
+    # With it come the modes of flexible rotors: here, before the cost of a rung is measured.
+    from ..analysis.speed_events import secant_speed
+
     mass, load, bearing = required_rotor(scene, quantity).mass, scene.static_load, any_bearing(scene)
     near = math.sqrt(math.hypot(*load) / (mass * bearing.clearance))
     question = WhirlQuestion(
@@ -528,5 +533,6 @@ def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = Tr
         follows_oil=not bearing.is_warming,
         has_levels=levels,
         mass=mass,
+        secants=secant_speed,
     )
     return film_ladder(scene, films, question)

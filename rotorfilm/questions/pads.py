@@ -31,16 +31,14 @@ from ..core.results import Equilibrium
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
 from ..scenes.pad_tables import pad_film_name, quasi_static_scene
 from .film_motions import (
-    FORCE,
-    ORBIT_UNITS as ORBITS,
     OrbitRung,
-    film_ladders,
     orbit_ladder,
     wave_change,
     wave_value,
 )
 from .film_statics import static_ladder, whirl_ladder
-from .quantities import QUANTITIES
+from .journal import film_ladders
+from .quantities import FORCE, ORBIT_UNITS as ORBITS, QUANTITIES
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

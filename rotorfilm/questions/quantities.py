@@ -13,6 +13,10 @@ from ..core.answers import relative_change
 from ..core.results import Equilibrium
 from ..scenes.film_rungs import FilmCandidate, with_losses, with_pressures
 
+AMPLITUDE, PHASE, FORCE = "unbalance_amplitude", "unbalance_phase", "unbalance_force"
+ORBIT_UNITS = {AMPLITUDE: "m", PHASE: "rad", FORCE: "N"}
+"""Quantities of an orbit that an unbalance makes, and their units."""
+
 # Distances of a value from a better one, in the unit of the tolerance.
 
 

@@ -44,8 +44,8 @@ from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, WarmRest
-from .film_motions import ORBIT_UNITS as ORBITS
 from .film_statics import moving_heat
+from .quantities import ORBIT_UNITS as ORBITS
 from .shaft_films import (
     ShaftFilms,
     ShaftRung,

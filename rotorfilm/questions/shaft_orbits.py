@@ -24,7 +24,8 @@ from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.excitation_table import GroundTable, RunUpTable, UnbalanceTable, require_kind
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
-from .film_motions import FORCE, ORBIT_UNITS, PHASE, WALL, OrbitPlace, SolvedTurn
+from .film_motions import WALL, OrbitPlace, SolvedTurn
+from .quantities import FORCE, ORBIT_UNITS, PHASE
 from .shaft_films import (
     ShaftFilms,
     ShaftRung,

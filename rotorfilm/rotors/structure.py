@@ -19,8 +19,6 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import sparse
-from scipy.linalg import cho_factor, cho_solve
 
 from ..core.errors import InputError, keep_pair, require_finite, require_kind, require_number
 from ..core.model import Array, Dynamic, Linearization, breakpoints
@@ -216,6 +214,8 @@ def require_flexible(rotor: object) -> None:
 
 def solved_equations(s: Structure) -> Operators:
     """Return the equations of a structure without hysteresis, solved for the rates."""
+    from scipy.linalg import cho_factor, cho_solve  # heavy, and a rotor that only stands needs none
+
     n = len(s.weight)
     factor = cho_factor(s.mass)
 
@@ -358,6 +358,8 @@ def new_shapes(shapes: Array, known: Array, mass: Any, least: float = DEPENDENT)
 
 def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
     """Return the sparse matrix that small matrices at the given places add up to, shape (size, size)."""
+    from scipy import sparse
+
     rows, columns, values = [], [], []
     for places, part in parts:
         row, column = np.meshgrid(places, places, indexing="ij")
@@ -375,6 +377,8 @@ def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
 def planes(pattern: Array, matrix: Any) -> Any:
     """Return the Kronecker product of a pattern of two planes and the matrix of one, sparse if that is."""
     if is_sparse(matrix):
+        from scipy import sparse
+
         return sparse.csr_array(sparse.kron(sparse.csr_array(pattern), matrix))
     return np.asarray(np.kron(pattern, matrix), dtype=float)
 
@@ -386,7 +390,7 @@ def dense_matrix(part: Any) -> Any:
 
 def is_sparse(part: Any) -> bool:
     """Return whether a part of a structure is a sparse array."""
-    return bool(sparse.issparse(part))
+    return hasattr(part, "tocsr")  # asks no sparse package, which a rigid rotor does not need
 
 
 # The signals of a bearing station: their names begin with that of the station, if it has one.

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, Self, runtime_checkable
 
 from ..core.errors import InputError, require_count, require_non_negative, require_number, require_positive
 from ..core.limits import SEEDS
 from ..core.progress import Report
 from ..core.readable import Readable
-from ..rotors.base_excitation import BaseMotion
-from ..rotors.motor import LinearMotor
 from ..rotors.profile import SpeedProfile
 from .lubricant_table import Lubricant, LubricantTable
 from .reading import Count, Record, made_from, read_load, record_of
+
+if TYPE_CHECKING:
+    from ..rotors import BaseMotion, LinearMotor
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,6 +164,8 @@ class MotorTable(UnbalanceTable):
 
     def motor(self) -> LinearMotor:
         """Return the motor."""
+        from ..rotors import LinearMotor
+
         return made_from(LinearMotor, self)
 
 
@@ -207,6 +210,8 @@ class GroundTable:
 
     def motion(self, duration: float) -> BaseMotion:
         """Return the motion of the ground; that of a spectrum for so long [s]."""
+        from ..rotors import BaseMotion
+
         if self.spectrum is not None:
             omega, power = self.spectrum
             density = [self.scale**2 * value for value in power]
