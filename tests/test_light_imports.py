@@ -63,7 +63,7 @@ PATHS = {
         },
     ),
 }
-NEEDED = {"question": {"scipy"}}
+NEEDED = {"solve": {"scipy"}, "question": {"scipy"}}
 """Packages of `FAR` that a path takes all the same."""
 
 
