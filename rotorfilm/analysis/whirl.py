@@ -257,7 +257,7 @@ def _refined(
         return WhirlThreshold(
             **NO_THRESHOLD,
             reason="static stability is lost (det K <= 0) between "
-            f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s"
+            f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s",
         )
     root = bracketed_root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))

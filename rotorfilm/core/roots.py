@@ -4,9 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+FOUR_ULPS = 2.0**-50
+"""The least relative tolerance that scipy takes."""
+
 
 def bracketed_root(
-    function: Callable[[float], float], low: float, high: float, *, xtol: float = 2e-12, rtol: float = 8.9e-16
+    function: Callable[[float], float],
+    low: float,
+    high: float,
+    *,
+    xtol: float = 2e-12,
+    rtol: float = FOUR_ULPS,
 ) -> float:
     """Return a root between two places at which a function has opposite signs: `scipy.optimize.brentq`."""
     # scipy.optimize takes longer to load than a journal bearing to be answered.
