@@ -41,7 +41,6 @@ from ..core.model import (
 )
 from ..core.readable import Readable
 from ..core.results import Equilibrium
-from ..core.roots import bracketed_root
 
 UNLOADED = (
     "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
@@ -143,6 +142,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         at = _found(bearing.balanced(), load, speed)
         temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
+    from scipy.optimize import brentq
+
     warmed: dict[float, Equilibrium] = {}
 
     def excess(temperature: float) -> float:
@@ -157,7 +158,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
             # Openings make the temperature of the balance rise a little with that of the film.
             while excess(low + rise) > 0.0:
                 rise *= 2.0
-            low = bracketed_root(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+            low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
     steps = sum(one.iterations for one in warmed.values())
     at = _found(bearing.at_temperature(low), load, speed)  # once more, for what it has to warn of
     return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))

@@ -37,7 +37,6 @@ from ..core.model import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium, WhirlThreshold
-from ..core.roots import bracketed_root
 from .coefficients import coefficients
 from .equilibrium import checked_load, equilibrium
 
@@ -207,8 +206,15 @@ def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float
         stable.append(growth(speed) < 0.0)
         if stable[-2:] == [True, False]:
             low, high = np.log(speeds[k - 1 : k + 1]).tolist()
-            return math.exp(bracketed_root(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
+            return math.exp(_root(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
     return None, stable
+
+
+def _root(function: Callable[[float], float], low: float, high: float, **tolerances: float) -> float:
+    # scipy.optimize takes longer to load than a journal bearing to be answered.
+    from scipy.optimize import brentq
+
+    return float(brentq(function, low, high, **tolerances))
 
 
 def _speeds(low: float, high: float) -> Array:
@@ -259,7 +265,7 @@ def _refined(
             reason="static stability is lost (det K <= 0) between "
             f"{stable.speed:.6g} and {unstable.speed:.6g} rad/s",
         )
-    root = bracketed_root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
+    root = _root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))
     border = critical_mass(coefficients(reaction, onset.position, onset.speed))
     return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
@@ -544,7 +550,7 @@ def threshold_near(
         last, speed = speed, speed * factor
         if (exponent(speed).real < 0.0) is not (own < 0.0):
             ends = min(last, speed), max(last, speed)
-            onset = bracketed_root(lambda at: exponent(at).real, *ends, rtol=NEAR)
+            onset = _root(lambda at: exponent(at).real, *ends, rtol=NEAR)
             at, ratio = equilibrium(whole, load, onset), abs(exponent(onset).imag) / onset
             return counted_threshold(reaction, _threshold(whole, at, mass, ratio, mass))
     raise AbsentError(

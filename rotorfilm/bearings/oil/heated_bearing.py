@@ -15,7 +15,6 @@ from ...core.errors import ConvergenceError, InputError, require_finite, require
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
 from ...core.results import BearingLosses
-from ...core.roots import bracketed_root
 from ...core.signals import Signal, signals_of
 from ...native.loss_kernels import OilTable
 from ...native.spec import NativeSpec, parameter
@@ -503,6 +502,7 @@ def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Coolin
     oil : Oil
     cooling : Cooling
     """
+    from scipy.optimize import brentq
 
     def surplus(temperature: float) -> float:
         return heat_surplus(heat(temperature), oil, cooling, temperature)[0]
@@ -513,7 +513,7 @@ def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Coolin
     high = balance_temperature(heat(low), oil, cooling)
     while surplus(high) > 0.0:
         high += high - low
-    return bracketed_root(surplus, low, high, xtol=_KELVIN)
+    return float(brentq(surplus, low, high, xtol=_KELVIN))
 
 
 def _unheated(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
