@@ -38,7 +38,7 @@ from ..core.model import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium, WhirlThreshold
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 from .equilibrium import checked_load, equilibrium
 from .frequency_dependent import mass_borders, rigid_exponents, rigid_growing, whirl_exponent
 
@@ -156,7 +156,7 @@ def _searched(
     before: Coefficients | None = None
     for speed in speeds[first:].tolist():
         with _passing(passed):
-            at = coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
+            at = film_coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
         if damping_has_rank_one(at):
             return WhirlThreshold(reason=critical_mass(at).reason)
         stable.append(is_stable(at, mass))
@@ -243,7 +243,7 @@ def _refined(
     def margin(log_speed: float) -> float:
         with _passing(passed):
             at = equilibrium(reaction, load, math.exp(log_speed))
-            return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
+            return whirl_margin(film_coefficients(reaction, at.position, at.speed), mass)
 
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:
@@ -253,7 +253,7 @@ def _refined(
         )
     root = brentq(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))
-    border = critical_mass(coefficients(reaction, onset.position, onset.speed))
+    border = critical_mass(film_coefficients(reaction, onset.position, onset.speed))
     return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
 
 
