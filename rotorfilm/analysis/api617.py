@@ -16,7 +16,7 @@ from ..core.model import Array, Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 from .modal_reduction import exact_structure, lu_solver
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import dynamics, journal_rows, motion_near, second_order, whirl_near
@@ -705,7 +705,7 @@ def cross_coupled(
     at = rotor_equilibrium(excited, bearings, speed)
     # The standard wants K and C of tilting pads, and of what else follows, at the frequency of the shaft.
     synchronous = {
-        name: coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
+        name: film_coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
         for name, bearing in bearings.items()
         if hasattr(bearing, "rest_state")
     }

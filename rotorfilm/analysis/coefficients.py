@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.oil.oil import warn_of_flow
 from ..bearings.reaction import InertialCoefficients
 from ..core.errors import (
     InputError,
@@ -57,9 +58,24 @@ def coefficients(
         If the position is outside the clearance.
     UndefinedDerivativeError
         If the film has no derivative there.
+
+    Warns
+    -----
+    ValidityWarning
+        If the film is not laminar, or its oil is beyond its viscosity law; see `equilibrium`.
     """
     require_reaction("reaction", reaction, JournalForce, heavy=True)
     position, speed = require_pair("position", position), require_number("speed", speed)
+    film = settled(reaction, position, speed)
+    warn_of_flow(film, speed)
+    return film_coefficients(film, position, speed, frequency)
+
+
+def film_coefficients(
+    reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
+) -> Coefficients:
+    """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
+    position = require_pair("position", position)
     film = settled(reaction, position, speed)
     following = at_rest(film)
     if following is not None:
@@ -105,7 +121,7 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     # Imported here: interpolation takes scipy, which coefficients do not need.
     from ..bearings.linear import TabulatedBearing
 
-    points = [coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
+    points = [film_coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
     return TabulatedBearing(
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),
@@ -203,7 +219,7 @@ def variable_compliance(
     turned = [bearing.turned(angle) for angle in angles.tolist()]
     places = [equilibrium(one, load, speed).position for one in turned]
     stiffness = np.array(
-        [coefficients(one, at, speed).stiffness for one, at in zip(turned, places, strict=True)]
+        [film_coefficients(one, at, speed).stiffness for one, at in zip(turned, places, strict=True)]
     )
     position = np.array(places).T
     first = np.fft.fft(stiffness, axis=0)[1]

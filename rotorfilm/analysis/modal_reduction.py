@@ -24,7 +24,7 @@ from ..core.model import Array, JournalForce, at_rest, require_reactions
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 
 # Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
 
@@ -358,7 +358,7 @@ def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:
     """Return K and C at a place."""
     if resists_tilt(bearing):
         return bearing.tilting_coefficients(place, speed)
-    return coefficients(bearing, place, speed)
+    return film_coefficients(bearing, place, speed)
 
 
 # How many eigenvalues of a Hermitian matrix are negative, by Sylvester's law of inertia.

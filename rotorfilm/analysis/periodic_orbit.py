@@ -27,7 +27,7 @@ from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import Structure
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 from .compiled_march import LONGEST_TURN, STAGES, March, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
@@ -627,7 +627,7 @@ def rest_on_film(rotor: RigidRotor, bearing: Reaction) -> RotorEquilibrium:
     at = equilibrium(bearing, load, speed)
     return RotorEquilibrium(
         speed=speed,
-        coefficients={"": coefficients(bearing, at.position, speed)},
+        coefficients={"": film_coefficients(bearing, at.position, speed)},
         loads={"": load},
         displacement=at.position,
         residual=at.residual,

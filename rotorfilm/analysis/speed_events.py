@@ -14,7 +14,7 @@ from ..core.model import Array, Bearings
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 from .equilibrium import equilibrium
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import (
@@ -258,7 +258,9 @@ def coefficient_rates(
     rates = {}
     for name, film in turning.items():
         low, high = (
-            coefficients_near(coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s)
+            coefficients_near(
+                film_coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s
+            )
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
         )
         width = 2.0 * step * at.speed

@@ -37,7 +37,7 @@ from ..core.model import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium, WhirlThreshold
-from .coefficients import coefficients
+from .coefficients import film_coefficients
 from .equilibrium import checked_load, equilibrium
 
 _POINTS_PER_DECADE = 12
@@ -160,7 +160,7 @@ def _searched(
     before: Coefficients | None = None
     for speed in speeds[first:].tolist():
         with _passing(passed):
-            at = coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
+            at = film_coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
         if damping_has_rank_one(at):
             return WhirlThreshold(**NO_THRESHOLD, reason=critical_mass(at).reason)
         stable.append(is_stable(at, mass))
@@ -256,7 +256,7 @@ def _refined(
     def margin(log_speed: float) -> float:
         with _passing(passed):
             at = equilibrium(reaction, load, math.exp(log_speed))
-            return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
+            return whirl_margin(film_coefficients(reaction, at.position, at.speed), mass)
 
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:
@@ -267,7 +267,7 @@ def _refined(
         )
     root = _root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))
-    border = critical_mass(coefficients(reaction, onset.position, onset.speed))
+    border = critical_mass(film_coefficients(reaction, onset.position, onset.speed))
     return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
 
 

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..analysis import coefficients, equilibrium, heated_equilibrium
+from ..analysis import equilibrium, heated_equilibrium
+from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import (
     BushRing,
     FilmProfile,
@@ -91,7 +92,7 @@ class WarmRest(JournalEquilibrium):
     @property
     def coefficients(self) -> Coefficients:
         """K and C at frozen temperature."""
-        return coefficients(self.reaction, self.rest.position, self.rest.speed)
+        return film_coefficients(self.reaction, self.rest.position, self.rest.speed)
 
 
 def bush_of(bearing: JournalBearing) -> Walls:

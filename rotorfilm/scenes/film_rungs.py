@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..analysis import coefficients
+from ..analysis.coefficients import film_coefficients
 from ..analysis.equilibrium import MAXIMUM_ECCENTRICITY
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import (
@@ -376,12 +376,12 @@ class FilmCandidate:
 
     def growth(self, at: Equilibrium, mass: float) -> float:
         """Return the growth rate [1/s] of the least stable whirl of a rigid rotor [kg] at an equilibrium."""
-        return whirl_growth(coefficients(self.reaction, at.position, at.speed), mass)
+        return whirl_growth(film_coefficients(self.reaction, at.position, at.speed), mass)
 
     def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:
         """Return that by the richer film at its own equilibrium, and why not to trust it."""
         moved = self.corrected(at, smooth=True)
-        own = whirl_matrix(coefficients(self.reaction, at.position, at.speed), mass)
+        own = whirl_matrix(film_coefficients(self.reaction, at.position, at.speed), mass)
         first_order, exact = growths(own, whirl_matrix(moved, mass))
         if abs(first_order - exact) > DISAGREEMENT * abs(exact):
             doubt = "the perturbed eigenvalue disagrees with the exact one: not linear"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..analysis import CriticalMass, coefficients, critical_mass, equilibrium, threshold_near, whirl_threshold
+from ..analysis import CriticalMass, critical_mass, equilibrium, threshold_near, whirl_threshold
+from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import JFOFilm
 from ..core.errors import ConvergenceError
 from ..core.model import Reaction
@@ -66,7 +67,7 @@ def film_answer(
     mass : float or None [kg]
     """
     at = equilibrium(bearing, load, speed)
-    derivatives = coefficients(bearing, at.position, speed)
+    derivatives = film_coefficients(bearing, at.position, speed)
     remembers = isinstance(bearing, JFOFilm)
     return Answer(
         bearing=given[0],

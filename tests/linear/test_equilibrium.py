@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from rotorfilm import EquilibriumError, InputError, Pad, ReynoldsFilm, ValidityWarning, as_reaction
-from rotorfilm.analysis import equilibrium
+from rotorfilm.analysis import coefficient_table, coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.journal.map.map_potential import potential
 from rotorfilm.bearings.oil import Cooling, Oil
@@ -187,8 +187,16 @@ def test_a_film_that_is_not_laminar_is_warned_of(sizes, viscosity, speed, limit)
     reynolds = speed * radius * clearance * 870.0 / viscosity
     told = f"Reynolds number {reynolds:.4g} and Taylor number {reynolds * math.sqrt(clearance / radius):.3g} "
     with pytest.warns(ValidityWarning, match=f"{told}.*beyond the Reynolds number {limit:.4g}"):
-        equilibrium(bearing, (0.0, -3e5), speed)
-    equilibrium(bearing, (0.0, -3e5), 0.99 * speed * limit / reynolds)
+        at = equilibrium(bearing, (0.0, -3e5), speed)
+    slow = 0.99 * speed * limit / reynolds
+    equilibrium(bearing, (0.0, -3e5), slow)
+    with pytest.warns(ValidityWarning, match=f"{told}.*beyond the Reynolds number {limit:.4g}"):
+        coefficients(bearing, at.position, speed)
+    coefficients(bearing, at.position, slow)
+    # Analyses warn once, of the equilibrium whose place they take.
+    with pytest.warns(ValidityWarning, match=told) as said:
+        coefficient_table(bearing, (0.0, -3e5), [slow, speed])
+    assert len(said) == 1
 
 
 def test_a_balance_beyond_the_law_of_the_oil_is_warned_of():
