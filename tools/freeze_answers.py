@@ -4,8 +4,8 @@
     python tools/freeze_answers.py compare --out tests/frozen --only "tilting" "damper"
 
 It answers eight random scenes of each family of the battery, all scene files of the examples, all example
-scripts (what they print) and all charts (their CSV files without columns of time). `compare` lists every
-difference: values must agree to 1e-9; where another model answers, within both error estimates.
+scripts (what they print) and all charts (their CSV files without columns of time). `compare` takes what was
+written and lists every difference: values must agree to 1e-9; where another model answers, within both error estimates.
 """
 
 from __future__ import annotations
@@ -225,10 +225,13 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     names = [n for n in jobs() if not options.only or any(word in n for word in options.only)]
+    paths = {name: options.out / f"{name.replace(' ', '_')}.json" for name in names}
+    if options.action == "compare":
+        names = [name for name in names if paths[name].is_file()]
     wrong = 0
     with ProcessPoolExecutor(options.workers) as pool:
         for name, found in pool.map(_job, names):
-            path = options.out / f"{name.replace(' ', '_')}.json"
+            path = paths[name]
             if options.action == "write":
                 path.write_text(json.dumps(found, indent=0) + "\n", encoding="utf-8")
                 print("wrote", path.name, flush=True)
