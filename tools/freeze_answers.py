@@ -5,7 +5,8 @@
 
 It answers eight random scenes of each family of the battery, all scene files of the examples, all example
 scripts (what they print) and all charts (their CSV files without columns of time). `compare` takes what was
-written and lists every difference: values must agree to 1e-9; where another model answers, within both error estimates.
+written and lists every difference: values must agree to 1e-9; where another model answers, within both
+error estimates.
 """
 
 from __future__ import annotations
