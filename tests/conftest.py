@@ -21,7 +21,7 @@ import numpy as np
 from dataclasses import dataclass
 
 from rotorfilm.core.model import Linearization, static_linearization
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal
 
 GAIN = 2.0
 

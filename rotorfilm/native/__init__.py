@@ -14,7 +14,7 @@ if TYPE_CHECKING:
         ShortKernel as ShortKernel,
         Status as Status,
     )
-    from .library import NativeLibraryError as NativeLibraryError, loops
+    from .library import FOLDER, NativeLibraryError as NativeLibraryError, loops
     from .spec import (
         HasKernel as HasKernel,
         NativeParameter as NativeParameter,

@@ -24,9 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorfilm.core.errors import FilmContactError
-from rotorfilm.core.model import Linearization
-from rotorfilm.core.signals import Signal
+from rotorfilm import FilmContactError
+from rotorfilm import Linearization
+from rotorfilm.core import Signal
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from rotorfilm import BallBearing, FiveDegreeBalls, back_to_back, export_fmu
 from rotorfilm.bearings import Waviness
 from rotorfilm.bearings.rolling.ball_cage import INPUTS, OUTPUTS
 from rotorfilm.fmu import check_fmu
-from rotorfilm.native.library import FOLDER
+from rotorfilm.native import FOLDER
 
 HOST = Path(__file__).parents[2] / "benchmarks" / "step_host.c"
 ONE = BallBearing(

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from rotorfilm import TiltingPadBearing, even_pivots, export_fmu
 from rotorfilm.bearings import PadMapFilm, PadResolution
 from rotorfilm.fmu import check_fmu
-from rotorfilm.native.library import FOLDER
+from rotorfilm.native import FOLDER
 
 HOST = Path(__file__).parents[2] / "benchmarks" / "step_host.c"
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24)))

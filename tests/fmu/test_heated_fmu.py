@@ -22,7 +22,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
 from rotorfilm.fmu import check_fmu
-from rotorfilm.native.library import FOLDER
+from rotorfilm.native import FOLDER
 
 HOST = Path(__file__).parents[2] / "benchmarks" / "step_host.c"
 GROOVES = tuple(Groove(center=center, width=0.35) for center in (0.3, 3.4))

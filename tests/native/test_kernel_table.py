@@ -76,10 +76,10 @@ from zipfile import ZipFile
 import numpy as np
 from fmpy import simulate_fmu
 from rotorfilm.fmu import export_fmu
-from rotorfilm.core.model import Linearization
+from rotorfilm import Linearization
 from rotorfilm.native import NativeParameter, NativeSpec
 from rotorfilm.native.resource import kernel_row, kernel_table
-from rotorfilm.core.signals import Signal
+from rotorfilm.core import Signal
 
 class Toy:
     inputs = (Signal(name="x", unit="m", nominal=1.0, description=""),)

@@ -10,8 +10,8 @@ import pytest
 import rotorfilm
 from rotorfilm.cosim.compiled_loop import Ended
 from rotorfilm.cosim.slaves import Call
+from rotorfilm.native import FOLDER
 from rotorfilm.native.ball_kernel import ROW, WAVE
-from rotorfilm.native.library import FOLDER
 from rotorfilm.native.pad_kernels import REST
 from rotorfilm.native.structs import constant, declared, structure
 

@@ -51,7 +51,7 @@ warnings.simplefilter("ignore")
 from fmpy import simulate_fmu
 import rotorfilm
 assert Path(rotorfilm.__file__).is_relative_to(home)
-from rotorfilm.core.errors import SceneError
+from rotorfilm import SceneError
 from rotorfilm.fmu import check_fmu
 from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.export_scene import export_scene
