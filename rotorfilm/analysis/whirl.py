@@ -210,11 +210,14 @@ def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float
     return None, stable
 
 
-def _root(function: Callable[[float], float], low: float, high: float, **tolerances: float) -> float:
+def _root(
+    function: Callable[[float], float], low: float, high: float, xtol: float = 2e-12, rtol: float = 2.0**-50
+) -> float:
+    """Return a root between two places, to the tolerances of scipy unless others are given."""
     # scipy.optimize takes longer to load than a journal bearing to be answered.
     from scipy.optimize import brentq
 
-    return float(brentq(function, low, high, **tolerances))
+    return float(brentq(function, low, high, xtol=xtol, rtol=rtol))
 
 
 def _speeds(low: float, high: float) -> Array:
