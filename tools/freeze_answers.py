@@ -46,6 +46,9 @@ CHARTS = (
 )
 """Charts whose numbers are not times, with as few states as they take."""
 
+WITHIN = "  within both"
+"""What ends a line about another model, whose answer is right: a map that is there already is cheaper."""
+
 TIMES = re.compile(r"\[(s|ms|us|ns)\]|cost|time|speed-?up|second", re.IGNORECASE)
 """Headings of columns that hold times of this machine."""
 
@@ -177,7 +180,7 @@ def differences(before: Any, after: Any, where: str) -> Iterator[str]:
         both = before["estimate"] + after["estimate"]
         yield (
             f"{where}: {before['model']} ({before['met']}) became {after['model']} ({after['met']}), "
-            f"{gap:.1e} apart, estimates {both:.1e}{'' if gap <= both else '  TOO FAR'}"
+            f"{gap:.1e} apart, estimates {both:.1e}{WITHIN if gap <= both else '  TOO FAR'}"
         )
     elif isinstance(before, dict) and isinstance(after, dict):
         for key in sorted(before.keys() | after.keys(), key=str):
@@ -239,7 +242,7 @@ def main() -> None:
                 continue
             before = json.loads(path.read_text(encoding="utf-8"))
             lines = list(differences(before, json.loads(json.dumps(found)), name))
-            wrong += len(lines)
+            wrong += sum(not line.endswith(WITHIN) for line in lines)
             print(f"{name}: {len(lines)} differences", *lines[:20], sep="\n    ", flush=True)
     sys.exit(1 if wrong else 0)
 
