@@ -26,8 +26,9 @@ def test_what_our_own_modules_cause_is_an_error(module):
 
 @pytest.mark.parametrize("module", ["control.statesp", "numpy", "fmu_manipulation_toolbox.gui"])
 def test_what_other_packages_cause_is_none(module):
-    with warnings.catch_warnings(record=True):
+    with warnings.catch_warnings(record=True) as caught:
         deprecated(module)
+    assert all(one.category is DeprecationWarning for one in caught)
 
 
 def test_a_limit_of_a_model_is_an_error_wherever_it_shows():

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from ..bearings.reaction import DynamicStiffness, FrequencyDependentCoefficients
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Bearings
+from ..core.model import Array, Bearings, at_rest
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import models, usual_frequency
@@ -91,12 +91,15 @@ def require_all_growing(
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if not any(hasattr(bearing, "at_rest") for bearing in bearings.values()):
+    if all(at_rest(bearing) is None for bearing in bearings.values()):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
         return
-    count = rotor_growing(structure, rest(structure, bearings, speed), values)
+    at = rest(structure, bearings, speed)
+    if not remembering(at):
+        return
+    count = rotor_growing(structure, at, values)
     if count != growing:
         raise ConvergenceError(
             f"all exponents that grow at {speed:.6g} rad/s must be found, and {growing} were of {count}"

@@ -658,7 +658,7 @@ def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None
 
 
 def reach_of(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
-    """Return how far the journals go towards contact at the samples; see `contact_place.reach`."""
+    """Return how far the journals go towards contact at the samples; see `reach`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
     return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
 

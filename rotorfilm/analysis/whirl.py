@@ -103,7 +103,7 @@ def whirl_threshold(
         *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
     )
     passed: list[str] = []
-    search = _settling if hasattr(reaction, "at_rest") else _searched
+    search = _searched if at_rest(reaction) is None else _settling
     with _passing(passed):
         first = _first_carried(reaction, force, speeds.tolist())
     found = search(reaction, force, mass, speeds, first, passed)

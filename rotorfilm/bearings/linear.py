@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from ..core.errors import InputError, require_finite, require_vector
+from ..core.errors import InputError, require_finite
 from ..core.files import read_text
 from ..core.inputs import quantities
 from ..core.model import Array
@@ -201,12 +201,9 @@ class LinearBearing(Feedthrough):
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...); the speed is not used."""
-        q, v = require_vector("position", position), require_vector("velocity", velocity)
         return without_overflow(
             lambda q, v, _: -np.tensordot(self.stiffness, q, 1) - np.tensordot(self.damping, v, 1),
-            q,
-            v,
-            np.asarray(speed),
+            *broadcast_state(position, velocity, speed),
         )
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:

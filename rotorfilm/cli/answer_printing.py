@@ -1,4 +1,4 @@
-"""How the answer of a scene is printed, and written with its pictures and tables."""
+"""How the answer of a scene is printed, and written with what pictures and tables it has."""
 
 from __future__ import annotations
 

@@ -196,7 +196,7 @@ def cosim(
     scheme: Annotated[
         str,
         Option(
-            help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, newton or adaptive.",
+            help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, si-memory, newton, adaptive.",
             metavar="NAME",
         ),
     ] = "auto",

@@ -14,7 +14,6 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import InitVar
 from functools import cache, wraps
 from itertools import chain, repeat
 from os import PathLike
@@ -49,7 +48,7 @@ def arguments(function: Callable[P, R]) -> Callable[P, R]:
     Raises, from then on
     --------------------
     InputError
-        If an argument is of the wrong kind, or as `si_arguments.in_si` says.
+        If an argument is of the wrong kind, or as `in_si` says.
     """
     return in_si(function)
 
@@ -418,7 +417,7 @@ def kinds_of(documented: Any) -> Mapping[str, Any]:
         for name, written in names.items():
             with suppress(NameError):  # of what type checkers alone import
                 kind = eval(written, where, {"ArrayLike": Numbers}) if isinstance(written, str) else written
-                found[name] = kind.type if isinstance(kind, InitVar) else kind
+                found[name] = kind
     found.pop("return", None)
     return found
 

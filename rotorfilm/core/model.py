@@ -177,16 +177,17 @@ class JournalForce(Protocol):
 class Reaction(JournalForce, Model, Protocol):
     """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS.
 
-    What it may add, each beside the function here that gives the same for every reaction:
+    What it may add; most have a function of this module that gives the same for every reaction:
 
     - `prepare()`, its force as a `Force`, for loops that go state by state: `prepared_force`;
     - `prepare_tangent()`, force and derivatives from one call, a `Tangent`: `prepared_tangent`;
     - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
-    - `force_noise(speed)`, the force [N] that roundoff may leave, as of balls or pads that press each other;
+    - `force_noise(speed)`, a method: the force [N] that roundoff may leave, as of balls or pads;
     - `rest_place(load, speed)`, x, y [m] where the journal rests under a load [N], None if not found;
     - `at_rest()`, the force with its own states at rest under a journal at rest;
     - `rest_state(position, speed)`, the state (n_states,) that rests there;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
+    - `carries_load`, False of a reaction that takes no share of the weight, as a seal;
     - `portable()`, an equal object that holds what it would make on first use, for an FMU.
     """
 

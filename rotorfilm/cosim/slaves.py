@@ -157,15 +157,15 @@ class Slave:
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} must define get")
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} must define jacobian")
 
     def save(self) -> Any:
         """Return the state at present."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} must define save")
 
     def restore(self, state: Any) -> None:
         """Return to a state."""

@@ -13,7 +13,8 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import norm, t as student
 
-from ..analysis import coefficients, equilibrium
+from ..analysis import equilibrium
+from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import JournalBearing, heat_surplus
 from ..core.errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
 from ..core.inputs import arguments
@@ -352,7 +353,7 @@ def _quantity(name: str, bearing: JournalBearing, at: Equilibrium, zero: Array) 
         if at.losses is None:
             raise InputError(f"bearing must have a film with losses, as MapFilm, for a measured {name}")
         return float(getattr(at.losses, name))
-    film = coefficients(bearing, at.position, at.speed)
+    film = film_coefficients(bearing, at.position, at.speed)
     matrix = film.stiffness if name[0] == "k" else film.damping
     return float(matrix["xy".index(name[1]), "xy".index(name[2])])
 
@@ -393,7 +394,7 @@ RELATIVE_STEP = 1e-3
 def rest_slopes(bearing: JournalBearing, at: Equilibrium, name: str) -> Array | None:
     """Return d(x, y, temperature)/d(parameter), shape (3,); None where only differences tell.
 
-    The parameter is one of `fit_parameters.NAMES` but the zeros of sensors.
+    The parameter is one of `NAMES` but the zeros of sensors.
     """
     if bearing.supply_pressure > 0.0:
         return None

@@ -513,11 +513,6 @@ def assumed_figures(bearing: Any, moved: Callable[[Any], float], *, fields: bool
     return tuple(lines)
 
 
-def assumed_names(bearing: Any) -> tuple[str, ...]:
-    """Return which figures of a bearing on an oil are assumed."""
-    return tuple(text for text, _ in _varied(bearing))
-
-
 def _varied(bearing: Any) -> Iterator[tuple[str, list[Any]]]:
     """Yield each assumption, and the bearings that it might be as well."""
     oil, cooling = bearing.cooled

@@ -517,8 +517,11 @@ class Several:
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
         """Return the values."""
         if not isinstance(value, list) or not self.least <= len(value) <= self.most:
+            unit = ""
+            if isinstance(self.each, Quantity) and self.each.unit != "1":
+                unit = f" in {self.each.unit}"
             usual = "two quantities [x, y]" if self.most == 2 else "a list of quantities"
-            raise SceneError(f"{where} must be {self.said or usual}, got {brief(value)}")
+            raise SceneError(f"{where} must be {self.said or usual + unit}, got {brief(value)}")
         return tuple(self.each(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 

@@ -83,3 +83,18 @@ def test_a_seal_of_an_absurd_size_is_refused(name):
         warnings.simplefilter("ignore", ValidityWarning)
         with pytest.raises(InputError, match=rf"^{name} must be at most 1e\+150 in size, got 1e\+308"):
             rf.AnnularSeal(**{**SEAL, name: 1e308})
+
+
+def test_a_film_law_in_python_does_not_overflow_in_silence():
+    film = rf.JournalBearing(**FILM, film=rf.SplittingFilm(order=(2, 1)))
+    with pytest.raises(InputError, match="must be finite and not overflow"):
+        film.force([1e-5, 0.0], [1e306, 0.0], 100.0)
+
+
+def test_springs_take_the_arguments_of_every_reaction():
+    spring = rf.LinearBearing(stiffness=1e6, damping=10.0)
+    with pytest.raises(InputError, match="speed must be finite"):
+        spring.force([1e-5, 0.0], [0.0, 0.0], np.nan)
+    with pytest.raises(InputError, match="must broadcast"):
+        spring.force(np.zeros((2, 2)), np.zeros((2, 3)), 1.0)
+    assert spring.force([1e-5, 0.0], [0.0, 0.0], np.ones(4)).shape == (2, 4)

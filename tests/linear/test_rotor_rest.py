@@ -5,13 +5,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import EquilibriumError, InputError, LinearBearing
-from rotorfilm.analysis import equilibrium, rotor_equilibrium, simulate
+from rotorfilm.analysis import coefficients, equilibrium, rotor_equilibrium, rotor_threshold, simulate
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.pads import TiltingPadBearing, even_pivots
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
     ElasticMaterial,
+    JeffcottRotor,
     ShaftElement,
     ShaftRotor,
     Station,
@@ -165,3 +166,32 @@ def test_what_cannot_rest_is_refused():
         rotor_equilibrium(shaft(), {"right": FILM}, SPEED)
     with pytest.raises(EquilibriumError, match=r"capacity|carries none"):
         rotor_equilibrium(shaft(), {"left": FILM, "": FILM}, 1e-9)
+
+
+class Following:
+    """A spring whose states, of which it says nothing, rest with the journal."""
+
+    def __init__(self, spring):
+        self.spring, self.clearance = spring, spring.clearance
+        self.inputs, self.outputs, self.states = spring.inputs, spring.outputs, ()
+
+    def __getattr__(self, name):
+        return getattr(self.spring, name)
+
+    def at_rest(self):
+        return self
+
+    def settled(self, found):
+        return found
+
+    def coefficients(self, position, speed, frequency=None):
+        return coefficients(self.spring, position, speed)
+
+
+def test_a_rotor_on_films_whose_states_rest_with_the_journal_has_its_threshold():
+    spring = LinearBearing(stiffness=[[1e7, 2e5], [-2e5, 1e7]], damping=300.0)
+    rotor = JeffcottRotor(mass=20.0, journal_mass=1.0, stiffness=1e7, speed=100.0, internal_damping=400.0)
+    speeds = np.linspace(50.0, 2000.0, 20)
+    plain, following = (rotor_threshold(rotor, {"": one}, speeds) for one in (spring, Following(spring)))
+    assert plain.speed is not None
+    assert following.speed == plain.speed

@@ -430,7 +430,7 @@ class ContactState(Readable):
     pressure, thickness : ndarray, shape (nx, m) [1]
         p and H over `grid.x` and `grid.y`, y > 0.
     checkerboard : float [1]
-        Share of the pressure that alternates from cell to cell (`films.checkerboard`).
+        Share of the pressure that alternates from cell to cell (`checkerboard`).
     levels : tuple of Level
         This and earlier times, newest first: what second-order steps need to go on.
     """

@@ -404,7 +404,7 @@ def linearized(equations: ContactEquations, place: Place) -> LinearContact:
 # follows from the elastic kernel, p = T w with the five-point Laplacian T makes the equations for w
 # sparse up to a small remainder (distributive relaxation, Venner and Lubrecht 2000). Around it the
 # flow by pressure governs, which is sparse in p itself, and the kernel a smooth disturbance. The
-# sparse factors of both together answer all that changes over few cells; `coarse_correction` sees to
+# sparse factors of both together answer all that changes over few cells; a correction on coarse grids sees to
 # the rest.
 
 
@@ -602,7 +602,7 @@ def _couplings(
 
 # A cycle over ever coarser grids as the preconditioner of a point contact's linear equations.
 #
-# The sparse factors of `preconditioner` take the kernel by its near neighborhood, which is wrong for
+# The sparse factors above take the kernel by its near neighborhood, which is wrong for
 # changes that are smooth over many cells, the more of them the finer the grid: alone they let GMRES
 # take half as many iterations again whenever the cells are halved. Smooth changes are well
 # represented on cells twice as large, where the whole kernel counts again, so the answer there is

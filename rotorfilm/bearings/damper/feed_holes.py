@@ -16,7 +16,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.errors import InputError, require_kind, require_non_negative, require_positive, require_tuple
+from ...core.errors import (
+    InputError,
+    brief,
+    require_kind,
+    require_non_negative,
+    require_positive,
+    require_tuple,
+)
 from ...core.inputs import arguments
 from ...core.model import Array
 from ...core.readable import Readable
@@ -98,7 +105,7 @@ def _require_room(damper: SqueezeFilmDamper, holes: tuple[FeedHole, ...]) -> Non
             raise InputError(f"diameter of holes must be below the length, got {hole.diameter!r}")
     needed = rim[:, None] + rim
     if np.any((2.0 * np.abs(np.sin(0.5 * apart)) < needed) & ~np.eye(len(holes), dtype=bool)):
-        raise InputError(f"holes must not overlap, got {holes!r}")
+        raise InputError(f"holes must not overlap, got {brief(holes)}")
 
 
 def _angles(damper: SqueezeFilmDamper, holes: tuple[FeedHole, ...]) -> tuple[Array, Array]:

@@ -7,7 +7,7 @@ and
     F = -integral of (q G(h/c) - S(h/c)) m dtheta,    G = sum of weight/(h^3 + leak),  S = sum of feed/(h^3 +
     leak)
 
-in units of viscosity * radius * length^3 / clearance^2, the groups (weight, leak) from `porous_layer` and the
+in units of viscosity * radius * length^3 / clearance^2, the groups (weight, leak) from `layer_modes` and the
 feed being what enters the film from outside. A solid cage is G = h^-3, the textbook squeeze film.
 """
 

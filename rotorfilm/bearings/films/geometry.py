@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
-from ...core.errors import InputError, require_finite, require_non_negative, require_positive
+from ...core.errors import InputError, brief, require_finite, require_non_negative, require_positive
 from ...core.inputs import quantities
 
 TURN = 2.0 * math.pi
@@ -186,7 +186,7 @@ class FilmGeometry:
                     f"grooves must be without length, those with one are pockets, got {groove!r}"
                 )
         if self.pads and math.fsum(pad.extent for pad in self.pads) > TURN * (1.0 + 1e-12):
-            raise InputError(f"pads must not overlap, got {self.pads!r}")
+            raise InputError(f"pads must not overlap, got {brief(self.pads)}")
         self.openings()
 
     @property

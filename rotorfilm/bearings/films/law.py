@@ -32,7 +32,7 @@ from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, ResponseKernel
 from ...native.loss_kernels import LossKernel
-from ..reaction import broadcast_state
+from ..reaction import broadcast_state, without_overflow
 from .geometry import FilmGeometry
 
 CENTER = 1e-8
@@ -335,14 +335,20 @@ class BoundLaw:
         return force_x, force_y, self.jacobian(*state).ravel().tolist()
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return the force [N], shape (2, ...)."""
+        """Return the force [N], shape (2, ...); raise InputError where it overflows."""
+        return without_overflow(self._force, position, velocity, speed)
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return d force/d(x, y, vx, vy, speed), shape (2, 5, ...); raise InputError where it overflows."""
+        return without_overflow(self._jacobian, position, velocity, speed)
+
+    def _force(self, position: Array, velocity: Array, speed: Array) -> Array:
         eccentricity, source = kinematics(position, velocity, speed, self.clearance)
         mirror = self._mirror(speed)
         film = self._in_mirror("force", (2,), mirror, eccentricity, source)
         return self.force_per_rate * mirror * film
 
-    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
+    def _jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         eccentricity, source = kinematics(self._off_center(position), velocity, speed, self.clearance)
         mirror = self._mirror(speed)
         film = self._in_mirror("jacobian", (2, 4), mirror, eccentricity, source)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from dataclasses import InitVar, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -42,6 +42,9 @@ from ..oil.oil import viscosity_table
 from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_no_overflow, require_size
 from .map.map_film import MapFilm
 
+CHOSEN = "_chosen"
+"""Mark of a film that a bearing chose because none was given."""
+
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +74,8 @@ class JournalBearing(FilmReaction, WarmBearing):
     film : FilmLaw
         The film law. By default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
         too; and `ReynoldsFilm()` in a bearing of which there is no map, as with a supply pressure.
-        Exchangeable by `dataclasses.replace`, which chooses a default film anew for other dimensions.
+        Exchangeable by `dataclasses.replace`, which chooses a default film anew for other dimensions, as does
+        a bearing that is given the default film of another one.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove or FeedHole
@@ -82,8 +86,6 @@ class JournalBearing(FilmReaction, WarmBearing):
     circumferential_groove : float or None [m]
         Width along the axis of a groove all round at mid-length, at the supply pressure: the film is that of
         the two lands beside it. None for none.
-    default_film : FilmLaw or None
-        Set by the bearing: the film that it chose, by which `dataclasses.replace` knows it for the default.
 
     Raises
     ------
@@ -97,7 +99,7 @@ class JournalBearing(FilmReaction, WarmBearing):
     -----
     ValidityWarning
         If length / diameter is beyond the `slenderness_limit` that the film law declares, or clearance /
-        radius is outside `odd_dimensions.CLEARANCE_RATIOS`.
+        radius is outside `CLEARANCE_RATIOS`.
 
     Examples
     --------
@@ -118,9 +120,8 @@ class JournalBearing(FilmReaction, WarmBearing):
     grooves: tuple[Groove | FeedHole, ...] = ()
     supply_pressure: float = 0.0
     circumferential_groove: float | None = None
-    default_film: InitVar[FilmLaw | None] = None
 
-    def __post_init__(self, default_film: FilmLaw | None) -> None:
+    def __post_init__(self) -> None:
         require_size(self)
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_non_negative("supply_pressure", self.supply_pressure)
@@ -130,11 +131,9 @@ class JournalBearing(FilmReaction, WarmBearing):
             require_non_negative("circumferential_groove", self.circumferential_groove)
         if self.supply_pressure > 0.0 and not self.grooves and self.circumferential_groove is None:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
-        # `replace` hands on the very film that was chosen for the old dimensions.
-        if self.film is None or self.film is default_film:
-            default_film = usual_film(self.geometry, self.slenderness)
-            object.__setattr__(self, "film", default_film)
-            object.__setattr__(self, "default_film", default_film)
+        if self.film is None or getattr(self.film, CHOSEN, False):  # by a bearing of other dimensions
+            object.__setattr__(self, "film", usual_film(self.geometry, self.slenderness))
+            object.__setattr__(self.film, CHOSEN, True)
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         # Fitted here so that a geometry that is beyond the film is refused at once.
         low, high = self._options.slenderness_range

@@ -6,7 +6,7 @@ With J(e, w) = min over films of the dissipation potential (`native/films/groove
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
 
 e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
-Beside it are shear and flow of the film (`groove_losses.py`).
+Beside it are shear and flow of the film (`node_losses_between`).
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class GrooveMapTable(StoredTable):
     slenderness : float [1]
         Length / diameter of the bearing.
     grooves : tuple of Groove
-        Its openings, seen from the axis of `groove_axis.aligned_openings`.
+        Its openings, seen from the axis of `aligned_openings`.
     reach : float [1]
         X of the last node; beyond it the kernel continues J to the wall.
     crowding : float [1]
@@ -219,7 +219,7 @@ def _layout(sizes: Sizes) -> Layout:
 # Shear and flow of a bearing with openings: their nodes by the two-dimensional film, and their
 # splines.
 #
-# With X and theta as in `groove_table.py`, and for each sense of the oil, forward first, the splines
+# With X and theta as in the table above, and for each sense of the oil, forward first, the splines
 # are
 #
 # g Sigma_f, g (Sigma_f + Sigma_r), flow/|w|, g = sqrt(1 - chi^2),

@@ -65,7 +65,11 @@ class Basis(NamedTuple):
 
 @runtime_checkable
 class Rupture(Protocol):
-    """A rule for the ends of the film."""
+    """A rule for the ends of the film.
+
+    A rule that holds an angle of the bearing adds `in_mirror()`, which returns its image in a mirror, y to
+    -y; without it a rule is its own image.
+    """
 
     @property
     def turns(self) -> bool:

@@ -404,7 +404,7 @@ def loss_errors_of_pad(table: PadMapTable, e: Array, rate: Array, exact: Array) 
     table : PadMapTable
     e, rate : ndarray
     exact : ndarray, shape (3, n)
-        What `pad_losses.grid_losses` returns of them.
+        What `grid_losses` returns of them.
     """
     found = np.stack(table.flows(e, rate)[:3])
     shear, *flows = np.abs(found - exact)

@@ -7,7 +7,7 @@ pad,
 
 e = (xi, eta) and w at the angle phi from the middle of the pad, which covers 2 b, on uniform grids by quintic
 B-splines. The logarithm takes out how J vanishes with the source at the edge of the pad: as a fifth power.
-Beside it are shear and flow of the film (`pad_losses.py`).
+Beside it are shear and flow of the film (`grid_losses`).
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class PadMapTable(StoredTable):
     coefficients : ndarray, shape (cells_u + 5, cells_y + 5, cells_phi + 5)
         Spline coefficients of M over u, Y and phi.
     losses : ndarray, shape (3, cells over X + 5, cells over theta)
-        Spline coefficients of shear and flow at rest (`pad_losses`).
+        Spline coefficients of shear and flow at rest (`grid_losses`).
     bounds : ndarray, shape (BANDS, ERRORS)
         Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
         the force, and of K and C, relative to what is said there, of the shear at rest, and of flows at rest

@@ -595,6 +595,7 @@ class MomentCarryingBalls:
         four = require_finite("place", place)
         if four.shape != (4,):
             raise InputError(f"place must have shape (4,) for x, y, tilt_x, tilt_y, got shape {four.shape}")
+        speed = require_number("speed", speed)
         x, y, *turn = four.tolist()
         tilt_x, tilt_y = (a + b for a, b in zip(turn, self.bearing.tilt, strict=True))
         return np.array([x, y, self._axial(x, y, tilt_x, tilt_y, speed), tilt_x, tilt_y])
@@ -608,7 +609,7 @@ class MomentCarryingBalls:
         kernel = BallKernel(
             bearing.kernel.rows, law.numbers, growth, held, bearing.axial_load, 0.0, bearing.waves
         )
-        z, status = kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
+        z, status = kernel.axial_place(x, y, 0.0, 0.0, speed)
         if status > Status.OUTSIDE:
             got = f"{bearing.axial_load!r} N at ({x!r}, {y!r}) m, {(tilt_x, tilt_y)!r} rad, {speed!r} rad/s"
             running = kernel.with_law(RunningBalls().numbers)

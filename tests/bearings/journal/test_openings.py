@@ -66,6 +66,17 @@ def test_a_default_film_is_chosen_anew_for_other_openings():
         dataclasses.replace(plain, film=ShortFilm(), grooves=wide)
 
 
+def test_a_bearing_may_be_derived_with_checks_of_its_own():
+    @dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
+    class Checked(JournalBearing):
+        def __post_init__(self):
+            super().__post_init__()
+
+    made = Checked(**SIZES)
+    assert dataclasses.replace(made, viscosity=0.02).film == made.film
+    assert "default_film" not in {one.name for one in dataclasses.fields(made)}
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

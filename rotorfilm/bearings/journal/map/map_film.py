@@ -220,7 +220,7 @@ def bearing_table(slenderness: float) -> MapTable:
 #     each as L0(S) + chi M(X, s, S),   tan s = CROWDING tan beta,
 #
 # `Sigma_f` being the shear integral of the film, `Sigma_r` that of the streamers
-# (`films/film_losses.py`), and beta in [0, pi] the angle between eccentricity and source. The
+# (`films/law.py`), and beta in [0, pi] the angle between eccentricity and source. The
 # streamers follow the end at which the film is torn, so that their table has kinks at the center and
 # where beta is 0 or pi: it is fitted from one side. The others are even in beta.
 
