@@ -12,7 +12,8 @@ import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
-from ..core.model import Array, Bearings, carries_load
+from ..core.model import Array
+from ..core.port import Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station

@@ -19,7 +19,8 @@ from ..core.errors import (
     require_number,
 )
 from ..core.inputs import arguments, quantities
-from ..core.model import MOST_LEFT, Array
+from ..core.model import Array
+from ..core.port import MOST_LEFT
 from ..core.readable import Readable
 from ..rotors import Coupling, LayeredElement, ShaftRotor
 from ..rotors.shaft_elements import POINTS, WEIGHTS, ShaftElement, ShaftPiece

@@ -13,12 +13,10 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..bearings.damper import PorousDamper
-from ..bearings.reaction import InertialCoefficients
 from ..core.errors import InputError, require_finite, require_kind, require_number, require_positive
 from ..core.inputs import arguments
-from ..core.model import (
-    Array,
-    JournalForce,
+from ..core.model import Array
+from ..core.port import (
     Reaction,
     inertial,
     largest_eccentricity_ratio,
@@ -27,7 +25,7 @@ from ..core.model import (
     require_turning,
 )
 from ..core.readable import Drawable, Item, Readable, items_of
-from ..core.results import CircularOrbit, Trajectory
+from ..core.results import CircularOrbit, InertialCoefficients, Trajectory
 from ..core.signals import Signal, signals_of
 from ..rotors import RigidRotor
 from ..rotors.structure import rotating_linearization
@@ -322,7 +320,7 @@ class OrbitSlope(NamedTuple):
 def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
     require_kind("rotor", rotor, RigidRotor, "a RigidRotor")
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True, planar=True)
     speeds = set(rotor.profile.speeds)
     if len(speeds) != 1 or 0.0 in speeds:
         raise InputError(f"speed must be constant and not zero for synchronous orbits, got {rotor.speed!r}")
@@ -698,7 +696,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     FilmContactError
         If the orbit is as wide as the clearance.
     """
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True, planar=True)
     require_positive("eccentricity_ratio", eccentricity_ratio)
     if require_number("speed", speed) == 0.0:
         raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
@@ -779,7 +777,7 @@ def orbit_system(
         their rates: change of the position in turning axes [m, m/s]; housing_radial, housing_tangential:
         change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
     """
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True, planar=True)
     radius = orbit.eccentricity_ratio * reaction.clearance
     position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
     film = reaction.jacobian(position, velocity, orbit.speed)

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag, lu_factor, lu_solve
 
-from ..bearings.reaction import added_mass
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -21,19 +20,9 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.inputs import arguments
-from ..core.model import (
-    Array,
-    Bearings,
-    Dynamic,
-    JournalForce,
-    Linearization,
-    Model,
-    Reaction,
-    inertial,
-    require_reaction,
-    require_turning,
-)
-from ..core.results import Coefficients, Equilibrium
+from ..core.model import Array, Dynamic, Linearization, Model
+from ..core.port import Bearings, Reaction, inertial, require_reaction, require_turning
+from ..core.results import Coefficients, Equilibrium, added_mass
 from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from ..rotors import FlexibleRotor, require_flexible, translations
 from ..rotors.mounted import with_mass
@@ -86,7 +75,7 @@ def closed_loop(
         rest: `linearize(mount(rotor, {"": reaction}), OperatingPoint(x=...))` takes those.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True)
     require_turning(reaction, rotor)
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)

@@ -3,25 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.oil.oil import warn_of_flow
-from ..bearings.reaction import InertialCoefficients
 from ..core.errors import (
     InputError,
+    brief,
     require_count,
     require_finite,
-    require_kind,
     require_number,
     require_pair,
 )
 from ..core.inputs import arguments
-from ..core.model import Array, JournalForce, Reaction, at_rest, inertial, require_reaction, settled
+from ..core.model import Array
+from ..core.port import (
+    Reaction,
+    coefficients_of,
+    has_states,
+    inertial,
+    require_reaction,
+    settled,
+    small_motion,
+    static_slopes,
+)
 from ..core.readable import Drawable
-from ..core.results import Coefficients
+from ..core.results import Coefficients, InertialCoefficients
 from .equilibrium import equilibrium
 
 if TYPE_CHECKING:
@@ -64,7 +73,7 @@ def coefficients(
     ValidityWarning
         If the film is not laminar, or its oil is beyond its viscosity law; see `equilibrium`.
     """
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True)
     position, speed = require_pair("position", position), require_number("speed", speed)
     film = settled(reaction, position, speed)
     warn_of_flow(film, speed)
@@ -77,12 +86,10 @@ def film_coefficients(
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
     position = require_pair("position", position)
     film = settled(reaction, position, speed)
-    following = at_rest(film)
-    if following is not None:
-        found: Coefficients = following.coefficients(position, speed, frequency)
-        return found
-    derivative = film.jacobian(position, np.zeros(2), speed)
-    stiffness, damping, heavy = -derivative[:, :2], -derivative[:, 2:4], inertial(film)
+    if has_states(film):
+        return coefficients_of(small_motion(film, position, speed), position, speed, frequency)
+    derivative, n = static_slopes(film, position, np.zeros_like(position), speed), len(position)
+    stiffness, damping, heavy = -derivative[:, :n], -derivative[:, n : 2 * n], inertial(film)
     if heavy is None:
         return Coefficients(stiffness=stiffness, damping=damping, position=position, speed=speed)
     return InertialCoefficients(
@@ -90,7 +97,7 @@ def film_coefficients(
         damping=damping,
         position=position,
         speed=speed,
-        mass=heavy.mass(position, np.zeros(2), speed),
+        mass=heavy.mass(position, np.zeros_like(position), speed),
     )
 
 
@@ -136,22 +143,6 @@ SAMPLES = 64
 """Angles of the cage over a ball pitch."""
 
 
-@runtime_checkable
-class Caged(Protocol):
-    """A Reaction with rolling elements in a cage."""
-
-    @property
-    def pitch(self) -> float:
-        """Angle from one rolling element to the next [rad]."""
-
-    @property
-    def cage_ratio(self) -> float:
-        """Speed of the cage over that of the shaft."""
-
-    def turned(self, angle: float) -> Any:
-        """Return the Reaction with its cage turned further [rad]."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class VariableCompliance(Drawable):
     """A shaft in slow motion under a steady load while its cage turns by a pitch.
@@ -189,7 +180,7 @@ class VariableCompliance(Drawable):
 
 @arguments
 def variable_compliance(
-    bearing: Caged, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
+    bearing: Any, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
 ) -> VariableCompliance:
     """Return where a shaft rests at each angle of the cage over a ball pitch, and its stiffness there.
 
@@ -212,7 +203,8 @@ def variable_compliance(
     EquilibriumError
         If the shaft has no rest at an angle.
     """
-    require_kind("bearing", bearing, Caged, "a BallBearing or a BearingPair")
+    if not hasattr(bearing, "cage_ratio"):
+        raise InputError(f"bearing must be a BallBearing or a BearingPair, got {brief(bearing)}")
     require_count("samples", samples, 4)
     require_number("speed", speed)
     angles = np.arange(samples) * bearing.pitch / samples

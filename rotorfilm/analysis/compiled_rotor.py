@@ -34,7 +34,8 @@ from ..core.errors import (
     UndefinedDerivativeError,
     warn_user,
 )
-from ..core.model import Array, Dynamic, Reaction, inertial, require_massless
+from ..core.model import Array, Dynamic
+from ..core.port import Reaction, inertial, require_massless
 from ..core.results import Trajectory
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel

@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eig, eigh
 
-from ..bearings.reaction import added_mass
 from ..core.errors import ConvergenceError, InputError, require_count, require_finite
 from ..core.inputs import arguments
-from ..core.model import Array, Bearings
+from ..core.model import Array
+from ..core.port import Bearings
+from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import (

@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..bearings.reaction import InertialModel, WalledReaction
+from ..bearings.reaction import InertialModel
 from ..core.errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
-from ..core.model import Array, Reaction, inertial
+from ..core.model import Array
+from ..core.port import Reaction, has_wall, inertial
 from ..native import Status
 from ..native.library import loops
 from ..native.structs import structure
@@ -63,7 +64,7 @@ def march(
     pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
     motion = np.zeros((count + 1, 4))
     motion[0, :2] = rest
-    wall = (FAR if isinstance(reaction, WalledReaction) else 1.0) * reaction.clearance
+    wall = (FAR if has_wall(reaction) else 1.0) * reaction.clearance
     rotor = structure("rf_shaken")(call.address, call.data, mass, speed, wall, step)
     rotor.heavy, rotor.loaded = heavy
     status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.oil.oil import warn_of_flow, warn_of_pressure
-from ..bearings.reaction import WalledReaction, relative_film
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -26,16 +25,18 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.inputs import arguments
-from ..core.model import (
+from ..core.model import Array
+from ..core.port import (
     MOST_LEFT,
-    Array,
-    JournalForce,
     Reaction,
     Tangent,
-    Warming,
-    at_rest,
     force_noise,
+    has_states,
+    has_wall,
+    is_warming,
     prepared_tangent,
+    quasi_static,
+    relative_film,
     require_reaction,
     rest_place,
 )
@@ -92,7 +93,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Balls,
     among which there may be no force at all, find their rest themselves (`core.model`).
     """
-    require_reaction("reaction", reaction, JournalForce, heavy=True)
+    require_reaction("reaction", reaction, heavy=True)
     load = checked_load(load)
     speed = require_number("speed", speed)
     found = _found(reaction, load, speed)
@@ -103,10 +104,10 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
 
 def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
-    if isinstance(reaction, Warming) and reaction.is_warming:
+    if is_warming(reaction):
         return _warm(reaction, load, speed)
-    following = at_rest(reaction)
-    film: Any = following or reaction
+    following = has_states(reaction)
+    film: Any = quasi_static(reaction)
     room = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if following else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
@@ -129,10 +130,11 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
             f"the equilibrium at {list(best.position)} m and {speed!r} rad/s is statically unstable: the "
             "force of the film drives the journal away from it"
         )
-    return found if following is None else following.settled(found)
+    tell = getattr(film, "settled", None)
+    return found if tell is None else tell(found)
 
 
-def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
+def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium at the temperature at which the heat balances.
 
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
@@ -196,7 +198,7 @@ def _result(reaction: Reaction, load: Array, target: StaticTarget, point: Static
 
 def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) -> float:
     """Return the least film [m]; in a circle from s, which has its digits near the wall."""
-    if isinstance(reaction, WalledReaction):
+    if has_wall(reaction):
         return float(reaction.minimum_film(point.position))
     return target.clearance / (1.0 + math.exp(point.s))
 

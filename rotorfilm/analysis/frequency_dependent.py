@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from ..bearings.reaction import DynamicStiffness, FrequencyDependentCoefficients
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Bearings, at_rest
+from ..core.model import Array
+from ..core.port import Bearings, DynamicStiffness, has_states
+from ..core.results import FrequencyDependentCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import models, usual_frequency
@@ -91,7 +92,7 @@ def require_all_growing(
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if all(at_rest(bearing) is None for bearing in bearings.values()):
+    if not any(map(has_states, bearings.values())):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
@@ -141,7 +142,9 @@ _TOP = 4.0
 _DECADES = 4.0
 
 
-def rigid_exponents(film: FrequencyDependentCoefficients, mass: float) -> tuple[NDArray[np.complex128], int]:
+def counted_exponents(
+    film: FrequencyDependentCoefficients, mass: float
+) -> tuple[NDArray[np.complex128], int]:
     """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
 
     Returns

@@ -6,18 +6,28 @@ import math
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import Complex, FrequencyDependentCoefficients
-from ..core.errors import ConvergenceError, InputError, require_finite, require_kind, require_positive
+from ..core.errors import ConvergenceError, InputError, brief, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Dynamic, FrequencyDependent, Linearization, Model, settled
+from ..core.model import Array, Linearization, Model
+from ..core.port import (
+    Complex,
+    coefficients_of,
+    freedoms_of,
+    has_own_stiffness,
+    has_states,
+    input_of,
+    rest_state,
+    settled,
+    small_motion,
+)
 from ..core.readable import Readable
-from ..core.results import Equilibrium
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names
+from ..core.results import Equilibrium, FrequencyDependentCoefficients
+from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names, place_names
 
 if TYPE_CHECKING:
     import control
@@ -53,27 +63,27 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
         A static film gives a system without states whose D holds its derivatives, one that remembers the
         system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
     at : OperatingPoint or Equilibrium
-        An Equilibrium stands for the journal at rest there, as input of a film. Tilting pads and lubricated
-        balls rest with it, and a film whose temperature is left to its heat balance keeps that of the rest.
+        An Equilibrium stands for the journal at rest there, as input of a reaction, whose states rest with
+        it; the wear of a bush is the one that it starts with, and a film that warms keeps the temperature of the
+        rest.
     name : str, optional
         Name of the system; python-control numbers it by default.
 
     Raises
     ------
     InputError
-        If the point does not fit the model, or an Equilibrium is given for a model that is no film, or for
-        one whose states it does not tell, as the wear of a bush.
+        If the point does not fit the model, or an Equilibrium is given for a model that is no film.
+    EquilibriumError
+        If the states of a reaction do not rest with the journal.
     """
-    if (
-        isinstance(model, FrequencyDependent)
-        and not isinstance(model, Dynamic)
-        and isinstance(at, Equilibrium)
-    ):
-        return film_system(model, at, name=name).system
-    require_kind("model", model, Model, "a Model such as a bearing or a rotor")
-    if isinstance(at, Equilibrium) and names(model.inputs) == list(JOURNAL_INPUTS):
-        model = settled(cast(Any, model), at.position, at.speed)
-    point = _film_point(model, at) if isinstance(at, Equilibrium) else at
+    if isinstance(at, Equilibrium):
+        if has_own_stiffness(model):
+            return film_system(model, at, name=name).system
+        require_kind("model", model, Model, "a Model such as a bearing or a rotor")
+        model, point = _at_rest(model, at)
+    else:
+        require_kind("model", model, Model, "a Model such as a bearing or a rotor")
+        point = at
     x = checked_vector("x", point.x, len(model.states))
     u = checked_vector("u", point.u, len(model.inputs))
     matrices = model.linearization(point.t, x, u)
@@ -111,24 +121,17 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
     return array
 
 
-def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
-    given = names(model.inputs)
-    u = np.array([*at.position, 0.0, 0.0, at.speed])
-    rest_state = getattr(model, "rest_state", None)
-    if given == list(JOURNAL_INPUTS) and rest_state is not None:
-        return OperatingPoint(x=rest_state(at.position, at.speed), u=u)
-    if given != list(JOURNAL_INPUTS):
+def _at_rest(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
+    """Return a reaction at the temperature of its rest, and the input and states that rest there."""
+    given, wanted = names(model.inputs), [*place_names(freedoms_of(model)), "speed"]
+    if given != wanted or len(at.position) != len(freedoms_of(model)):
         raise InputError(
             "at must be an OperatingPoint for a model that is no film with the inputs "
-            f"{', '.join(JOURNAL_INPUTS)}, got an Equilibrium for the inputs {given}"
+            f"{', '.join(wanted)}, got an Equilibrium for the inputs {given}"
         )
-    if model.states:
-        raise InputError(
-            f"at must tell the states {', '.join(names(model.states))} of this reaction, which an "
-            "Equilibrium does not: linearize(mount(rotor, {station: reaction}), OperatingPoint(x=...)) takes "
-            "the states of rotor and reaction together"
-        )
-    return OperatingPoint(u=u)
+    film = settled(model, at.position, at.speed)
+    x = rest_state(film, at.position, at.speed)
+    return film, OperatingPoint(x=x, u=input_of(at.position, None, at.speed))
 
 
 # A film that remembers as a linear system for python-control, with its error over a range of frequencies.
@@ -195,7 +198,7 @@ class _Fit(NamedTuple):
 
 @arguments
 def film_system(
-    film: FrequencyDependent,
+    film: Any,
     at: Equilibrium,
     *,
     highest_frequency: float | None = None,
@@ -206,8 +209,8 @@ def film_system(
 
     Parameters
     ----------
-    film : FrequencyDependent
-        As `JFOFilm`.
+    film : Reaction
+        That tells K(s), as `JFOFilm`.
     at : Equilibrium
         Where the journal rests.
     highest_frequency : float, optional [rad/s]
@@ -230,10 +233,11 @@ def film_system(
     exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
     the fit, and its damping in fast motion is positive.
     """
-    require_kind("film", film, FrequencyDependent, "a film that remembers, such as a JFOFilm")
+    if not has_states(film):
+        raise InputError(f"film must be one that remembers, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)
-    coefficients: FrequencyDependentCoefficients = film.coefficients(at.position, at.speed)
+    coefficients: Any = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
     by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]

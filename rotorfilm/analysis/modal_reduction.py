@@ -20,7 +20,8 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
-from ..core.model import Array, JournalForce, at_rest, require_reactions
+from ..core.model import Array
+from ..core.port import quasi_static, require_reactions, static_force, static_slopes
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
@@ -313,7 +314,7 @@ def require_bearings(bearings: object) -> None:
     """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
     if isinstance(bearings, Mapping):
         bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
-    require_reactions("bearings", bearings, JournalForce, heavy=True)
+    require_reactions("bearings", bearings, heavy=True)
 
 
 def film_rows(structure: Structure, name: str, size: int) -> Array:
@@ -337,21 +338,19 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
     """
     if resists_tilt(bearing):
         return bearing.tilting_force(place, speed)
-    following = at_rest(bearing)
-    if following is None:
-        force: Array = bearing.force(place, np.zeros(2), speed)
-        return force
+    film = quasi_static(bearing)
+    if film is bearing:
+        return static_force(film, place, np.zeros_like(place), speed)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnloadedPadWarning)
-        return np.asarray(following.force(place, np.zeros(2), speed))
+        return static_force(film, place, np.zeros_like(place), speed)
 
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square, of the force that `force_at` returns."""
     if resists_tilt(bearing):
         return -bearing.tilting_coefficients(place, speed).stiffness
-    slopes: Array = (at_rest(bearing) or bearing).jacobian(place, np.zeros(2), speed)[:, :2]
-    return slopes
+    return static_slopes(quasi_static(bearing), place, np.zeros_like(place), speed)[:, : len(place)]
 
 
 def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:

@@ -12,7 +12,6 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import reach
 from ..core.errors import (
     ContactError,
     EquilibriumError,
@@ -22,7 +21,8 @@ from ..core.errors import (
     require_vector,
 )
 from ..core.inputs import arguments
-from ..core.model import MOST_LEFT, Array, Bearings, Reaction
+from ..core.model import Array
+from ..core.port import MOST_LEFT, Bearings, Reaction, reach
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor

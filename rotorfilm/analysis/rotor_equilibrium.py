@@ -13,7 +13,6 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ..bearings.linear import LinearBearing
-from ..bearings.reaction import minimum_film, relative_film
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -23,7 +22,8 @@ from ..core.errors import (
     require_number,
 )
 from ..core.inputs import arguments
-from ..core.model import MOST_LEFT, Array, Bearings, Reaction, Warming, inertial
+from ..core.model import Array
+from ..core.port import MOST_LEFT, Bearings, Reaction, inertial, minimum_film, relative_film, rest_temperature
 from ..core.readable import Readable
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor, require_flexible
@@ -304,15 +304,14 @@ class RestEquations:
     def warm(self, temperatures: list[float | None]) -> None:
         """Take the films at these temperatures; None for those that have theirs."""
         pairs = zip(self.given, temperatures, strict=True)
-        self.bearings = [b if T is None else cast(Warming, b).at_temperature(T) for b, T in pairs]
+        self.bearings = [b if T is None else cast(Any, b).at_temperature(T) for b, T in pairs]
 
     def balanced(self, p: Array) -> list[float | None]:
         """Return the temperatures of the films that warm, for these positions of the journals."""
         return [self._balanced(b, at) for b, at in zip(self.given, self.split(p), strict=True)]
 
     def _balanced(self, bearing: Reaction, at: Array) -> float | None:
-        warms = isinstance(bearing, Warming) and bearing.is_warming
-        return bearing.balanced_temperature(at, np.zeros(2), self.speed) if warms else None  # type: ignore[attr-defined]
+        return rest_temperature(bearing, at, self.speed)
 
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""

@@ -10,10 +10,10 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg import block_diag, matrix_balance
 
-from ..bearings.reaction import FrequencyDependentCoefficients, added_mass
 from ..core.errors import ConvergenceError
-from ..core.model import Array, Bearings
-from ..core.results import Coefficients
+from ..core.model import Array
+from ..core.port import Bearings
+from ..core.results import Coefficients, FrequencyDependentCoefficients, added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes, both_planes, is_sparse
 from .modal_reduction import MARGIN, Condensed, film_rows, lu_solver, models, usual_frequency

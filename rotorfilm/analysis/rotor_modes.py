@@ -15,7 +15,8 @@ from scipy.optimize import brentq, linear_sum_assignment
 
 from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
 from ..core.inputs import arguments
-from ..core.model import Array, Bearings
+from ..core.model import Array
+from ..core.port import Bearings
 from ..core.progress import Report, silent
 from ..core.readable import Drawable, Readable
 from ..rotors import FlexibleRotor, require_flexible

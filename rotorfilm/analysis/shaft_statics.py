@@ -13,7 +13,8 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import AbsentError, InputError
 from ..core.inputs import arguments
-from ..core.model import Array, Bearings, carries_load
+from ..core.model import Array
+from ..core.port import Bearings, carries_load
 from ..core.readable import Drawable
 from ..rotors import ShaftRotor, Station
 from ..rotors.structure import dense_matrix, mean_plane

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver, Radau
 
-from ..bearings.reaction import SteppedReaction, WalledReaction, relative_film
 from ..bearings.rub import RubRing
 from ..core.errors import (
     ContactError,
@@ -28,21 +27,19 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.inputs import arguments
-from ..core.model import (
-    Array,
+from ..core.model import Array, Dynamic, Linearization, Model, static_linearization, stops
+from ..core.port import (
     Bearings,
-    Dynamic,
     Force,
-    Linearization,
-    Model,
     Reaction,
+    has_wall,
     in_time,
     prepared_force,
+    relative_film,
     require_reaction,
     require_turned,
     require_turning,
-    static_linearization,
-    stops,
+    takes_steps,
 )
 from ..core.readable import Readable
 from ..core.results import Trajectory
@@ -58,7 +55,7 @@ from .stepped_run import simulate_steps
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Reaction | SteppedReaction | Mapping[str, Reaction | SteppedReaction],
+    reaction: Any,
     *,
     duration: float,
     samples: int = 1001,
@@ -124,7 +121,7 @@ def simulate(
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
     given: Mapping[str, Any] = reaction if isinstance(reaction, Mapping) else {"": reaction}
-    if any(isinstance(film, SteppedReaction) for film in given.values()):
+    if any(map(takes_steps, given.values())):
         if method is not None:
             raise InputError(f"method must be None for films that step, got {method!r}")
         return simulate_steps(rotor, given, grid, duration, initial_state, max_step)
@@ -391,7 +388,7 @@ def connect(rotor: Dynamic, films: Bearings) -> list[Journal]:
                 station=station,
                 film=film,
                 dynamic=dynamic if film.states else None,
-                walled=isinstance(film, WalledReaction),
+                walled=has_wall(film),
                 call=None if film.states else prepared_force(film),
                 motion=indices("rotor must have the outputs", outputs, [*motion, *speed]),
                 force=indices("rotor must have the inputs", inputs, force),

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
-from ..core.model import Array, Bearings
+from ..core.model import Array
+from ..core.port import Bearings
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure

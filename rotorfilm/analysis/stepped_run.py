@@ -14,16 +14,17 @@ from numpy.typing import ArrayLike
 from ..bearings.films.mass_conserving import bdf2
 from ..bearings.films.mass_conserving_steps import MOST_GROWTH
 from ..bearings.formulas import cubic
-from ..bearings.reaction import SteppedReaction, StepTrial
 from ..core.errors import (
     ContactError,
     ConvergenceError,
     FilmContactError,
     InputError,
+    brief,
     require_finite,
     require_kind,
 )
-from ..core.model import Array, Dynamic, Reaction
+from ..core.model import Array, Dynamic
+from ..core.port import StepTrial, takes_steps
 from ..core.results import Trajectory
 from ..core.signals import JOURNAL_INPUTS, indices, names, units
 from ..rotors.structure import prefixed, station_names
@@ -42,7 +43,7 @@ HALVINGS = 12
 
 def simulate_steps(
     rotor: Dynamic,
-    films: Mapping[str, Reaction | SteppedReaction],
+    films: Mapping[str, Any],
     times: Array,
     duration: float,
     initial_state: ArrayLike | None,
@@ -53,7 +54,7 @@ def simulate_steps(
     Parameters
     ----------
     rotor : Dynamic
-    films : SteppedReaction, or mapping of station to SteppedReaction
+    films : film that takes steps, as a `JFOFilm`, or mapping of station to such films
     times : ndarray, shape (n,) [s]
         Of the samples.
     duration : float [s]
@@ -179,13 +180,13 @@ class FilmStation(NamedTuple):
     ----------
     name : str
         Of the station; empty where there is one only.
-    film : SteppedReaction
+    film : Stepped
     motion, force : list of int
         Indices among the outputs of the rotor, x, y, vx, vy, speed, and among its inputs.
     """
 
     name: str
-    film: SteppedReaction
+    film: Any
     motion: list[int]
     force: list[int]
 
@@ -219,7 +220,10 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
     for name, film in films.items():
         said = f"reaction[{name!r}]" if name else "reaction"
-        require_kind(said, film, SteppedReaction, "a film that steps, as a JFOFilm, as all others of it are")
+        if not takes_steps(film):
+            raise InputError(
+                f"{said} must be a film that steps, as a JFOFilm, as all others of it are, got {brief(film)}"
+            )
         motion, force = station_names(name)
         places = indices("rotor must have the outputs", outputs, [*motion, JOURNAL_INPUTS[-1]])
         pushed = indices("rotor must have the inputs", inputs, force)

@@ -17,7 +17,8 @@ from scipy.sparse.linalg import splu
 
 from ..core.errors import InputError, require_count, require_finite, require_positive, warn_user
 from ..core.inputs import arguments
-from ..core.model import Array, Bearings
+from ..core.model import Array
+from ..core.port import Bearings
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..core.units import STANDARD_GRAVITY

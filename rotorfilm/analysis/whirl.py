@@ -8,12 +8,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.reaction import FrequencyDependentCoefficients, InertialCoefficients
 from ..core.errors import (
     AbsentError,
     ConvergenceError,
@@ -25,18 +24,25 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.inputs import arguments
-from ..core.model import (
-    Array,
-    Dynamic,
-    FrequencyDependent,
-    JournalForce,
+from ..core.model import Array
+from ..core.port import (
     Reaction,
-    at_rest,
+    coefficients_of,
+    has_own_stiffness,
+    has_states,
     require_reaction,
+    rigid_exponents,
     settled,
+    small_motion,
 )
 from ..core.readable import Readable
-from ..core.results import Coefficients, Equilibrium, WhirlThreshold
+from ..core.results import (
+    Coefficients,
+    Equilibrium,
+    FrequencyDependentCoefficients,
+    InertialCoefficients,
+    WhirlThreshold,
+)
 from .coefficients import film_coefficients
 from .equilibrium import checked_load, equilibrium
 
@@ -96,14 +102,14 @@ def whirl_threshold(
     The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
     stability lost and regained within one step goes unseen.
     """
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, planar=True)
     require_positive("mass", mass)
     force = checked_load(load)
     speeds = _speeds(
         *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
     )
     passed: list[str] = []
-    search = _searched if at_rest(reaction) is None else _settling
+    search = _settling if has_states(reaction) else _searched
     with _passing(passed):
         first = _first_carried(reaction, force, speeds.tolist())
     found = search(reaction, force, mass, speeds, first, passed)
@@ -176,13 +182,12 @@ def _settling(
     """Return the threshold by the exponents of rotor and bearing together."""
 
     def least_damped(at: Equilibrium) -> complex:
-        if isinstance(reaction, FrequencyDependent) and not isinstance(reaction, Dynamic):
-            from .frequency_dependent import rigid_exponents
+        if has_own_stiffness(reaction):
+            from .frequency_dependent import counted_exponents
 
             # Where nothing grows it is one that is damped, not always the least: only its sign counts.
-            return complex(rigid_exponents(_film(reaction, at), mass)[0][0])
-        film = at_rest(settled(reaction, at.position, at.speed))
-        return complex(film.modes(at.position, at.speed, mass)[0])
+            return complex(counted_exponents(_film(reaction, at), mass)[0][0])
+        return complex(rigid_exponents(reaction, at.position, at.speed, mass)[0])
 
     def growth(speed: float) -> float:
         with _passing(passed):
@@ -194,7 +199,7 @@ def _settling(
     with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
-    if isinstance(reaction, FrequencyDependent) and not isinstance(reaction, Dynamic):
+    if has_own_stiffness(reaction):
         return counted_threshold(reaction, found)
     return found  # a film with states has no exponents but those that were found
 
@@ -500,7 +505,7 @@ class VerifiedThreshold(WhirlThreshold):
     growing_above: int
 
 
-def counted_threshold(reaction: FrequencyDependent, found: WhirlThreshold) -> VerifiedThreshold:
+def counted_threshold(reaction: Reaction, found: WhirlThreshold) -> VerifiedThreshold:
     """Return a threshold with the numbers of exponents that grow beside it.
 
     Raises
@@ -525,9 +530,7 @@ def counted_threshold(reaction: FrequencyDependent, found: WhirlThreshold) -> Ve
     return VerifiedThreshold(**vars(found), growing_below=below, growing_above=above)
 
 
-def threshold_near(
-    reaction: FrequencyDependent, load: ArrayLike, mass: float, start: float
-) -> VerifiedThreshold:
+def threshold_near(reaction: Reaction, load: ArrayLike, mass: float, start: float) -> VerifiedThreshold:
     """Return the onset of whirl nearest to a speed [rad/s], found by the whirl at about half the speed.
 
     Only that whirl is followed, so that a speed takes a tenth of what a count does; what grows beside the
@@ -561,7 +564,7 @@ def threshold_near(
     )
 
 
-def _film(reaction: FrequencyDependent, at: Equilibrium) -> FrequencyDependentCoefficients:
-    film: Any = settled(reaction, at.position, at.speed)  # type: ignore[arg-type]
-    found: FrequencyDependentCoefficients = film.coefficients(at.position, at.speed)
-    return found
+def _film(reaction: Reaction, at: Equilibrium) -> FrequencyDependentCoefficients:
+    film = settled(reaction, at.position, at.speed)
+    found = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
+    return cast(FrequencyDependentCoefficients, found)

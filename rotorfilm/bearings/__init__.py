@@ -5,6 +5,11 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
+    from ..core.results import (
+        FrequencyDependentCoefficients as FrequencyDependentCoefficients,
+        InertialCoefficients as InertialCoefficients,
+        ReducedCoefficients as ReducedCoefficients,
+    )
     from ..core.sources import show
     from .assemblies import ParallelReaction as ParallelReaction, Sprung as Sprung
     from .bush import *
@@ -35,11 +40,6 @@ if TYPE_CHECKING:
     from .oil import Cooling as Cooling, Oil as Oil
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *
-    from .reaction import (
-        FrequencyDependentCoefficients as FrequencyDependentCoefficients,
-        InertialCoefficients as InertialCoefficients,
-        ReducedCoefficients as ReducedCoefficients,
-    )
     from .rolling import *
     from .rub import RubContact as RubContact, RubRing as RubRing
     from .seal import AnnularSeal as AnnularSeal, HirsFriction as HirsFriction, SealFlow as SealFlow

@@ -11,22 +11,23 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import InputError, require_kind, require_positive, require_tuple, require_vector
 from ..core.inputs import quantities
-from ..core.model import (
-    Array,
+from ..core.model import Array
+from ..core.port import (
     Force,
-    InertialReaction,
     Reaction,
     Tangent,
     carries_load,
+    has_wall,
     inertial,
     largest_eccentricity_ratio,
+    minimum_film,
     prepared_force,
     prepared_tangent,
     require_reaction,
 )
 from ..core.signals import Signal
 from ..native.spec import HasKernel, NativeSpec
-from .reaction import InertialModel, WalledReaction, broadcast_state, minimum_film
+from .reaction import InertialModel, broadcast_state
 
 
 class SharedReaction(InertialModel):
@@ -57,7 +58,7 @@ class SharedReaction(InertialModel):
         return bool(self._heavy)
 
     @property
-    def _heavy(self: Any) -> list[InertialReaction]:
+    def _heavy(self: Any) -> list[Any]:
         return [heavy for reaction in self.reactions if (heavy := inertial(reaction))]
 
     def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
@@ -182,7 +183,7 @@ class Sprung(SharedReaction):
 
     def require_film(self, position: Array) -> None:
         """Raise FilmContactError where the journal touches; a reaction with a wall of its own does itself."""
-        if not isinstance(self.reaction, WalledReaction):
+        if not has_wall(self.reaction):
             super().require_film(position)
 
     def force_along(

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import InputError, brief, require_inside, require_positive, shortened
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Force
+from ..core.model import Array
+from ..core.port import Force
 from .formulas import differences
 from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import InitVar, dataclass
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..core.errors import (
     InputError,
@@ -18,17 +17,8 @@ from ..core.errors import (
     require_positive,
     require_vector,
 )
-from ..core.model import (
-    Array,
-    Force,
-    JournalForce,
-    Linearization,
-    Stepped,
-    Tangent,
-    force_of,
-    static_linearization,
-)
-from ..core.results import Coefficients
+from ..core.model import Array, Linearization, static_linearization
+from ..core.port import Force, Tangent, force_of
 from ..core.signals import MASS_OUTPUTS, Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
@@ -89,7 +79,7 @@ def input_vector(u: ArrayLike) -> Array:
 class Called:
     """What makes a reaction a function: of position, velocity and speed, as its `force`."""
 
-    def __call__(self: JournalForce, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    def __call__(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...)."""
         return self.force(position, velocity, speed)
 
@@ -102,12 +92,12 @@ class Feedthrough(Called):
         """No states: the reaction is quasi-static."""
         return ()
 
-    def output(self: JournalForce, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+    def output(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
         values = input_vector(u)
         return self.force(values[:2], values[2:4], values[4])
 
-    def linearization(self: JournalForce, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+    def linearization(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
         values = input_vector(u)
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
@@ -117,7 +107,7 @@ class StaticReaction(Feedthrough):
     """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
-    def inputs(self: JournalForce) -> tuple[Signal, ...]:
+    def inputs(self: Any) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
         return journal_inputs(self.clearance, NOMINAL_SPEED)
 
@@ -281,87 +271,14 @@ class KernelReaction(StaticReaction):
         return tangent
 
 
-# A film that remembers as a rotor asks for it: steps tried with their slope, as often as Newton wants.
-
-
-class StepTrial(NamedTuple):
-    """A step of a film that may be taken, or tried again to another place.
-
-    Attributes
-    ----------
-    state : object
-        At its end.
-    output : ndarray, shape (n_outputs,)
-        There; force_x, force_y come first.
-    stiffness : ndarray, shape (2, 2) [N/m]
-        -d force / d position at the end of the step.
-    solutions : int
-        Linear systems that were solved.
-    """
-
-    state: Any
-    output: Array
-    stiffness: Array
-    solutions: int
-
-
-@runtime_checkable
-class SteppedReaction(Stepped, Protocol):
-    """A Stepped film between journal and bearing; inputs and first outputs are those of a Reaction."""
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance [m]: the journal center stays within this distance of the origin."""
-
-    def slopes(self, state: Any) -> Array:
-        """Return d force / d (x, y, vx, vy, speed) at a state that its past holds as it is, shape (2, 5).
-
-        Parameters
-        ----------
-        state : object
-        """
-
-    def attempt(self, state: Any, u: Array, dt: float, near: Any = None) -> StepTrial:
-        """Return one step of length dt [s], not divided, that ends with the input u = (x, y, vx, vy, speed).
-
-        Parameters
-        ----------
-        state : object
-            At the beginning.
-        u : ndarray, shape (5,)
-            At the end, in the SI units of `inputs`.
-        dt : float [s]
-        near : object, optional
-            State of an earlier attempt at this step.
-        """
-
-
 # The Model of a static reaction that may have an added mass: forces, and then the mass.
 
 
 _ROWS, _COLUMNS = [0, 0, 1], [0, 1, 1]
 
 
-@dataclass(frozen=True, kw_only=True)
-class InertialCoefficients(Coefficients):
-    """K, C and the added mass M of a film whose oil has inertia: F = -K q - C v - M a for small motion.
-
-    Attributes
-    ----------
-    mass : ndarray, shape (2, 2) [kg]
-        Rows: force x, y; columns: acceleration along x, y.
-    """
-
-    mass: Array
-
-
-def added_mass(film: Coefficients) -> Array:
-    """Return the added mass of a film [kg], in the shape of its K and C: zeros where those are all."""
-    return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
-
-
 class InertialModel(StaticReaction):
-    """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `InertialReaction`."""
+    """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `core.port.Reaction`."""
 
     @property
     def outputs(self: Any) -> tuple[Signal, ...]:
@@ -408,157 +325,6 @@ class InertialModel(StaticReaction):
             mass = self.mass_slopes(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]
             D = np.vstack([D, mass])
         return static_linearization(D)
-
-
-# Stiffness and damping that depend on the frequency of the motion.
-
-
-Complex = NDArray[np.complex128]
-
-
-class DynamicStiffness(Protocol):
-    """The stiffness that a journal feels in small motion, over the exponent of the motion.
-
-    One of states that follow the journal has them as `at`, as of `StatesStiffness`: a rotor may take them as
-    states of its own.
-    """
-
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
-        """Return K(s) [N/m] and dK/ds [N s/m], shape (2, 2) each: the force changes by -K(s) q e^(s t).
-
-        Parameters
-        ----------
-        s : complex [1/s]
-        """
-
-    def stiffness(self, s: complex) -> Complex:
-        """Return K(s) alone.
-
-        Parameters
-        ----------
-        s : complex [1/s]
-        """
-
-
-@dataclass(frozen=True)
-class StatesStiffness:
-    """K(s) of a reaction whose states follow the journal, exactly, from its linearization about a rest.
-
-    Parameters
-    ----------
-    at : Linearization
-        Its inputs begin with x, y, vx, vy, its outputs with the force.
-    """
-
-    at: Linearization
-
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
-        """Return K(s) [N/m] and dK/ds [N s/m]; see `DynamicStiffness`."""
-        A, B, C, D = self.at
-        follow = s * np.eye(len(A)) - A
-        drive = B[:, :2] + s * B[:, 2:4]
-        moved = np.linalg.solve(follow, drive)
-        slope = np.linalg.solve(follow, B[:, 2:4] - moved)
-        K, damping = D[:2, :2] + s * D[:2, 2:4] + C[:2] @ moved, D[:2, 2:4] + C[:2] @ slope
-        return -K.astype(complex), -damping.astype(complex)
-
-    def stiffness(self, s: complex) -> Complex:
-        """Return K(s) [N/m] alone."""
-        return self(s)[0]
-
-    def exponents(self, mass: float) -> Complex:
-        """Return all exponents of a rigid mass [kg] on it [1/s], the least damped first."""
-        A, B, C, D = self.at
-        size = len(A)
-        push = np.hstack([D[:2, :4], C[:2]]) / mass
-        whole = np.vstack([np.eye(2, 4 + size, 2), push, np.hstack([B[:, :4], A])])
-        values = np.linalg.eigvals(whole).astype(complex)
-        return values[np.argsort(-values.real)]
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReducedCoefficients(Coefficients):
-    """Stiffness and damping at one frequency, of what follows the journal: pads that tilt, oil in a cavity.
-
-    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. At another
-    frequency K and C are others.
-
-    Attributes
-    ----------
-    frequency : float [rad/s]
-        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
-    growth_rate : float [1/s]
-        Of the motion; 0 for a steady one.
-    """
-
-    frequency: float
-    growth_rate: float = 0.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrequencyDependentCoefficients(ReducedCoefficients):
-    """Stiffness and damping at one frequency of a film that remembers, which knows them at every other.
-
-    Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
-    of matrices that it shows.
-
-    Attributes
-    ----------
-    motion : object, optional
-        The `DynamicStiffness` of the film, kept to be called.
-    """
-
-    motion: InitVar[DynamicStiffness | None] = None
-
-    def __post_init__(self, motion: DynamicStiffness | None) -> None:
-        if motion is None:
-            raise TypeError("motion must be the stiffness of the film over s, got None")
-        object.__setattr__(self, "_motion", motion)
-
-    @property
-    def dynamic_stiffness(self) -> DynamicStiffness:
-        """K(s) and dK/ds, as a function of s [1/s]."""
-        found: DynamicStiffness = vars(self)["_motion"]
-        return found
-
-    def near(self, s: complex) -> Coefficients:
-        """Return complex matrices with K(s) = stiffness + s damping, exact about s to the first order.
-
-        Parameters
-        ----------
-        s : complex [1/s]
-        """
-        K, slope = self.dynamic_stiffness(s)
-        return Coefficients(
-            stiffness=K - s * slope,  # type: ignore[arg-type]
-            damping=slope,  # type: ignore[arg-type]
-            position=self.position,
-            speed=self.speed,
-        )
-
-
-def coefficients_of(
-    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
-) -> ReducedCoefficients:
-    """Return Re K(i nu) and Im K(i nu)/nu, with their limits at 0.
-
-    Without a frequency they are `FrequencyDependentCoefficients`.
-
-    Parameters
-    ----------
-    motion : DynamicStiffness
-    position, speed : ndarray, shape (2,) [m], and float [rad/s]
-        Where the journal rests.
-    frequency : float, optional [rad/s]
-        nu; by default that of the shaft.
-    """
-    nu = abs(speed) if frequency is None else frequency
-    K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
-    damping = K.imag / nu if slope is None else slope.real
-    found = ReducedCoefficients(
-        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
-    )
-    return found if frequency is not None else FrequencyDependentCoefficients(**vars(found), motion=motion)
 
 
 # The units of the film force of a journal, which dimensions and viscosity of its bearing make.
@@ -617,35 +383,3 @@ class FilmUnits:
     def nominal_force(self: Any) -> float:
         """Force of a middling motion at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
-
-
-# Where a journal touches: at a circle of the radial clearance, or where its bearing says.
-
-
-@runtime_checkable
-class WalledReaction(Protocol):
-    """What a Reaction may add whose journal touches elsewhere than at a circle of the radial clearance."""
-
-    def minimum_film(self, position: ArrayLike) -> Array:
-        """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
-
-
-def minimum_film(reaction: JournalForce, position: Array) -> Array:
-    """Return the least film [m], shape (...), that any reaction has at positions (2, ...) [m]."""
-    if isinstance(reaction, WalledReaction):
-        return reaction.minimum_film(position)
-    return np.asarray(reaction.clearance - np.hypot(position[0], position[1]))
-
-
-def reach(reaction: JournalForce, positions: Array) -> float:
-    """Return how far the way of journals (2, ...) [m] goes towards contact: 1 - least film / clearance."""
-    if isinstance(reaction, WalledReaction):
-        return 1.0 - float(np.min(reaction.minimum_film(positions))) / reaction.clearance
-    return float(np.hypot(positions[0], positions[1]).max()) / reaction.clearance
-
-
-def relative_film(reaction: JournalForce, position: Array) -> float:
-    """Return the least film of a journal at a position (2,) [m], in clearances."""
-    if isinstance(reaction, WalledReaction):
-        return float(reaction.minimum_film(position)) / reaction.clearance
-    return 1.0 - float(np.hypot(position[0], position[1])) / reaction.clearance

@@ -250,7 +250,7 @@ class AnnularSeal(InertialModel):
         return SealMatrices(*self._values(omega)[0])
 
     def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return the added mass [kg], shape (2, 2, ...), at a speed; see `InertialReaction`."""
+        """Return the added mass [kg], shape (2, 2, ...), at a speed; see `core.port.Reaction`."""
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
         if not self.added_mass:

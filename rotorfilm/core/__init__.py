@@ -31,15 +31,12 @@ if TYPE_CHECKING:
         Dynamic as Dynamic,
         Linearization as Linearization,
         Model as Model,
-        Reaction as Reaction,
         Stepped as Stepped,
         Switched as Switched,
-        carries_load,
-        largest_eccentricity_ratio,
-        prepared_tangent,
         static_linearization,
         stops,
     )
+    from .port import Reaction as Reaction, carries_load, largest_eccentricity_ratio, prepared_tangent
     from .readable import Readable
     from .results import (
         CircularOrbit as CircularOrbit,

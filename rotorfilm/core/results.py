@@ -136,6 +136,84 @@ class Coefficients(Readable):
 
 
 @dataclass(frozen=True, kw_only=True)
+class InertialCoefficients(Coefficients):
+    """K, C and the added mass M of a film whose oil has inertia: F = -K q - C v - M a for small motion.
+
+    Attributes
+    ----------
+    mass : ndarray, shape (2, 2) [kg]
+        Rows: force x, y; columns: acceleration along x, y.
+    """
+
+    mass: Array
+
+
+def added_mass(film: Coefficients) -> Array:
+    """Return the added mass of a film [kg], in the shape of its K and C: zeros where those are all."""
+    return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReducedCoefficients(Coefficients):
+    """Stiffness and damping at one frequency, of what follows the journal: pads that tilt, oil in a cavity.
+
+    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. At another
+    frequency K and C are others.
+
+    Attributes
+    ----------
+    frequency : float [rad/s]
+        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
+    growth_rate : float [1/s]
+        Of the motion; 0 for a steady one.
+    """
+
+    frequency: float
+    growth_rate: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrequencyDependentCoefficients(ReducedCoefficients):
+    """Stiffness and damping at one frequency of a film that remembers, which knows them at every other.
+
+    Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
+    of matrices that it shows.
+
+    Attributes
+    ----------
+    motion : object, optional
+        The `DynamicStiffness` of the film, kept to be called.
+    """
+
+    motion: InitVar[Any] = None
+
+    def __post_init__(self, motion: Any) -> None:
+        if motion is None:
+            raise TypeError("motion must be the stiffness of the film over s, got None")
+        object.__setattr__(self, "_motion", motion)
+
+    @property
+    def dynamic_stiffness(self) -> Any:
+        """K(s) and dK/ds, as a function of s [1/s]."""
+        return vars(self)["_motion"]
+
+    def near(self, s: complex) -> Coefficients:
+        """Return complex matrices with K(s) = stiffness + s damping, exact about s to the first order.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+        K, slope = self.dynamic_stiffness(s)
+        return Coefficients(
+            stiffness=K - s * slope,  # type: ignore[arg-type]
+            damping=slope,  # type: ignore[arg-type]
+            position=self.position,
+            speed=self.speed,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class WhirlThreshold(Readable):
     """The onset of self-excited whirl of a rigid rotor, or the reason why there is none.
 

@@ -4,20 +4,74 @@ from __future__ import annotations
 
 import keyword
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from .errors import InputError, require_positive
 from .units import UNITS
 
-MOTION_NAMES = ("x", "y", "vx", "vy")
+
+class Freedom(NamedTuple):
+    """A motion of a cross section of the shaft: the names of its signals, and where it goes.
+
+    Attributes
+    ----------
+    rate, force : str
+        Names of its rate and of the force, or moment, on the shaft; that of the place is the freedom's own.
+    turns : bool
+        Whether the place is an angle [rad] and the force a moment [N m].
+    way : str
+        As "along x" or "about +x".
+    """
+
+    rate: str
+    force: str
+    turns: bool
+    way: str
+
+
+FREEDOMS: Mapping[str, Freedom] = {
+    **{axis: Freedom(f"v{axis}", f"force_{axis}", False, f"along {axis}") for axis in "xyz"},
+    **{
+        f"tilt_{axis}": Freedom(f"tilt_rate_{axis}", f"moment_{axis}", True, f"about +{axis}")
+        for axis in "xy"
+    },
+    "twist": Freedom("twist_rate", "torque", True, "about +z, besides the rotation"),
+}
+"""Motions of a cross section of a shaft by name, in the order in which a reaction has them."""
+
+PLANAR = ("x", "y")
+"""Freedoms of a journal that moves in its plane; those of a reaction that does not say its own."""
+
+
+def place_names(freedoms: Sequence[str]) -> list[str]:
+    """Return the names of places and rates, the inputs of a reaction but the speed."""
+    return [*freedoms, *(FREEDOMS[name].rate for name in freedoms)]
+
+
+def force_names(freedoms: Sequence[str]) -> list[str]:
+    """Return the names of the forces and moments of some freedoms, the first outputs of a reaction."""
+    return [FREEDOMS[name].force for name in freedoms]
+
+
+def checked_freedoms(freedoms: Sequence[str], name: str = "freedoms") -> tuple[str, ...]:
+    """Return freedoms as a tuple; InputError unless they are some of `FREEDOMS`, in that order."""
+    known = list(FREEDOMS)
+    given = (freedoms,) if isinstance(freedoms, str) else tuple(freedoms)
+    if not given or list(given) != [one for one in known if one in given]:
+        raise InputError(f"{name} must be some of {known}, in this order, got {freedoms!r}")
+    return given
+
+
+MOTION_NAMES = tuple(place_names(PLANAR))
 """Signals of the journal's motion, which a rotor gives."""
 
 JOURNAL_INPUTS = (*MOTION_NAMES, "speed")
-"""Signals that the inputs of every Reaction begin with."""
+"""Signals that the inputs of a planar Reaction begin with."""
 
-FORCE_OUTPUTS = ("force_x", "force_y")
-"""Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
+FORCE_OUTPUTS = tuple(force_names(PLANAR))
+"""Signals that the outputs of a planar Reaction begin with; a rotor takes them as inputs."""
 
 
 MASS_OUTPUTS = ("mass_xx", "mass_xy", "mass_yy")
@@ -183,8 +237,10 @@ def from_fmi_name(fmi_name: str) -> tuple[str, str]:
     return component, name
 
 
-def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
-    """Return the signals JOURNAL_INPUTS that the inputs of every Reaction begin with.
+def journal_inputs(
+    clearance: float, nominal_speed: float, freedoms: Sequence[str] = PLANAR, arm: float = 1.0
+) -> tuple[Signal, ...]:
+    """Return the signals of places, rates and speed that the inputs of a Reaction begin with.
 
     Parameters
     ----------
@@ -192,22 +248,42 @@ def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]
         Radial clearance [m], the nominal value of positions.
     nominal_speed : float
         Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
+    freedoms : sequence of str
+    arm : float [m]
+        The clearance over it is the nominal value of tilts.
     """
-    velocity = clearance * nominal_speed
-    rows = (
-        ("m", clearance, "journal position along x"),
-        ("m", clearance, "journal position along y"),
-        ("m/s", velocity, "journal velocity along x"),
-        ("m/s", velocity, "journal velocity along y"),
-        ("rad/s", nominal_speed, "angular speed about +z"),
-    )
-    return signals_of(*((name, *row) for name, row in zip(JOURNAL_INPUTS, rows, strict=True)))
+    places, rates = [], []
+    for name in freedoms:
+        own = FREEDOMS[name]
+        size = clearance / arm if own.turns else clearance
+        unit, what = ("rad", "angle of the shaft") if own.turns else ("m", "journal position")
+        places.append((name, unit, size, f"{what} {own.way}"))
+        what = "angular rate of the shaft" if own.turns else "journal velocity"
+        rates.append((own.rate, f"{unit}/s", size * nominal_speed, f"{what} {own.way}"))
+    return signals_of(*places, *rates, ("speed", "rad/s", nominal_speed, "angular speed about +z"))
 
 
-def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
-    """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
-    text = "force on the journal along "
-    return signals_of(*((f"force_{axis}", "N", nominal_force, text + axis) for axis in "xy"))
+def force_outputs(
+    nominal_force: float, freedoms: Sequence[str] = PLANAR, arm: float = 1.0
+) -> tuple[Signal, ...]:
+    """Return the signals of forces and moments that the outputs of a Reaction begin with.
+
+    Parameters
+    ----------
+    nominal_force : float [N]
+    freedoms : sequence of str
+    arm : float [m]
+        The nominal force times it is the nominal moment.
+    """
+    rows = []
+    for own in map(FREEDOMS.__getitem__, freedoms):
+        unit, size, what = (
+            ("N.m", nominal_force * arm, "moment on the shaft")
+            if own.turns
+            else ("N", nominal_force, "force on the journal")
+        )
+        rows.append((own.force, unit, size, f"{what} {own.way}"))
+    return signals_of(*rows)
 
 
 def signals_of(*rows: tuple[str, str, float, str]) -> tuple[Signal, ...]:

@@ -14,7 +14,8 @@ from scipy.linalg import expm
 
 from ..core.answers import DISAGREEMENT
 from ..core.errors import PartialResultError, UndefinedDerivativeError
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw

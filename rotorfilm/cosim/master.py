@@ -10,7 +10,6 @@ from os import PathLike
 
 import numpy as np
 
-from ..bearings.reaction import SteppedReaction
 from ..core.errors import (
     ContactError,
     ConvergenceError,
@@ -20,7 +19,8 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.inputs import arguments, quantities
-from ..core.model import Dynamic, Model
+from ..core.model import Dynamic, Model, Stepped
+from ..core.port import takes_steps
 from ..core.results import Trajectory, orbit_distance
 from ..fmu.instance import extracted
 from ..rotors.force_law import BASE_TIME
@@ -31,7 +31,7 @@ from .slaves import InProcessSlave, Slave, SteppedPartner
 from .watch import quietly
 
 Path = str | PathLike[str]
-Film = Path | Model | SteppedReaction
+Film = Path | Model | Stepped
 
 
 @arguments
@@ -116,7 +116,7 @@ def _run(
         def opened(film: Film) -> Slave:
             if isinstance(film, str | PathLike):
                 return stack.enter_context(open_fmu(film))
-            return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
+            return SteppedPartner(film) if takes_steps(film) else InProcessSlave(film)
 
         if isinstance(rotor, str | PathLike):
             first: Slave = stack.enter_context(open_rotor(rotor, held=not scheme.needs.laws))

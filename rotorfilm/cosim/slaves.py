@@ -14,9 +14,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from ..bearings.reaction import SteppedReaction
 from ..core.errors import ConvergenceError, InputError
-from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints, in_time
+from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints
+from ..core.port import in_time
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MASS_OUTPUTS, MOTION_NAMES, indices, names, units
 from ..fmu.reference import advance
 from ..native.library import master
@@ -345,12 +345,13 @@ class SteppedPartner(_Held):
 
     Parameters
     ----------
-    film : SteppedReaction
+    film : Stepped
+        That takes steps with their slope, as a `JFOFilm`.
     """
 
     differentiates = True
 
-    def __init__(self, film: SteppedReaction) -> None:
+    def __init__(self, film: Any) -> None:
         super().__init__(film)
         self._film, self._state = film, None
 

@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from ..core.errors import FmuError, InputError, require_finite, require_positive
 from ..core.files import write_atomically
 from ..core.inputs import arguments, quantity
-from ..core.model import Array, Dynamic, Linearization, Model, Stepped, in_time
+from ..core.model import Array, Dynamic, Linearization, Model, Stepped
+from ..core.port import in_time
 from ..core.signals import Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec, sized_spec
 from .archive import copyright_line, to_zip

@@ -11,7 +11,8 @@ from xml.etree.ElementTree import Element, SubElement
 from ..core.errors import InputError, require_positive
 from ..core.files import write_atomically
 from ..core.inputs import arguments
-from ..core.model import Dynamic, Model, Stepped, require_massless
+from ..core.model import Dynamic, Model, Stepped
+from ..core.port import require_massless
 from ..core.units import UNITS
 from .archive import read_description, to_zip
 from .description import Terminals, terminals, to_bytes

@@ -17,7 +17,7 @@ from ..analysis import equilibrium
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
 from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import InputError, RotorfilmError
-from ..core.model import settled
+from ..core.port import settled
 from ..core.results import Equilibrium
 from ..scenes.film_heat import HeatSteps, uniform_rest
 from ..scenes.film_rungs import (

@@ -53,7 +53,8 @@ from ..core.errors import (
     InputError,
     RotorfilmError,
 )
-from ..core.model import Array, Reaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
+from ..core.model import Array
+from ..core.port import Reaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..scenes.damper_films import (

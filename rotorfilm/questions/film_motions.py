@@ -29,7 +29,6 @@ from ..analysis.periodic_orbit import (
     rest_position,
     rotor_answers,
 )
-from ..bearings.reaction import reach
 from ..core.answers import (
     DISAGREEMENT,
     SAFETY,
@@ -42,7 +41,8 @@ from ..core.answers import (
     beside_bound,
 )
 from ..core.errors import InputError
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction, reach
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable

@@ -26,7 +26,8 @@ from ..bearings.pads import (
 )
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
-from ..core.model import Array, settled
+from ..core.model import Array
+from ..core.port import settled
 from ..core.results import Equilibrium
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
 from ..scenes.pad_tables import pad_film_name, quasi_static_scene

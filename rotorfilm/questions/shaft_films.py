@@ -23,7 +23,7 @@ from ..core.answers import (
     WorkUnit,
     relative_change,
 )
-from ..core.model import Reaction
+from ..core.port import Reaction
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel

@@ -17,7 +17,8 @@ from ..analysis.speed_events import on_films
 from ..bearings.seal import AnnularSeal
 from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
 from ..core.errors import ContactError, InputError
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..core.results import Coefficients, Trajectory
 from ..rotors import BaseExcitedRotor, BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models

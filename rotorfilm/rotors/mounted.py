@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import InputError, require_kind
 from ..core.inputs import arguments, quantities
-from ..core.model import (
-    Array,
+from ..core.model import Array, Dynamic, Linearization
+from ..core.port import (
     Bearings,
-    Dynamic,
-    InertialReaction,
-    Linearization,
     Reaction,
     in_time,
     inertial,
@@ -379,7 +377,7 @@ class AddedMassJournals:
     """
 
     def __init__(self, bearings: Sequence[Reaction], motion: Sequence[Sequence[int]]) -> None:
-        self.heavy: list[InertialReaction | None] = [inertial(bearing) for bearing in bearings]
+        self.heavy: list[Any] = [inertial(bearing) for bearing in bearings]
         self.motion = [list(rows) for rows in motion]
 
     def __bool__(self) -> bool:

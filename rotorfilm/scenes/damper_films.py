@@ -33,7 +33,7 @@ from ..bearings.damper import (
 from ..bearings.films.geometry import FullFilm
 from ..core.answers import WorkUnit
 from ..core.errors import InputError, RotorfilmError, ValidityWarning
-from ..core.model import Reaction
+from ..core.port import Reaction
 from ..core.results import CircularOrbit
 from ..rotors import RigidRotor
 from .damper_table import DamperTable

@@ -12,7 +12,8 @@ import numpy as np
 from ..analysis import equilibrium, rotor_equilibrium
 from ..core.files import written_together
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..fmu import export_fmu, export_ssp
 from ..rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
 from ..rotors.force_law import LawRotor

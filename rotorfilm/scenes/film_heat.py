@@ -32,7 +32,7 @@ from ..bearings.journal import (
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import RING
 from ..core.errors import RotorfilmError
-from ..core.model import Reaction
+from ..core.port import Reaction
 from ..core.results import Coefficients, Equilibrium
 from ..core.units import CELSIUS
 from .film_rungs import JournalEquilibrium, maximum_pressure

@@ -30,17 +30,19 @@ from ..bearings.journal import (
     has_losses,
     is_mappable,
 )
-from ..bearings.reaction import InertialModel, WalledReaction, minimum_film, relative_film
+from ..bearings.reaction import InertialModel
 from ..core.answers import DISAGREEMENT, WorkUnit
 from ..core.errors import InputError, require_vector
-from ..core.model import (
-    Array,
-    JournalForce,
+from ..core.model import Array
+from ..core.port import (
     Reaction,
     Tangent,
+    has_wall,
     inertial,
     largest_eccentricity_ratio,
+    minimum_film,
     prepared_tangent,
+    relative_film,
 )
 from ..core.results import Equilibrium
 from .journal_tables import has_map
@@ -603,7 +605,7 @@ def attitude(position: Array, load: Array, speed: float) -> float:
     return math.copysign(1.0, speed) * turned
 
 
-def room(bearing: JournalForce) -> float:
+def room(bearing: Reaction) -> float:
     """Return how far a journal may go from the center in any direction [m]."""
     return float(minimum_film(bearing, np.zeros(2)))
 
@@ -691,7 +693,7 @@ NEUTRAL = 1e-9
 
 
 def tangent(
-    bearing: JournalForce, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
+    bearing: Reaction, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
 ) -> tuple[Array, Array]:
     """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
 
@@ -890,4 +892,4 @@ class WorkCountingWalledReaction(Counted):
 
 def counted_calls(reaction: Reaction) -> Counted:
     """Return a reaction that counts its evaluations."""
-    return (WorkCountingWalledReaction if isinstance(reaction, WalledReaction) else Counted)(reaction)
+    return (WorkCountingWalledReaction if has_wall(reaction) else Counted)(reaction)

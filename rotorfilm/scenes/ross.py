@@ -23,7 +23,8 @@ from ..bearings.linear import LinearBearing, TabulatedBearing
 from ..core.errors import InputError
 from ..core.files import read_text
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction, require_massless
+from ..core.model import Array
+from ..core.port import Reaction, require_massless
 from ..core.results import Coefficients
 from ..rotors import (
     ClassicalBeam,

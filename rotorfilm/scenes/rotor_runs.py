@@ -13,7 +13,8 @@ from scipy.interpolate import CubicSpline
 from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory

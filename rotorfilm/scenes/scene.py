@@ -17,7 +17,7 @@ from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
 from ..core.inputs import nearest
 from ..core.limits import LINE_DOTS, SCENE_BYTES
-from ..core.model import Reaction
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number

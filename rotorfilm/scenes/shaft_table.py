@@ -16,7 +16,8 @@ from ..bearings.seal import AnnularSeal
 from ..core.errors import InputError, SceneError, brief, require_positive
 from ..core.inputs import nearest
 from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..rotors import (
     Beam,
     ClassicalBeam,

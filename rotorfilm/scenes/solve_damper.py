@@ -20,7 +20,8 @@ from ..analysis import (
 from ..bearings.assemblies import Sprung
 from ..bearings.damper import DamperGroups, JFODamper, damper_groups
 from ..core.errors import ContactError, InputError
-from ..core.model import Array, Reaction, largest_eccentricity_ratio
+from ..core.model import Array
+from ..core.port import Reaction, largest_eccentricity_ratio
 from ..core.progress import Report, silent
 from ..core.readable import Drawable, Readable
 from ..core.results import CircularOrbit, Trajectory

@@ -8,7 +8,7 @@ from ..analysis import CriticalMass, critical_mass, equilibrium, threshold_near,
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import JFOFilm
 from ..core.errors import ConvergenceError
-from ..core.model import Reaction
+from ..core.port import Reaction
 from ..core.readable import Readable
 from ..core.results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 

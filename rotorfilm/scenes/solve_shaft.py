@@ -29,7 +29,8 @@ from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor

@@ -21,7 +21,8 @@ from ..bearings.rolling import (
 )
 from ..core.errors import InputError, RotorfilmError, require_count, require_finite, require_kind
 from ..core.inputs import arguments
-from ..core.model import Array, Reaction, prepared_tangent
+from ..core.model import Array
+from ..core.port import Reaction, prepared_tangent
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, shortest_time, spread, table

@@ -22,7 +22,7 @@ from ..bearings.pads import (
     pressure_dam_pads,
 )
 from ..core.errors import EquilibriumError, InputError, require_finite, require_positive
-from ..core.model import Reaction, at_rest
+from ..core.port import Reaction, has_states, rigid_exponents
 from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 
@@ -258,7 +258,6 @@ def _threshold(
 
 def _is_stable(bearing: Reaction, load: tuple[float, float], mass: float, speed: float) -> bool:
     at = equilibrium(bearing, load, speed)
-    film = at_rest(bearing)
-    if film is not None:
-        return bool(film.modes(at.position, speed, mass)[0].real < 0.0)
+    if has_states(bearing):
+        return bool(rigid_exponents(bearing, at.position, speed, mass)[0].real < 0.0)
     return is_stable(coefficients(bearing, at.position, speed), mass)

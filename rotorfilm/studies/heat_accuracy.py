@@ -24,7 +24,8 @@ from ..bearings.journal import (
     heat_numbers,
 )
 from ..bearings.oil import Cooling, Oil
-from ..core.model import Array, Reaction
+from ..core.model import Array
+from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.units import CELSIUS
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed

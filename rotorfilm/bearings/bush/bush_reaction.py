@@ -501,6 +501,10 @@ class BushReaction(Called):
         temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
         return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
+    def rest_state(self, position: ArrayLike, speed: float) -> Array:
+        """Return the wear that the bush starts with, wherever the journal is: it drifts, and never rests."""
+        return self.initial_state
+
     def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
         """Return where the shaft rests [m] with the wear at t = 0; see `core.model`."""
         return self._liner.resting(load, speed, self.initial_state)

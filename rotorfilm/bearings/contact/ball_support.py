@@ -7,7 +7,7 @@ from collections.abc import Callable
 from ctypes import byref
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,6 @@ from ...core.errors import (
     require_finite,
     require_kind,
     require_number,
-    require_pair,
     require_positive,
     require_vector,
     warn_user,
@@ -31,7 +30,7 @@ from ...native.library import loops
 from ...native.spec import NativeSpec
 from ...native.structs import structure
 from ..formulas import cubic
-from ..reaction import Called, Complex, ReducedCoefficients, StatesStiffness, coefficients_of
+from ..reaction import Called
 from .contact_law import MOST_CONTACTS, ContactLaw, contact_spec
 
 
@@ -146,58 +145,13 @@ class BallSupport(Called):
         """Return `resting`; the speed does not enter."""
         return self.resting(position)
 
-    def settled(self, found: Any) -> Any:
-        """Return an equilibrium as it is."""
-        return found
-
-    def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> Complex:
-        """Return K(s) of small motion about a rest, shape (2, 2) [N/m].
-
-        Parameters
-        ----------
-        position, speed : array_like, shape (2,) [m], and float [rad/s]
-            Of the journal; the speed does not enter.
-        s : complex [1/s]
-            Growth rate + i frequency.
-        """
-        return self._in_motion(require_pair("position", position)).stiffness(s)
-
-    @arguments
-    def coefficients(
-        self, position: ArrayLike, speed: float, frequency: float | None = None
-    ) -> ReducedCoefficients:
-        """Return Re K(i frequency) and Im K(i frequency)/frequency; see `analysis.coefficients`.
-
-        Without a frequency they are `FrequencyDependentCoefficients` at that of the shaft: modes, thresholds
-        and responses of rotors go by K(s).
-
-        Parameters
-        ----------
-        position, speed : array_like, shape (2,) [m], and float [rad/s]
-            Of the journal at rest.
-        frequency : float, optional [rad/s]
-
-        Warns
-        -----
-        ValidityWarning
-            If the frequency, or without one the speed, is above that to which the law was fitted.
-        """
-        q, speed = require_pair("position", position), require_number("speed", speed)
-        name, asked = ("speed", speed) if frequency is None else ("frequency", frequency)
-        if abs(require_number(name, asked)) > self.law.highest_frequency:
+    def require_range(self, frequency: float) -> None:
+        """Warn where motion at a frequency [rad/s] is faster than that to which the law was fitted."""
+        if abs(frequency) > self.law.highest_frequency:
             warn_user(
-                f"{name} should be at most {self.law.highest_frequency:.6g} rad/s, to which the law was "
-                f"fitted, got {asked!r}"
+                f"frequency should be at most {self.law.highest_frequency:.6g} rad/s, to which the law was "
+                f"fitted, got {frequency!r}"
             )
-        return coefficients_of(self._in_motion(q), q, speed, frequency)
-
-    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> Complex:
-        """Return the exponents of a rigid mass [kg] with the films [1/s], the least damped first."""
-        return self._in_motion(require_pair("position", position)).exponents(rotor_mass)
-
-    def _in_motion(self, position: Array) -> StatesStiffness:
-        """Return the dynamic stiffness about a rest."""
-        return StatesStiffness(self.linearization(0.0, self.resting(position), [*position, 0.0, 0.0, 0.0]))
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_x, force_y) [N] for u = (x, y, vx, vy, speed); t and the last three are not used."""

@@ -22,7 +22,8 @@ from ...core.errors import (
     warn_user,
 )
 from ...core.inputs import arguments, quantities
-from ...core.model import Array, Tangent, tangent_of
+from ...core.model import Array
+from ...core.port import Tangent, tangent_of
 from ...core.signals import MOTION_NAMES
 from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
@@ -414,7 +415,7 @@ class SqueezeFilmDamper(InertialModel):
         return self.inertia_scale / self.clearance * self.film_inertia.mass(*self._scaled(q, v))
 
     def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
-        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...); see `InertialReaction`."""
+        """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...); see `core.port.Reaction`."""
         q, v, _ = broadcast_state(position, velocity, speed)
         require_inside(q, self.clearance)
         if not self.has_inertia:

@@ -25,6 +25,7 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
+from ...core.port import StepTrial
 from ...core.readable import Drawable
 from ..films.geometry import FeedHole, FilmGeometry, Pocket
 from ..films.mass_conserving import (
@@ -49,7 +50,7 @@ from ..films.mass_conserving_steps import (
     slow_motion,
 )
 from ..formulas import extrapolated_value
-from ..reaction import NOMINAL_SPEED, StaticReaction, StepTrial, broadcast_state, require_size
+from ..reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, require_size
 
 # Where the oil of a squeeze-film damper comes from.
 

@@ -15,12 +15,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import ConvergenceError, FilmContactError, InputError, require_inside, require_positive
 from ...core.model import Array
+from ...core.port import StepTrial
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native.film_kernels import Status
 from ...native.library import loops
 from ...native.spec import NativeParameter, NativeSpec, parameter
 from ...native.structs import structure
-from ..reaction import NOMINAL_SPEED, StepTrial, input_vector
+from ..reaction import NOMINAL_SPEED, input_vector
 from .mass_conserving import (
     FILM,
     ConservedFilm,
@@ -401,6 +402,12 @@ class FilmInMotion:
         ----------
         s : complex [1/s]
         """
+        if s == 0.0:
+            stiffness, damping = slow_motion(self.film, self.state)
+            return self.scale * stiffness.astype(complex), self.scale * damping.astype(complex)
+        if s == 0.0:
+            stiffness, damping = slow_motion(self.film, self.state)
+            return self.scale * stiffness.astype(complex), self.scale * damping.astype(complex)
         rate, by_s = _wave_rate(self.film, self.state, s)
         moved, held = self._slopes
         still = self._response(rate, moved + s * held)

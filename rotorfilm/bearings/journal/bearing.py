@@ -22,7 +22,8 @@ from ...core.errors import (
     warn_user,
 )
 from ...core.inputs import arguments, quantities
-from ...core.model import Array, Tangent
+from ...core.model import Array
+from ...core.port import Tangent
 from ...core.readable import Readable
 from ...core.results import BearingLosses
 from ...native.film_kernels import JournalKernel, Status

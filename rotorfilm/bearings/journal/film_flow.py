@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.model import Array, Tangent
+from ...core.model import Array
+from ...core.port import Tangent
 from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil, thickness
 from ..films.law import kinematics
 from ..films.mass_conserving import Fluidity

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Number
-from typing import Any, ClassVar, cast
+from typing import ClassVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +21,10 @@ from ...core.errors import (
     require_vector,
 )
 from ...core.inputs import arguments, quantities
-from ...core.model import Array, Tangent
+from ...core.model import Array
+from ...core.port import Tangent
 from ...core.readable import Drawable, Readable
-from ...core.results import BearingLosses
+from ...core.results import BearingLosses, ReducedCoefficients
 from ..films.mass_conserving import (
     FILM,
     ConservedFilm,
@@ -38,7 +39,6 @@ from ..films.mass_conserving_steps import FilmInMotion, OilNumbers, SteppedFilm,
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
-from ..reaction import ReducedCoefficients, coefficients_of
 from .bearing import JournalBearing, StaticFilm, fitted_bearing
 from .reynolds_film import ReynoldsFilm
 
@@ -233,7 +233,11 @@ class JFOFilm(SteppedFilm):
         """
         if not isinstance(s, Number) or not np.isfinite(s):
             raise InputError(f"s must be a finite number, got {s!r}")
-        return self._in_motion(position, speed).stiffness(complex(s))
+        return self.dynamic_stiffness(position, speed).stiffness(complex(s))
+
+    def dynamic_stiffness(self, position: ArrayLike, speed: float) -> FilmInMotion:
+        """Return K(s) and dK/ds about a journal at rest, as a function of s; see `core.port`."""
+        return FilmInMotion(self.film, self._steady(position, speed)[1], self._per_length)
 
     @arguments
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
@@ -249,27 +253,6 @@ class JFOFilm(SteppedFilm):
         q, state = self._steady(position, speed)
         K, C = self._slow(state)
         return ReducedCoefficients(stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0)
-
-    @arguments
-    def coefficients(
-        self, position: ArrayLike, speed: float, frequency: float | None = None
-    ) -> ReducedCoefficients:
-        """Return Re K(i frequency) and Im K(i frequency)/frequency; see `analysis.coefficients`.
-
-        Without a frequency they are `FrequencyDependentCoefficients` at that of the shaft: what takes them
-        for modes, thresholds or a critical mass goes by K(s).
-
-        Parameters
-        ----------
-        position, speed : array_like, shape (2,) [m], and float [rad/s]
-            As in `solve`.
-        frequency : float, optional [rad/s]
-        """
-        own = abs(require_number("speed", speed))
-        if (own if frequency is None else require_number("frequency", frequency)) == 0.0:
-            return self.slow_coefficients(position, speed)
-        q = np.asarray(position, dtype=float)
-        return coefficients_of(self._in_motion(position, speed), q, float(speed), frequency)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on a journal at rest, shape (2,) [N].
@@ -314,10 +297,6 @@ class JFOFilm(SteppedFilm):
     def at_rest(self) -> JFOFilm:
         """Return this film: it has a force for a journal at rest only."""
         return self
-
-    def settled(self, found: Any) -> Any:
-        """Return an equilibrium as it is."""
-        return found
 
     def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
         """Return power loss, torques and oil flow of a journal at rest, openings in the order of `inflow`.
@@ -412,9 +391,6 @@ class JFOFilm(SteppedFilm):
     def _jacobian(self, state: ConservedState) -> Array:
         by_motion = -np.hstack(self._slow(state))
         return np.column_stack([by_motion, self.bearing.force_scale * speed_slope(self.film, state)])
-
-    def _in_motion(self, position: ArrayLike, speed: float) -> FilmInMotion:
-        return FilmInMotion(self.film, self._steady(position, speed)[1], self._per_length)
 
     def _at_rest(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike

@@ -26,25 +26,16 @@ from ...core.errors import (
     warn_user,
 )
 from ...core.inputs import arguments, quantities
-from ...core.model import Array, Linearization, Tangent
+from ...core.model import Array, Linearization
+from ...core.port import StatesStiffness, Tangent
 from ...core.readable import Readable
-from ...core.results import BearingLosses, Equilibrium
+from ...core.results import BearingLosses, Equilibrium, ReducedCoefficients
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native import Status
 from ...native.pad_kernels import RestPoint, TiltingKernel, TiltingPoint
 from ...native.spec import NativeSpec, journal_spec
 from ..oil.heated_bearing import FilmHeat, HeatedBearing, fed_temperature
-from ..reaction import (
-    NOMINAL_SPEED,
-    Called,
-    Complex,
-    ReducedCoefficients,
-    StatesStiffness,
-    broadcast_state,
-    coefficients_of,
-    input_vector,
-    without_overflow,
-)
+from ..reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
 from .pad_bearing import WEDGE, PadBearing, PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
 from .pad_table import LossyPadFilm, least_film
@@ -261,6 +252,10 @@ class TiltingPadBearing(Called, PadBearing):
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the state with the journal and all pads at rest, shape (n_states,)."""
         return self.at_rest().state(position, speed)
+
+    def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
+        """Return the loaded pads about their rest as states, over x, y, vx, vy; see `core.port`."""
+        return self.at_rest().matrices(position, speed).linearization()
 
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
@@ -777,19 +772,6 @@ class StaticTiltingPads:
             unloaded=pads.unloaded,
         )
 
-    def coefficients(
-        self, position: ArrayLike, speed: float, frequency: float | None = None
-    ) -> ReducedCoefficients:
-        """Return what the journal feels at a frequency [rad/s], by default that of the shaft.
-
-        Without a frequency they are `FrequencyDependentCoefficients`: modes and thresholds of rotors go
-        by K(s).
-        """
-        found = self.matrices(position, speed)
-        if frequency is not None:
-            return found.reduced(frequency)
-        return coefficients_of(PadsStiffness(found), found.position, found.speed)
-
     def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
         """Return the exponents of a rigid rotor on the pads; see `PadMatrices.modes`."""
         return self.matrices(position, speed).modes(rotor_mass)
@@ -918,29 +900,3 @@ class PadMatrices(Readable):
         push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, pads].T).T])
         kept = [0, 1, *pads]
         return whole[:2, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow
-
-
-@dataclass(frozen=True)
-class PadsStiffness:
-    """K(s) of a journal on pads that follow it; see `DynamicStiffness`.
-
-    Parameters
-    ----------
-    matrices : PadMatrices
-        Of journal and pads together.
-    """
-
-    matrices: PadMatrices
-
-    @property
-    def at(self) -> Linearization:
-        """The pads as states; see `DynamicStiffness`."""
-        return self.matrices.linearization()
-
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
-        """Return K(s) [N/m] and dK/ds [N s/m]."""
-        return self.matrices.dynamic_stiffness(s)
-
-    def stiffness(self, s: complex) -> Complex:
-        """Return K(s) [N/m] alone."""
-        return self(s)[0]

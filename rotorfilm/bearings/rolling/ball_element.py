@@ -26,7 +26,8 @@ from ...core.errors import (
     warn_user,
 )
 from ...core.inputs import arguments, quantities
-from ...core.model import MOST_LEFT, Array
+from ...core.model import Array
+from ...core.port import MOST_LEFT
 from ...core.readable import Readable
 from ...native import NativeSpec, Status
 from ...native.ball_kernel import DEGREES, ROW, BallKernel, BallsAt

@@ -10,7 +10,8 @@ import numpy as np
 
 from ...core.errors import InputError, require_count, require_non_negative, require_number, require_positive
 from ...core.inputs import arguments, quantities
-from ...core.model import Array, Tangent
+from ...core.model import Array
+from ...core.port import Tangent
 from ..reaction import StaticReaction
 
 REACH = 0.007

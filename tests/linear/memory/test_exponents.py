@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import eigvals
 
 from rotorfilm import Coefficients, ConvergenceError, coefficients, critical_mass, whirl_threshold
-from rotorfilm.analysis.frequency_dependent import growing_count, mass_borders, rigid_exponents, rigid_growing
+from rotorfilm.analysis.frequency_dependent import growing_count, mass_borders, counted_exponents, rigid_growing
 from rotorfilm.bearings import FrequencyDependentCoefficients
 from rotorfilm.bearings.films.mass_conserving import circular_gap, oil_outflow
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
@@ -105,7 +105,7 @@ def test_exponents_are_those_of_the_pencil_of_rotor_and_oil(small):
     ((border, _),) = mass_borders(film)
     for mass in border * np.array([0.3, 0.9, 1.1, 3.0]):
         all_roots = roots_of(*matrices, mass)
-        values, growing = rigid_exponents(film, mass)
+        values, growing = counted_exponents(film, mass)
         for s in values:
             assert np.abs(all_roots - s).min() < 1e-7 * abs(s)
         assert growing == rigid_growing(film, mass) == np.sum(all_roots.real > 0.0)

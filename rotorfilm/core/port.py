@@ -1,0 +1,653 @@
+"""What a bearing offers to its rotor, and everything that follows from it for all bearings alike.
+
+A reaction is a `Model` whose inputs begin with the places of its freedoms, their rates and the speed, and its
+outputs with the forces on the shaft. What else it may say of itself is asked for here and nowhere else, and
+every analysis takes the functions of this module: no other asks a bearing what it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import (
+    EquilibriumError,
+    InputError,
+    brief,
+    require_kind,
+    require_number,
+)
+from .model import Array, Dynamic, Linearization, Model, static_linearization
+from .results import FrequencyDependentCoefficients, ReducedCoefficients
+from .signals import PLANAR, force_names, names, place_names
+
+Complex = NDArray[np.complex128]
+
+
+@runtime_checkable
+class Reaction(Model, Protocol):
+    """A Model that pushes back on a shaft: a film, a bearing, a seal, a ring that is rubbed.
+
+    With the freedoms (x, y) its inputs begin with x, y, vx, vy, speed and its outputs with force_x, force_y;
+    `core.signals.FREEDOMS` has the names of all others. With states it is a `Dynamic` too. What it may add:
+
+    - `freedoms`, which motions of the shaft it reacts to; ("x", "y") where it does not say;
+    - `clearance`, the radius [m] of the circle within which the journal stays; else there is no such circle;
+    - `force(position, velocity, speed)` and `jacobian(...)`, the same as `output` and `linearization` for
+      batches, shapes (n, ...) and (n, 2 n + 1, ...); of a reaction with states, with these held;
+    - `prepare()` and `prepare_tangent()`, force and derivatives as functions of five numbers, for loops;
+    - `minimum_film(position)`, where the journal touches elsewhere than on the circle of the clearance;
+    - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
+    - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
+    - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
+    - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
+    - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest;
+    - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
+    - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
+    - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
+    - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `coldest()`, `balanced()`, `in_time()`,
+      where the temperature of the film follows from its heat;
+    - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
+    - `carries_load`, False of a reaction that takes no share of the weight, as a seal;
+    - `portable()`, an equal object that holds what it would make on first use, for an FMU.
+    """
+
+
+Bearings = Mapping[str, Reaction]
+"""Reactions by the names of the stations in which they are."""
+
+
+def freedoms_of(reaction: object) -> tuple[str, ...]:
+    """Return the motions of the shaft that a reaction reacts to."""
+    return getattr(reaction, "freedoms", PLANAR)
+
+
+def clearance_of(reaction: object) -> float:
+    """Return the radius of the circle in which the journal stays [m]; infinite where there is none."""
+    return getattr(reaction, "clearance", np.inf)
+
+
+def require_reaction(
+    name: str, value: Any, *, heavy: bool = False, planar: bool = False, over_time: bool = False
+) -> None:
+    """Raise InputError unless `value` is a Reaction.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    value : object
+    heavy : bool
+        Whether it may add mass to the rotor.
+    planar : bool
+        Whether it must have the freedoms x, y and a clearance.
+    over_time : bool
+        Whether it must be a Model, not only a force under a journal at rest or in steps of its own.
+    """
+    kind = type(value)
+    at_rest = hasattr(kind, "force") and hasattr(kind, "jacobian") and hasattr(value, "clearance")
+    moves = hasattr(kind, "output") and hasattr(kind, "linearization") and hasattr(kind, "inputs")
+    if not (moves or (at_rest and not over_time)) or isinstance(value, type):
+        require_kind(name, value, Reaction, "a Reaction such as a JournalBearing, or what as_reaction makes")
+        raise InputError(f"{name} must be a Reaction such as a JournalBearing, got {brief(value)}")
+    if planar and freedoms_of(value) != PLANAR:
+        raise InputError(
+            f"{name} must react to x and y alone here, got one of {', '.join(freedoms_of(value))}: "
+            "a rotor with such stations takes it"
+        )
+    if not heavy:
+        require_massless(name, value)
+
+
+def require_reactions(name: str, values: object, *, heavy: bool = False, over_time: bool = False) -> None:
+    """Raise InputError unless `values` is a mapping from names of stations to Reactions."""
+    if not isinstance(values, Mapping):
+        raise InputError(f"{name} must be a mapping such as {{'left': film}}, got {brief(values)}")
+    for station, value in values.items():
+        require_reaction(f"{name}[{station!r}]", value, heavy=heavy, over_time=over_time)
+
+
+def require_terminals(name: str, reaction: Reaction) -> None:
+    """Raise InputError unless a reaction takes the motion of its freedoms and the speed, and nothing else."""
+    freedoms = freedoms_of(reaction)
+    taken, wanted = names(reaction.inputs), [*place_names(freedoms), "speed"]
+    if taken != wanted:
+        raise InputError(f"{name} must have no inputs but {wanted}, got {taken}")
+    given, forces = names(reaction.outputs), force_names(freedoms)
+    if given[: len(forces)] != forces:
+        raise InputError(f"{name} must have outputs that begin with {forces}, got {given}")
+    if reaction.states and not isinstance(reaction, Dynamic):
+        raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
+
+
+def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: float) -> Array:
+    """Return the input of a reaction, shape (2 n + 1,), from places (n,), rates (n,) or none, and speed."""
+    place = np.asarray(position, dtype=float)
+    rate = np.zeros_like(place) if velocity is None else np.asarray(velocity, dtype=float)
+    return np.concatenate([place, rate, [speed]])
+
+
+# The force for plain numbers, for loops that go state by state.
+
+
+Force = Callable[[float, float, float, float, float], tuple[float, float]]
+"""A force for plain numbers: (x, y, vx, vy, speed) give force_x, force_y [N]."""
+
+
+Tangent = Callable[[float, float, float, float, float], tuple[float, float, Sequence[float]]]
+"""Force and derivatives for plain numbers: the force [N] and its ten derivatives row by row."""
+
+
+def prepared_force(reaction: Any) -> Force:
+    """Return the force of a planar reaction without states as a function of five numbers."""
+    prepare = getattr(reaction, "prepare", None)
+    return force_of(reaction) if prepare is None else prepare()
+
+
+def force_of(reaction: Any) -> Force:
+    """Return the same by `static_force`."""
+
+    def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        force_x, force_y = np.asarray(static_force(reaction, (x, y), (vx, vy), speed)).tolist()
+        return force_x, force_y
+
+    return force
+
+
+def prepared_tangent(reaction: Any) -> Tangent:
+    """Return force and derivatives of a planar reaction without states as a function of five numbers."""
+    prepare = getattr(reaction, "prepare_tangent", None)
+    return tangent_of(reaction) if prepare is None else prepare()
+
+
+def tangent_of(reaction: Any) -> Tangent:
+    """Return the same by `static_force` and `static_slopes`."""
+
+    def tangent(
+        x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, Sequence[float]]:
+        position, velocity = np.array((x, y)), np.array((vx, vy))
+        force_x, force_y = np.asarray(static_force(reaction, position, velocity, speed)).tolist()
+        return force_x, force_y, static_slopes(reaction, position, velocity, speed).ravel().tolist()
+
+    return tangent
+
+
+def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+    """Return force and moment of a reaction without states on the shaft, shape (n,) [N], [N m]."""
+    law = getattr(reaction, "force", None)
+    if law is not None:
+        return np.asarray(law(position, velocity, speed))
+    found = reaction.output(0.0, np.zeros(0), input_of(position, velocity, speed))
+    return np.asarray(found)[: len(freedoms_of(reaction))]
+
+
+def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1)."""
+    law = getattr(reaction, "jacobian", None)
+    if law is not None:
+        return np.asarray(law(position, velocity, speed))
+    n = len(freedoms_of(reaction))
+    found = reaction.linearization(0.0, np.zeros(0), input_of(position, velocity, speed))
+    return np.asarray(found.D)[:n, : 2 * n + 1]
+
+
+def largest_eccentricity_ratio(reaction: object) -> float:
+    """Return the eccentricity ratio to which any reaction is meant; 1 where it does not say."""
+    return getattr(reaction, "largest_eccentricity_ratio", 1.0)
+
+
+# Where a journal touches: at a circle of the radial clearance, or where its bearing says.
+
+
+def has_wall(reaction: object) -> bool:
+    """Return whether a reaction says itself where its journal touches."""
+    return hasattr(reaction, "minimum_film")
+
+
+def minimum_film(reaction: Any, position: Array) -> Array:
+    """Return the least film [m], shape (...), that any reaction has at positions (n, ...) [m]."""
+    if has_wall(reaction):
+        return np.asarray(reaction.minimum_film(position))
+    return np.asarray(clearance_of(reaction) - np.hypot(*_planar(reaction, position)))
+
+
+def reach(reaction: Any, positions: Array) -> float:
+    """Return how far the way of journals (n, ...) [m] goes towards contact: 1 - least film / clearance."""
+    clearance = clearance_of(reaction)
+    if has_wall(reaction) and clearance < np.inf:
+        return 1.0 - float(np.min(reaction.minimum_film(positions))) / clearance
+    return float(np.hypot(*_planar(reaction, positions)).max()) / clearance
+
+
+def relative_film(reaction: Any, position: Array) -> float:
+    """Return the least film of a journal at a position (n,) [m], in clearances; 1 where nothing touches."""
+    clearance = clearance_of(reaction)
+    if not clearance < np.inf:
+        return 1.0
+    if has_wall(reaction):
+        return float(reaction.minimum_film(position)) / clearance
+    x, y = _planar(reaction, position)
+    return 1.0 - float(np.hypot(x, y)) / clearance
+
+
+def _planar(reaction: object, position: Array) -> tuple[Any, Any]:
+    """Return x and y of a place, 0 for one that is no freedom."""
+    freedoms = freedoms_of(reaction)
+    if freedoms is PLANAR:
+        return position[0], position[1]
+    still = np.zeros(np.shape(position)[1:])
+    x, y = (position[freedoms.index(axis)] if axis in freedoms else still for axis in PLANAR)
+    return x, y
+
+
+# Reactions whose film warms: its temperature follows from the balance of its heat.
+
+
+def is_warming(reaction: object) -> bool:
+    """Return whether a reaction leaves the temperature of its film to its heat; then it has no own force."""
+    return bool(getattr(reaction, "is_warming", False))
+
+
+def in_time(reaction: Any) -> Any:
+    """Return a model as it runs: a reaction that warms has its temperature as a state."""
+    return reaction.in_time() if is_warming(reaction) else reaction
+
+
+def settled(reaction: Any, position: ArrayLike, speed: float) -> Any:
+    """Return a reaction at the temperature that its film has with the journal at rest; any other as it is.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position : array_like, shape (n,) [m]
+    speed : float [rad/s]
+    """
+    temperature = rest_temperature(reaction, position, speed)
+    return reaction if temperature is None else reaction.at_temperature(temperature)
+
+
+def rest_temperature(reaction: Any, position: ArrayLike, speed: float) -> float | None:
+    """Return the temperature [K] of a film that warms, with the journal at rest; None of any other."""
+    if not is_warming(reaction):
+        return None
+    place = np.asarray(position, dtype=float)
+    return float(reaction.balanced_temperature(place, np.zeros_like(place), speed))
+
+
+# Reactions whose oil moves along as a mass: F = force(...) - mass(...) acceleration.
+#
+# A rotor takes the mass into its own: an exchange of accelerations diverges as soon as the oil is heavier
+# than the rotor.
+
+
+def inertial(reaction: Any) -> Any:
+    """Return a reaction with an added mass as it is; None for one without."""
+    return reaction if getattr(reaction, "has_inertia", False) else None
+
+
+def mass_of(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+    """Return the added mass of any reaction, shape (n, n) [kg]; zeros where it has none."""
+    n = len(freedoms_of(reaction))
+    heavy = inertial(reaction)
+    return np.zeros((n, n)) if heavy is None else np.asarray(heavy.mass(position, velocity, speed))
+
+
+def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) -> tuple[Array, Array] | None:
+    """Return mass (2, 2, ...) [kg] and its slopes times -speed^2 position (2, 4, ...); None without inertia.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position, velocity : ndarray, shape (2, ...) [m], [m/s]
+        On circular orbits.
+    speed : float [rad/s]
+    """
+    heavy = inertial(reaction)
+    if heavy is None:
+        return None
+    by_motion = heavy.mass_slopes(position, velocity, speed)[:, :, :4]
+    slopes = np.einsum("ijk...,j...->ik...", by_motion, -(speed**2) * position)
+    return heavy.mass(position, velocity, speed), slopes
+
+
+def require_turning(reaction: Any, rotor: Any) -> None:
+    """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    rotor : Model
+        Whose output "speed" says by its nominal value how fast it turns.
+    """
+    heavy = inertial(reaction)
+    if heavy is not None:
+        for signal in rotor.outputs:
+            if signal.name == "speed":
+                heavy.require_range(signal.nominal)
+
+
+def require_turned(reaction: Any, rotor: Any, signals: Mapping[str, Any]) -> None:
+    """Warn, or raise InputError, where a run became faster than its rotor said beforehand, as by a motor."""
+    heavy = inertial(reaction)
+    if heavy is not None and "speed" in signals and len(signals["speed"]):
+        said = max(signal.nominal for signal in rotor.outputs if signal.name == "speed")
+        highest = float(abs(signals["speed"]).max())
+        if highest > said:
+            heavy.require_range(highest)
+
+
+def require_massless(name: str, reaction: Any) -> None:
+    """Raise InputError for a reaction with an added mass."""
+    if inertial(reaction) is not None:
+        raise InputError(
+            f"{name} must not add its oil's mass to the rotor here, got {reaction!r}: simulate, "
+            "synchronous_orbits, orbit_system, closed_loop, transmissibility, mount and the analyses of "
+            "flexible rotors take that mass; "
+            "density 0 of a damper, added_mass=False of a seal leave it out"
+        )
+
+
+# Which reactions are bearings, which find their rest themselves, and what roundoff leaves of their force.
+
+
+MOST_LEFT = 1e-6
+"""Imbalance, over the load, beyond which no place counts as an equilibrium, whatever roundoff leaves."""
+
+
+def carries_load(reaction: object) -> bool:
+    """Return whether a reaction is a bearing, which carries its share of the weight.
+
+    A class of which it is not so, as a seal, says `carries_load = False`.
+    """
+    return bool(getattr(reaction, "carries_load", True))
+
+
+def force_noise(reaction: object, speed: float) -> float:
+    """Return what roundoff may leave of the force of any reaction [N]; 0 where it does not say."""
+    noise = getattr(reaction, "force_noise", None)
+    return 0.0 if noise is None else noise(speed)
+
+
+def rest_place(reaction: object, load: Sequence[float], speed: float) -> Any:
+    """Return where a reaction says that a journal rests, shape (n,) [m]; None where it does not say."""
+    place = getattr(reaction, "rest_place", None)
+    return None if place is None else place(load, speed)
+
+
+def takes_steps(reaction: object) -> bool:
+    """Return whether a film has an integrator of its own, whose steps a rotor may try with their slope."""
+    return hasattr(reaction, "attempt")
+
+
+class StepTrial(NamedTuple):
+    """A step of a film that may be taken, or tried again to another place.
+
+    Attributes
+    ----------
+    state : object
+        At its end.
+    output : ndarray, shape (n_outputs,)
+        There; force_x, force_y come first.
+    stiffness : ndarray, shape (2, 2) [N/m]
+        -d force / d position at the end of the step.
+    solutions : int
+        Linear systems that were solved.
+    """
+
+    state: Any
+    output: Array
+    stiffness: Array
+    solutions: int
+
+
+# States at rest under a shaft at rest, and the force that is left then: quasi-static elimination.
+
+
+_STEPS, _HALVINGS, _SETTLED = 40, 30, 1e-13
+
+
+def has_states(reaction: Any) -> bool:
+    """Return whether a reaction has states that rest with the shaft, or K(s) in another way.
+
+    Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
+    """
+    return hasattr(reaction, "at_rest") or (not hasattr(reaction, "force") and bool(reaction.states))
+
+
+def quasi_static(reaction: Any) -> Any:
+    """Return a reaction with its states at rest under a shaft at rest; itself where it has none."""
+    own = getattr(reaction, "at_rest", None)
+    if own is not None:
+        return own()
+    return QuasiStatic(reaction) if has_states(reaction) else reaction
+
+
+def rest_state(reaction: Any, position: ArrayLike, speed: float) -> Array:
+    """Return the states of a reaction that rest with the shaft at a place, shape (m,).
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position : array_like, shape (n,) [m]
+    speed : float [rad/s]
+
+    Raises
+    ------
+    EquilibriumError
+        If the reaction does not tell them and Newton's method finds none.
+    """
+    own = getattr(reaction, "rest_state", None)
+    if own is not None:
+        return np.asarray(own(position, speed))
+    if not reaction.states:
+        return np.zeros(0)
+    u, x = input_of(position, None, speed), np.array(reaction.initial_state, dtype=float)
+    nominal = np.array([signal.nominal for signal in reaction.states])
+    rate = np.asarray(reaction.derivative(0.0, x, u))
+    for _ in range(_STEPS):
+        A = np.asarray(reaction.linearization(0.0, x, u).A)
+        if np.linalg.cond(A * nominal / nominal[:, None]) > 1e14:
+            break
+        step = -np.linalg.solve(A, rate)
+        if np.abs(step / nominal).max() <= _SETTLED * max(1.0, np.abs(x / nominal).max()):
+            return x + step
+        for halving in range(_HALVINGS):
+            trial = x + 0.5**halving * step
+            moved = np.asarray(reaction.derivative(0.0, trial, u))
+            if np.abs(moved / nominal).max() < np.abs(rate / nominal).max() or not moved.any():
+                x, rate = trial, moved
+                break
+        else:
+            break
+        if not rate.any():
+            return x
+    raise EquilibriumError(
+        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
+        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
+    )
+
+
+def rest_linearization(reaction: Any, position: ArrayLike, speed: float) -> Linearization:
+    """Return the exact derivatives of a reaction whose states rest with the shaft, without further signals.
+
+    Inputs: places and rates, and the speed where the reaction tells it; outputs: the forces, shape (n,).
+    """
+    n = len(freedoms_of(reaction))
+    own = getattr(reaction, "rest_linearization", None)
+    if own is not None:
+        A, B, C, D = own(position, speed)
+    elif hasattr(reaction, "linearization"):
+        x = rest_state(reaction, position, speed)
+        A, B, C, D = reaction.linearization(0.0, x, input_of(position, None, speed))
+    else:
+        still = np.zeros(n)
+        A, B, C, D = static_linearization(static_slopes(reaction, position, still, speed))
+    return Linearization(A, B[:, : 2 * n + 1], C[:n], D[:n, : 2 * n + 1])
+
+
+@dataclass(frozen=True, eq=False)
+class QuasiStatic:
+    """A reaction without states: another one, whose states rest with a shaft at rest.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        With states that rest.
+    """
+
+    reaction: Any
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Those of the reaction."""
+        return freedoms_of(self.reaction)
+
+    @property
+    def clearance(self) -> float:
+        """That of the reaction [m]."""
+        return clearance_of(self.reaction)
+
+    def minimum_film(self, position: Array) -> Array:
+        """Return the least film of the reaction [m]."""
+        return minimum_film(self.reaction, position)
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return the force on a shaft at rest, shape (n,); the velocity is not used."""
+        x = rest_state(self.reaction, position, speed)
+        found = self.reaction.output(0.0, x, input_of(position, None, speed))
+        return np.asarray(found)[: len(self.freedoms)]
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return the derivatives in slow motion, shape (n, 2 n + 1)."""
+        A, B, C, D = rest_linearization(self.reaction, position, speed)
+        K, slope = StatesStiffness(Linearization(A, B, C, D))(0j)
+        by_speed = D[:, -1:] - C @ np.linalg.solve(A, B[:, -1:])
+        return np.hstack([-K.real, -slope.real, by_speed])
+
+
+# Stiffness over the exponent of the motion: K(s) = -dF/dq, states and added mass included.
+
+
+class DynamicStiffness(Protocol):
+    """The stiffness that a shaft feels in small motion, over the exponent of the motion.
+
+    One of states that follow the shaft has them as `at`, as of `StatesStiffness`: a rotor may take them as
+    states of its own.
+    """
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m], shape (n, n) each: the force changes by -K(s) q e^(s t).
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) alone.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+
+
+@dataclass(frozen=True)
+class StatesStiffness:
+    """K(s) of a reaction whose states follow the shaft, exactly, from its linearization about a rest.
+
+    Parameters
+    ----------
+    at : Linearization
+        Its inputs begin with places and rates, its outputs are the n forces.
+    """
+
+    at: Linearization
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m]; see `DynamicStiffness`."""
+        A, B, C, D = self.at
+        n = len(C)
+        by_place, by_rate = slice(n), slice(n, 2 * n)
+        follow = s * np.eye(len(A)) - A
+        drive = B[:, by_place] + s * B[:, by_rate]
+        moved = np.linalg.solve(follow, drive)
+        slope = np.linalg.solve(follow, B[:, by_rate] - moved)
+        K, damping = D[:, by_place] + s * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope
+        return -K.astype(complex), -damping.astype(complex)
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) [N/m] alone."""
+        return self(s)[0]
+
+    def exponents(self, mass: ArrayLike) -> Complex:
+        """Return all exponents of a rigid mass [kg], or (n, n), on it [1/s], the least damped first."""
+        A, B, C, D = self.at
+        n, size = len(C), len(A)
+        push = np.hstack([D[:, : 2 * n], C])
+        push = np.linalg.solve(mass, push) if np.ndim(mass) else push / mass
+        whole = np.vstack([np.eye(n, 2 * n + size, n), push, np.hstack([B[:, : 2 * n], A])])
+        values = np.linalg.eigvals(whole).astype(complex)
+        return values[np.argsort(-values.real)]
+
+
+def has_own_stiffness(reaction: object) -> bool:
+    """Return whether a reaction tells K(s) itself and has no states to tell it, as one that conserves oil.
+
+    What grows on it is counted, by the argument principle: exponents can be followed, but not listed.
+    """
+    return hasattr(reaction, "dynamic_stiffness") and not hasattr(reaction, "derivative")
+
+
+def small_motion(reaction: Any, position: ArrayLike, speed: float) -> DynamicStiffness:
+    """Return K(s) and dK/ds of a reaction about a rest, without its added mass.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position : array_like, shape (n,) [m]
+    speed : float [rad/s]
+    """
+    own = getattr(reaction, "dynamic_stiffness", None)
+    if own is not None:
+        found: DynamicStiffness = own(position, speed)
+        return found
+    return StatesStiffness(rest_linearization(reaction, position, speed))
+
+
+def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: float) -> Complex:
+    """Return the exponents of a rigid mass [kg] on a reaction about a rest [1/s], the least damped first.
+
+    A film that warms keeps the temperature of the rest.
+    """
+    at = rest_linearization(settled(reaction, position, speed), position, speed)
+    return StatesStiffness(at).exponents(mass)
+
+
+def coefficients_of(
+    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
+) -> ReducedCoefficients:
+    """Return Re K(i nu) and Im K(i nu)/nu, with their limits at 0.
+
+    Without a frequency they are `FrequencyDependentCoefficients`.
+
+    Parameters
+    ----------
+    motion : DynamicStiffness
+    position, speed : ndarray, shape (n,) [m], and float [rad/s]
+        Where the journal rests.
+    frequency : float, optional [rad/s]
+        nu; by default that of the shaft.
+    """
+    nu = abs(speed) if frequency is None else require_number("frequency", frequency)
+    K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
+    damping = K.imag / nu if slope is None else slope.real
+    found = ReducedCoefficients(
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
+    )
+    return found if frequency is not None else FrequencyDependentCoefficients(**vars(found), motion=motion)
