@@ -24,6 +24,7 @@ from ..core.port import (
     coefficients_of,
     has_states,
     inertial,
+    require_range,
     require_reaction,
     settled,
     small_motion,
@@ -77,6 +78,8 @@ def coefficients(
     position, speed = require_pair("position", position), require_number("speed", speed)
     film = settled(reaction, position, speed)
     warn_of_flow(film, speed)
+    if has_states(film):
+        require_range(film, speed if frequency is None else frequency)
     return film_coefficients(film, position, speed, frequency)
 
 

@@ -80,7 +80,7 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
         if has_own_stiffness(model):
             return film_system(model, at, name=name).system
         require_kind("model", model, Model, "a Model such as a bearing or a rotor")
-        model, point = _at_rest(model, at)
+        model, point = _rested(model, at)
     else:
         require_kind("model", model, Model, "a Model such as a bearing or a rotor")
         point = at
@@ -121,7 +121,7 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
     return array
 
 
-def _at_rest(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
+def _rested(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
     """Return a reaction at the temperature of its rest, and the input and states that rest there."""
     given, wanted = names(model.inputs), [*place_names(freedoms_of(model)), "speed"]
     if given != wanted or len(at.position) != len(freedoms_of(model)):

@@ -88,10 +88,9 @@ def require_reaction(
     over_time : bool
         Whether it must be a Model, not only a force under a journal at rest or in steps of its own.
     """
-    kind = type(value)
-    at_rest = hasattr(kind, "force") and hasattr(kind, "jacobian") and hasattr(value, "clearance")
-    moves = hasattr(kind, "output") and hasattr(kind, "linearization") and hasattr(kind, "inputs")
-    if not (moves or (at_rest and not over_time)) or isinstance(value, type):
+    moves = hasattr(value, "output") and hasattr(value, "linearization")
+    rests = hasattr(value, "force") and hasattr(value, "jacobian") and not over_time
+    if not (moves or rests) or isinstance(value, type):
         require_kind(name, value, Reaction, "a Reaction such as a JournalBearing, or what as_reaction makes")
         raise InputError(f"{name} must be a Reaction such as a JournalBearing, got {brief(value)}")
     if planar and freedoms_of(value) != PLANAR:
@@ -315,6 +314,13 @@ def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) ->
     return heavy.mass(position, velocity, speed), slopes
 
 
+def require_range(reaction: object, frequency: float) -> None:
+    """Warn, or raise InputError, where the model of any reaction ends, for motion at a frequency [rad/s]."""
+    own = getattr(reaction, "require_range", None)
+    if own is not None:
+        own(abs(frequency))
+
+
 def require_turning(reaction: Any, rotor: Any) -> None:
     """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
 
@@ -416,7 +422,9 @@ def has_states(reaction: Any) -> bool:
 
     Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
     """
-    return hasattr(reaction, "at_rest") or (not hasattr(reaction, "force") and bool(reaction.states))
+    return hasattr(reaction, "at_rest") or (
+        not hasattr(reaction, "force") and bool(getattr(reaction, "states", ()))
+    )
 
 
 def quasi_static(reaction: Any) -> Any:
