@@ -85,7 +85,7 @@ def coefficients(
 
 
 def film_coefficients(
-    reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
+    reaction: Any, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
     position = require_place(reaction, position)
