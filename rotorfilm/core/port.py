@@ -463,6 +463,14 @@ def has_states(reaction: Any) -> bool:
     )
 
 
+def drifts(reaction: Any) -> bool:
+    """Return whether a reaction has states that hardly move within a turn, as wear or a temperature.
+
+    Coefficients hold them where they are, unless a frequency is named.
+    """
+    return is_warming(reaction) or bool(getattr(reaction, "states", ()))
+
+
 def quasi_static(reaction: Any) -> Any:
     """Return a reaction with its states at rest under a shaft at rest; itself where it has none."""
     own = getattr(reaction, "at_rest", None)
