@@ -21,10 +21,21 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
 from ..core.model import Array
-from ..core.port import quasi_static, require_reactions, static_force, static_slopes
+from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
+from ..rotors.structure import (
+    MatrixRotor,
+    Structure,
+    freedom_rows,
+    in_planes,
+    is_sparse,
+    mean_plane,
+    new_shapes,
+    projected,
+    untouched,
+    without,
+)
 from .coefficients import film_coefficients
 
 # Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
@@ -142,6 +153,7 @@ def shape_space(full: Structure, cut: float) -> ShapeSpace:
     numpy.linalg.LinAlgError
         If K + shift^2 M is not positive, as of a shaft that buckles.
     """
+    full = in_planes(full)
     n = len(full.coordinates)
     mass, stiffness = mean_plane(full.mass), mean_plane(full.stiffness)
     shift = SHIFT * cut
@@ -236,19 +248,26 @@ class Condensed(NamedTuple):
         """Return motions, shape (n, ...), in the coordinates of the whole rotor."""
         if self.space is None:
             return motion
-        x, y = np.split(motion, 2)
-        return np.concatenate([self.space.shapes @ x, self.space.shapes @ y])
+        n = self.space.shapes.shape[1]
+        x, y, others = np.split(motion, (n, 2 * n))
+        return np.concatenate([self.space.shapes @ x, self.space.shapes @ y, others])
 
     def seen(self, forces: np.ndarray) -> np.ndarray:
         """Return forces, shape (N, m), as the shapes kept feel them, shape (n, m)."""
         if self.space is None:
             return forces
-        return np.concatenate([self.space.shapes.T @ plane for plane in np.split(forces, 2)])
+        x, y, others = self._by_plane(forces)
+        return np.concatenate([self.space.shapes.T @ x, self.space.shapes.T @ y, others])
 
     def answer(self, forces: np.ndarray) -> np.ndarray:
         """Return how what is left out gives way to slow forces, shape (N, m)."""
         assert self.space is not None
-        return np.concatenate([self.space.solid.solve(plane) for plane in np.split(forces, 2)])
+        x, y, others = self._by_plane(forces)
+        return np.concatenate([self.space.solid.solve(x), self.space.solid.solve(y), np.zeros_like(others)])
+
+    def _by_plane(self, forces: np.ndarray) -> list[np.ndarray]:
+        n = len(self.whole.coordinates)
+        return np.split(forces, (n, 2 * n))
 
 
 def exact_structure(rotor: FlexibleRotor) -> Structure:
@@ -295,6 +314,22 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
             return None
         known[exponent] = Condensed(rotor.assembly, projected(rotor.assembly, space.shapes), space)
     found: Condensed = known[exponent]
+    return found
+
+
+def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
+    """Return a rotor without the axial and torsional motion that no bearing reacts to: it does not whirl."""
+    full = rotor.assembly
+    if not full.others:
+        return rotor
+    require_bearings(bearings)
+    rows = [freedom_rows(full, name, freedoms_of(bearing)) for name, bearing in bearings.items()]
+    aside = untouched(full, np.concatenate([np.zeros((0, len(full.weight))), *rows]))
+    if not aside.any():
+        return rotor
+    found: FlexibleRotor = rotor.remembered.setdefault(
+        ("whirling", aside.tobytes()), MatrixRotor(rotor, without(full, aside))
+    )
     return found
 
 
