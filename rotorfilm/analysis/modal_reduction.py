@@ -19,10 +19,9 @@ from scipy.linalg.lapack import zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
+from ..core.errors import ConvergenceError, UnloadedPadWarning
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
-from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import (
     MatrixRotor,
@@ -36,7 +35,6 @@ from ..rotors.structure import (
     untouched,
     without,
 )
-from .coefficients import film_coefficients
 
 # Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
 
@@ -319,60 +317,33 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
 
 def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
     """Return a rotor without the axial and torsional motion that no bearing reacts to: it does not whirl."""
-    full = rotor.assembly
-    if not full.others:
+    if not rotor.assembly.others:
         return rotor
-    require_bearings(bearings)
-    rows = [freedom_rows(full, name, freedoms_of(bearing)) for name, bearing in bearings.items()]
-    aside = untouched(full, np.concatenate([np.zeros((0, len(full.weight))), *rows]))
+    require_reactions("bearings", bearings, heavy=True)
+    aside = untouched(rotor.assembly, all_rows(rotor.assembly, bearings))
     if not aside.any():
         return rotor
-    found: FlexibleRotor = rotor.remembered.setdefault(
-        ("whirling", aside.tobytes()), MatrixRotor(rotor, without(full, aside))
-    )
+    key = ("whirling", aside.tobytes())
+    if key not in rotor.remembered:
+        rotor.remembered[key] = MatrixRotor(rotor, without(rotor.assembly, aside))
+    found: FlexibleRotor = rotor.remembered[key]
     return found
 
 
-# Bearings that resist the tilt of a shaft too: what linear analysis asks of them, and where they act.
+# Where bearings act, and the force of one whose states rest.
 
 
-def resists_tilt(bearing: object) -> bool:
-    """Return whether a bearing has force and moment over the place (x, y, tilt_x, tilt_y) [m], [rad].
-
-    It says them by `tilting_force(place, speed)`, shape (4,), and `tilting_coefficients(place, speed)` with
-    matrices of shape (4, 4); `planar` is the bearing with its tilts held.
-    """
-    return hasattr(type(bearing), "tilting_force")
-
-
-def require_bearings(bearings: object) -> None:
-    """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
-    if isinstance(bearings, Mapping):
-        bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
-    require_reactions("bearings", bearings, heavy=True)
-
-
-def film_rows(structure: Structure, name: str, size: int) -> Array:
-    """Return the rows of what a bearing feels, shape (size, N): x, y, and of four degrees tilt_x, tilt_y."""
-    pair = 2 * structure.stations.index(name) + np.arange(2)
-    if size == 2:
-        return structure.journals[pair]
-    tilts = None if structure.tilts is None else structure.tilts[pair]
-    if tilts is None or not tilts.any():
-        raise InputError(
-            f"station {name!r} must feel tilts, Station(feels_tilt=True) of a ShaftRotor, for a bearing that "
-            "resists them"
-        )
-    return np.concatenate([structure.journals[pair], tilts])
+def all_rows(structure: Structure, films: Mapping[str, Any]) -> Array:
+    """Return the rows of what bearings, or their coefficients, feel of a rotor, one after the other."""
+    rows = [freedom_rows(structure, name, freedoms_of(film)) for name, film in films.items()]
+    return np.concatenate([np.zeros((0, len(structure.weight))), *rows])
 
 
 def force_at(bearing: Any, place: Array, speed: float) -> Array:
-    """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments.
+    """Return the force on a shaft at rest at a place, shape (n,), the states of the bearing at rest too.
 
-    States of a bearing's own, as the tilts of pads, rest too; of pads without film nothing is said here.
+    Of pads without film nothing is said here.
     """
-    if resists_tilt(bearing):
-        return bearing.tilting_force(place, speed)
     film = quasi_static(bearing)
     if film is bearing:
         return static_force(film, place, np.zeros_like(place), speed)
@@ -383,16 +354,7 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square, of the force that `force_at` returns."""
-    if resists_tilt(bearing):
-        return -bearing.tilting_coefficients(place, speed).stiffness
     return static_slopes(quasi_static(bearing), place, np.zeros_like(place), speed)[:, : len(place)]
-
-
-def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:
-    """Return K and C at a place."""
-    if resists_tilt(bearing):
-        return bearing.tilting_coefficients(place, speed)
-    return film_coefficients(bearing, place, speed)
 
 
 # How many eigenvalues of a Hermitian matrix are negative, by Sylvester's law of inertia.

@@ -365,7 +365,7 @@ def station_freedoms(structure: Structure, station: str) -> tuple[str, ...]:
     return tuple(freedom for freedom in _ROWS if _row(structure, station, freedom) is not None)
 
 
-def freedom_rows(structure: Structure, station: str, freedoms: Sequence[str]) -> Array:
+def freedom_rows(structure: Structure, station: str, freedoms: Sequence[str] = PLANAR) -> Array:
     """Return the displacements of freedoms of a station in the order given, shape (n, N).
 
     Those along x and y are of the journal from its housing; all others are of the shaft.
@@ -489,6 +489,13 @@ def without(full: Structure, aside: ArrayLike) -> Structure:
 
     others = tuple(full.others[k] for k in np.flatnonzero(stays))
     return _mapped(full, lambda part: part[kept][:, kept], lambda rows: rows[..., kept], others=others)
+
+
+def hysteresis_matrices(full: Structure) -> tuple[Any, Any]:
+    """Return what is -i times the hysteresis on x + i y, and the hysteresis itself, of all coordinates."""
+    assert full.hysteresis is not None
+    none = np.zeros((len(full.others), len(full.others)))
+    return beside(across_planes(full.hysteresis), none), beside(both_planes(full.hysteresis), none)
 
 
 def in_planes(full: Structure) -> Structure:
@@ -643,7 +650,7 @@ def station_name(station: str, name: str) -> str:
 
 
 def station_names(station: str, freedoms: Sequence[str] = PLANAR) -> tuple[list[str], list[str]]:
-    """Return the names of places and rates of a station, and those of its forces."""
+    """Return the names of places and rates, and of the forces, of some freedoms of a station."""
     motion = [station_name(station, name) for name in place_names(freedoms)]
     return motion, [station_name(station, name) for name in force_names(freedoms)]
 
