@@ -15,15 +15,17 @@ from ..core.errors import (
     require_count,
     require_finite,
     require_number,
-    require_pair,
 )
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
     Reaction,
     coefficients_of,
+    freedoms_of,
     has_states,
     inertial,
+    require_place,
+    require_range,
     require_reaction,
     settled,
     small_motion,
@@ -74,9 +76,11 @@ def coefficients(
         If the film is not laminar, or its oil is beyond its viscosity law; see `equilibrium`.
     """
     require_reaction("reaction", reaction, heavy=True)
-    position, speed = require_pair("position", position), require_number("speed", speed)
+    position, speed = require_place(reaction, position), require_number("speed", speed)
     film = settled(reaction, position, speed)
     warn_of_flow(film, speed)
+    if has_states(film):
+        require_range(film, speed if frequency is None else frequency)
     return film_coefficients(film, position, speed, frequency)
 
 
@@ -84,20 +88,24 @@ def film_coefficients(
     reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
-    position = require_pair("position", position)
+    position = require_place(reaction, position)
     film = settled(reaction, position, speed)
     if has_states(film):
-        return coefficients_of(small_motion(film, position, speed), position, speed, frequency)
+        motion = small_motion(film, position, speed)
+        return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
     derivative, n = static_slopes(film, position, np.zeros_like(position), speed), len(position)
     stiffness, damping, heavy = -derivative[:, :n], -derivative[:, n : 2 * n], inertial(film)
     if heavy is None:
-        return Coefficients(stiffness=stiffness, damping=damping, position=position, speed=speed)
+        return Coefficients(
+            stiffness=stiffness, damping=damping, position=position, speed=speed, freedoms=freedoms_of(film)
+        )
     return InertialCoefficients(
         stiffness=stiffness,
         damping=damping,
         position=position,
         speed=speed,
         mass=heavy.mass(position, np.zeros_like(position), speed),
+        freedoms=freedoms_of(film),
     )
 
 

@@ -18,12 +18,13 @@ from .errors import (
     EquilibriumError,
     InputError,
     brief,
+    require_finite,
     require_kind,
     require_number,
 )
 from .model import Array, Dynamic, Linearization, Model, static_linearization
 from .results import FrequencyDependentCoefficients, ReducedCoefficients
-from .signals import PLANAR, force_names, names, place_names
+from .signals import PLANAR, Signal, force_names, names, place_names
 
 Complex = NDArray[np.complex128]
 
@@ -88,10 +89,9 @@ def require_reaction(
     over_time : bool
         Whether it must be a Model, not only a force under a journal at rest or in steps of its own.
     """
-    kind = type(value)
-    at_rest = hasattr(kind, "force") and hasattr(kind, "jacobian") and hasattr(value, "clearance")
-    moves = hasattr(kind, "output") and hasattr(kind, "linearization") and hasattr(kind, "inputs")
-    if not (moves or (at_rest and not over_time)) or isinstance(value, type):
+    moves = hasattr(value, "output") and hasattr(value, "linearization")
+    rests = hasattr(value, "force") and hasattr(value, "jacobian") and not over_time
+    if not (moves or rests) or isinstance(value, type):
         require_kind(name, value, Reaction, "a Reaction such as a JournalBearing, or what as_reaction makes")
         raise InputError(f"{name} must be a Reaction such as a JournalBearing, got {brief(value)}")
     if planar and freedoms_of(value) != PLANAR:
@@ -113,6 +113,8 @@ def require_reactions(name: str, values: object, *, heavy: bool = False, over_ti
 
 def require_terminals(name: str, reaction: Reaction) -> None:
     """Raise InputError unless a reaction takes the motion of its freedoms and the speed, and nothing else."""
+    if reaction.states and not isinstance(reaction, Dynamic):
+        raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
     freedoms = freedoms_of(reaction)
     taken, wanted = names(reaction.inputs), [*place_names(freedoms), "speed"]
     if taken != wanted:
@@ -120,8 +122,16 @@ def require_terminals(name: str, reaction: Reaction) -> None:
     given, forces = names(reaction.outputs), force_names(freedoms)
     if given[: len(forces)] != forces:
         raise InputError(f"{name} must have outputs that begin with {forces}, got {given}")
-    if reaction.states and not isinstance(reaction, Dynamic):
-        raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
+
+
+def require_place(reaction: object, position: ArrayLike, name: str = "position") -> Array:
+    """Return a place of the shaft as an array, shape (n,); raise InputError where it breaks a rule."""
+    freedoms, place = freedoms_of(reaction), require_finite(name, position)
+    if place.shape != (len(freedoms),):
+        raise InputError(
+            f"{name} must have shape ({len(freedoms)},) for {', '.join(freedoms)}, got shape {place.shape}"
+        )
+    return place
 
 
 def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: float) -> Array:
@@ -315,6 +325,13 @@ def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) ->
     return heavy.mass(position, velocity, speed), slopes
 
 
+def require_range(reaction: object, frequency: float) -> None:
+    """Warn, or raise InputError, where the model of any reaction ends, for motion at a frequency [rad/s]."""
+    own = getattr(reaction, "require_range", None)
+    if own is not None:
+        own(abs(frequency))
+
+
 def require_turning(reaction: Any, rotor: Any) -> None:
     """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
 
@@ -416,7 +433,9 @@ def has_states(reaction: Any) -> bool:
 
     Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
     """
-    return hasattr(reaction, "at_rest") or (not hasattr(reaction, "force") and bool(reaction.states))
+    return hasattr(reaction, "at_rest") or (
+        not hasattr(reaction, "force") and bool(getattr(reaction, "states", ()))
+    )
 
 
 def quasi_static(reaction: Any) -> Any:
@@ -511,6 +530,12 @@ class QuasiStatic:
     def clearance(self) -> float:
         """That of the reaction [m]."""
         return clearance_of(self.reaction)
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Those of the reaction."""
+        signals: tuple[Signal, ...] = self.reaction.inputs
+        return signals
 
     def minimum_film(self, position: Array) -> Array:
         """Return the least film of the reaction [m]."""
@@ -630,7 +655,11 @@ def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: floa
 
 
 def coefficients_of(
-    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
+    motion: DynamicStiffness,
+    position: Array,
+    speed: float,
+    frequency: float | None = None,
+    freedoms: tuple[str, ...] = PLANAR,
 ) -> ReducedCoefficients:
     """Return Re K(i nu) and Im K(i nu)/nu, with their limits at 0.
 
@@ -643,11 +672,12 @@ def coefficients_of(
         Where the journal rests.
     frequency : float, optional [rad/s]
         nu; by default that of the shaft.
+    freedoms : tuple of str
     """
     nu = abs(speed) if frequency is None else require_number("frequency", frequency)
     K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
     damping = K.imag / nu if slope is None else slope.real
     found = ReducedCoefficients(
-        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu, freedoms=freedoms
     )
     return found if frequency is not None else FrequencyDependentCoefficients(**vars(found), motion=motion)

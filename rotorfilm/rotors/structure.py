@@ -23,13 +23,14 @@ from numpy.typing import ArrayLike
 from ..core.errors import InputError, keep_pair, require_finite, require_kind, require_number
 from ..core.model import Array, Dynamic, Linearization, breakpoints
 from ..core.signals import (
-    FORCE_OUTPUTS,
-    MOTION_NAMES,
+    PLANAR,
     Signal,
+    force_names,
     force_outputs,
     indices,
     journal_inputs,
     names,
+    place_names,
     signals_of,
 )
 from ..core.units import STANDARD_GRAVITY
@@ -410,10 +411,10 @@ def station_name(station: str, name: str) -> str:
     return f"{station}_{name}" if station else name
 
 
-def station_names(station: str) -> tuple[list[str], list[str]]:
-    """Return the names of the motion signals and of the force signals of a station."""
-    motion = [station_name(station, name) for name in MOTION_NAMES]
-    return motion, [station_name(station, name) for name in FORCE_OUTPUTS]
+def station_names(station: str, freedoms: Sequence[str] = PLANAR) -> tuple[list[str], list[str]]:
+    """Return the names of places and rates, and of the forces, of some freedoms of a station."""
+    motion = [station_name(station, name) for name in place_names(freedoms)]
+    return motion, [station_name(station, name) for name in force_names(freedoms)]
 
 
 def checked_stations(names: Sequence[str]) -> tuple[str, ...]:

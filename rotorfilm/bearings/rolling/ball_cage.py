@@ -93,6 +93,10 @@ class VariableComplianceBalls(Called):
         """Nothing has turned."""
         return np.zeros(2)
 
+    def rest_state(self, position: ArrayLike, speed: float) -> Array:
+        """Return the angles that cage and shaft start with, wherever the shaft is: they never rest."""
+        return self.initial_state
+
     def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
         """Return x, y of the shaft [m] under a radial load [N] where nothing has turned."""
         return self.bearing.rest_place(load, speed)

@@ -192,7 +192,7 @@ def test_a_frequency_beyond_the_law_is_warned_of():
         ValidityWarning, match="frequency should be at most 60000 rad/s, to which the law was fitted"
     ):
         coefficients(support, (0.0, 0.0), 100.0, frequency=6.1e4)
-    with pytest.warns(ValidityWarning, match="speed should be at most 60000 rad/s, .* got -61000.0"):
+    with pytest.warns(ValidityWarning, match="frequency should be at most 60000 rad/s, .* got 61000.0"):
         coefficients(support, (0.0, 0.0), -6.1e4)
     coefficients(support, (0.0, 0.0), 6.1e4, frequency=100.0)
 

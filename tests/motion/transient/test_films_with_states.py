@@ -347,12 +347,13 @@ def test_the_closed_loop_is_the_state_space(kind):
     assert gain == pytest.approx(wanted, rel=1e-6, abs=1e-9)
 
 
-def test_a_closed_loop_of_states_that_never_rest_names_the_way():
-    rotor, films, mounted, x = resting("turning balls", "rigid")
+def test_a_closed_loop_holds_the_cage_that_turns_where_it_starts():
+    rotor, films, *_ = resting("turning balls", "rigid")
     rest = equilibrium(films[""], rotor.static_load, SPEED)
-    with pytest.raises(InputError, match=r"at must tell the states cage_angle, .* linearize\(mount\(rotor"):
-        closed_loop(rotor, films[""], rest)
-    assert linearize(mounted, OperatingPoint(x=x)).nstates == len(x)
+    poles = closed_loop(rotor, films[""], rest).poles()
+    held = closed_loop(rotor, films[""].bearing, rest).poles()
+    np.testing.assert_allclose(np.sort(poles[np.abs(poles) > 0.0]), np.sort(held), rtol=1e-9)
+    assert np.sum(poles == 0.0) == 2  # of the angles of cage and shaft
 
 
 def test_a_flexible_rotor_asks_for_its_films_by_station():
