@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import ConvergenceError, InputError, require_finite, require_kind, require_number
+from ...core.errors import ConvergenceError, InputError, require_kind, require_number
 from ...core.inputs import quantities
 from ...core.model import Array
+from ...core.port import require_place
 from ...core.results import Coefficients
 from ...native import Status
 from ...native.ball_kernel import DEGREES, ROW, BallsAt
@@ -142,12 +143,7 @@ class MomentCarryingBalls(StaticReaction):
         ConvergenceError
             If the balls cannot carry the axial load at this place.
         """
-        values = require_finite("place", place)
-        if values.shape != (len(self._moving),):
-            raise InputError(
-                f"place must have shape ({len(self._moving)},) for {', '.join(self.freedoms)}, "
-                f"got shape {values.shape}"
-            )
+        values = require_place(self, place, "place")
         speed, found = require_number("speed", speed), self._offset.copy()
         found[self._moving] += values
         if self.bearing.axial_load is not None:
