@@ -35,8 +35,9 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array, Dynamic
-from ..core.port import Reaction, inertial, require_massless
+from ..core.port import freedoms_of, inertial, require_massless, require_reaction
 from ..core.results import Trajectory
+from ..core.signals import PLANAR
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel
 from ..native.library import functions, loops
@@ -51,7 +52,14 @@ from ..rotors import (
     mount,
     translations,
 )
-from ..rotors.structure import NOMINAL_LENGTH, Structure, mean_plane, solved_equations, station_name
+from ..rotors.structure import (
+    NOMINAL_LENGTH,
+    MatrixRotor,
+    Structure,
+    mean_plane,
+    solved_equations,
+    station_name,
+)
 from .modal_reduction import Condensed, models
 
 # The force of a bearing as a compiled function behind an address, for loops that must not enter
@@ -114,13 +122,13 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
     warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
 
-def film_call(reaction: Reaction) -> FilmCall:
+def film_call(reaction: Any) -> FilmCall:
     """Return the compiled force of a reaction without states, one that calls back where it has none."""
     require_massless("reaction", reaction)
     return kernel_call(reaction) or _called_back(reaction)
 
 
-def call_with_added_mass(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]:
+def call_with_added_mass(reaction: Any) -> tuple[FilmCall, tuple[int, int]]:
     """Return the compiled force of a reaction without states, and where the mass that it adds is.
 
     That is the address of an rf_mass_response of native/films/film.h, and of its first argument; zeros where
@@ -142,7 +150,7 @@ def call_with_added_mass(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]
     return film, (bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
 
 
-def kernel_call(reaction: Reaction) -> FilmCall | None:
+def kernel_call(reaction: Any) -> FilmCall | None:
     """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
     if isinstance(reaction, FilmReaction):
         return _bound(reaction.film_in_c)
@@ -191,7 +199,7 @@ def _address(name: str) -> int:
     return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
 
 
-def _called_back(reaction: Reaction) -> FilmCall:
+def _called_back(reaction: Any) -> FilmCall:
     raised: list[BaseException] = []
 
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
@@ -240,7 +248,7 @@ class Parts(NamedTuple):
     ----------
     structure : Structure
     profile : SpeedProfile
-    bearings : tuple of Reaction
+    bearings : tuple of Any
     names : tuple of str
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
@@ -253,7 +261,7 @@ class Parts(NamedTuple):
 
     structure: Structure
     profile: SpeedProfile
-    bearings: tuple[Reaction, ...]
+    bearings: tuple[Any, ...]
     names: tuple[str, ...]
     rows: Array
     base: BaseMotion | None = None
@@ -356,6 +364,8 @@ def take_apart(mounted: MountedRotor) -> Parts:
             f"bearings must have no states of their own here, got some at the stations {moving}: "
             "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
         )
+    for name in names:
+        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=True)
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
@@ -369,6 +379,11 @@ def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
         raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
     if rotor.structure.hysteresis is not None:
         raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
+    if rotor.structure.others:
+        raise InputError(
+            "rotor must move in its planes only here, without axial and torsional motion, which "
+            "simulate(rotor, bearings) takes"
+        )
     return rotor.structure, rotor.profile
 
 
@@ -552,7 +567,7 @@ EQUATIONS = ("derivative", "output", "operators")
 """Of a rotor, which a subclass may change."""
 
 
-def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
+def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     """Return a rotor in all its bearings for `simulate_rotor`; None where that does not take it, or slowly.
 
     It takes it where
@@ -567,7 +582,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     ----------
     rotor : Dynamic
         With one station left, the one without a name.
-    reaction : Reaction
+    reaction : Any
         The bearing of that.
     """
     if not _is_linear(rotor) or not _is_compiled(reaction):
@@ -582,18 +597,20 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     return mounted
 
 
-def takes_forces(rotor: Dynamic, bearings: Iterable[Reaction]) -> bool:
+def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
 
     It takes the linear rotors of `compiled_form`, on bearings without states and added mass.
     """
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
-    return _is_linear(rotor) and not any(film.states or inertial(film) is not None for film in every)
+    massless = all(not film.states and inertial(film) is None for film in every)
+    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
 
 
-def _is_compiled(bearing: Reaction) -> bool:
-    return inertial(bearing) is None and kernel_call(bearing) is not None
+def _is_compiled(bearing: Any) -> bool:
+    planar = freedoms_of(bearing) == PLANAR
+    return planar and inertial(bearing) is None and kernel_call(bearing) is not None
 
 
 def _is_linear(rotor: Dynamic) -> bool:
@@ -601,6 +618,8 @@ def _is_linear(rotor: Dynamic) -> bool:
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     bare = bare.rotor if isinstance(bare, BaseExcitedRotor) else bare
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
+    if isinstance(bare, FlexibleRotor) and bare.assembly.others:
+        return False
     return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)
 
 
@@ -614,25 +633,6 @@ FURTHER = 2
 """Doublings of the frequency from one set of shapes to the next: one may add shapes that nothing excites."""
 
 
-class ShapesRotor(FlexibleRotor):
-    """A rotor that moves in some of its shapes.
-
-    Parameters
-    ----------
-    rotor : FlexibleRotor
-    structure : Structure
-        Its matrices in the shapes.
-    """
-
-    def __init__(self, rotor: FlexibleRotor, structure: Structure) -> None:
-        self.speed, self.gravity, self.initial = rotor.speed, rotor.gravity, ()
-        self._structure = structure
-
-    def assembled(self) -> Structure:
-        """Return the matrices."""
-        return self._structure
-
-
 def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tuple[MountedRotor, Array, bool]]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
@@ -644,7 +644,7 @@ def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tupl
             if model.space is None:
                 break
             if k % FURTHER == 0:
-                small = ShapesRotor(rotor, model.structure)
+                small = MatrixRotor(rotor, model.structure)
                 yield mount(small, mounted.all_bearings), _within(model, state), True
     yield mounted, state, False
 
