@@ -13,14 +13,12 @@ from ...core.errors import ConvergenceError, InputError, require_kind, require_n
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.port import require_place
-from ...core.results import Coefficients
 from ...native import Status
 from ...native.ball_kernel import DEGREES, ROW, BallsAt
 from ..reaction import StaticReaction
 from .ball_element import BallElement, require_balls
 
 _ALL = ("x", "y", "z", "tilt_x", "tilt_y")
-_RADIAL = [0, 1, 3, 4]
 
 
 @quantities
@@ -150,53 +148,10 @@ class MomentCarryingBalls(StaticReaction):
             found[2] = self._axial_place(found, speed)
         return found
 
-    @property
-    def planar(self) -> BallElement:
-        """The bearing with its tilts held."""
-        return self.bearing
-
-    def tilting_force(self, place: ArrayLike, speed: float = 0.0) -> Array:
-        """Return force [N] along x, y and moment [N m] about x, y on the shaft, shape (4,).
-
-        Parameters
-        ----------
-        place, speed
-            As in `displacement`.
-
-        Raises
-        ------
-        InputError, ConvergenceError
-            As in `displacement`, or if a ball finds no balance.
-        """
-        return self.bearing.wrench(self.displacement(place, speed), speed)[_RADIAL]
-
-    def tilting_coefficients(self, place: ArrayLike, speed: float = 0.0) -> Coefficients:
-        """Return stiffness and damping over x, y, tilt_x, tilt_y of the shaft at rest, shape (4, 4).
-
-        Where z follows from an axial load the stiffness is K_rr - K_rz K_zr / K_zz.
-
-        Parameters
-        ----------
-        place, speed
-            As in `displacement`.
-
-        Raises
-        ------
-        InputError, ConvergenceError
-            As in `tilting_force`.
-        """
-        whole = self.bearing.stiffness(self.displacement(place, speed), speed)
-        stiffness = whole[np.ix_(_RADIAL, _RADIAL)]
-        if self.bearing.axial_load is not None:
-            stiffness = stiffness - np.outer(whole[_RADIAL, 2], whole[2, _RADIAL]) / whole[2, 2]
-        damping = self.bearing.damping * np.diag([1.0, 1.0, 0.0, 0.0])
-        four = np.asarray(place, dtype=float)
-        return Coefficients(stiffness=stiffness, damping=damping, position=four, speed=float(speed))
-
     @cached_property
     def _moving(self) -> list[int]:
         """Which of x, y, z, tilt_x, tilt_y are freedoms."""
-        return list(range(DEGREES)) if self.axial else _RADIAL
+        return list(range(DEGREES)) if self.axial else [0, 1, 3, 4]
 
     @cached_property
     def _offset(self) -> Array:
