@@ -102,6 +102,9 @@ MADE = [
     rf.Measurements(speed=[100.0, 200.0], load=[0.0, -500.0], values={"x": [4e-5, 5e-5]}),
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),
+    rf.LinearBearing(
+        stiffness=(2e8, 5e4, 5e4), damping=(1e4, 1.0, 1.0), freedoms=("z", "tilt_x", "tilt_y")
+    ),
     rf.TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
     rf.EndSeal(leakage=1e-10, uncertainty=0.3),
     rf.bearings.FilmSegment(length=0.02, clearance=1e-4),
@@ -202,6 +205,7 @@ MADE = [
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
     rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT),
+    rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT, axial=True),
     rf.VariableComplianceBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
     rf.FiveDegreeBalls(bearing=ANGULAR_CONTACT),
     rf.bearings.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),
