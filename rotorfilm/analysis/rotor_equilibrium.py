@@ -37,7 +37,7 @@ from ..core.port import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients
-from ..core.signals import PLANAR
+from ..core.signals import FREEDOMS, PLANAR
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, hysteresis_matrices, untouched
 from .coefficients import film_coefficients
@@ -293,9 +293,14 @@ class RestEquations:
         middle = np.zeros(self.sizes[k])
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(clearance_of(bearing)):
             return middle, rest_temperature(bearing, middle, self.speed)
-        told = rest_place(bearing, load.tolist(), self.speed) if len(middle) > 2 else None
-        if told is not None:
-            return np.asarray(told), None
+        if len(middle) > 2:
+            # Moments that rigid bearings would have push loose balls far away: a start without them.
+            straight = [
+                0.0 if FREEDOMS[f].turns else part
+                for f, part in zip(freedoms_of(bearing), load.tolist(), strict=True)
+            ]
+            told = rest_place(bearing, straight, self.speed)
+            return middle if told is None else np.asarray(told), None
         at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
