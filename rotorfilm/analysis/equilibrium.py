@@ -68,7 +68,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : Any
         The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included; film force + load = 0. For a reaction with
@@ -112,7 +112,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     return found
 
 
-def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
+def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
     if is_warming(reaction):
         return _warm(reaction, load, speed)
@@ -255,7 +255,7 @@ def checked_load(load: ArrayLike) -> Array:
     return array
 
 
-def _result(reaction: Reaction, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
+def _result(reaction: Any, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
     position = np.array(point.position)
     force = reaction.force(position, np.zeros(2), target.speed)
     angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
@@ -272,7 +272,7 @@ def _result(reaction: Reaction, load: Array, target: StaticTarget, point: Static
     )
 
 
-def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) -> float:
+def _minimum_film(reaction: Any, target: StaticTarget, point: StaticPoint) -> float:
     """Return the least film [m]; in a circle from s, which has its digits near the wall."""
     if has_wall(reaction):
         return float(reaction.minimum_film(point.position))
@@ -703,10 +703,10 @@ class FieldFilm(Protocol):
     def supply_temperature(self) -> float:
         """Temperature of the fresh oil [K]."""
 
-    def cold(self) -> Reaction:
+    def cold(self) -> Any:
         """Return the film of fresh oil."""
 
-    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Reaction:
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature, as it is fed at a place."""
 
     def warmed(self, position: ArrayLike, speed: float, before: Any = None, *, closing: bool = False) -> Any:
@@ -780,6 +780,6 @@ def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[Static
     return here, np.array(there.position) if math.isfinite(there.norm) else place
 
 
-def _target(film: Reaction, load: Array, speed: float) -> StaticTarget:
+def _target(film: Any, load: Array, speed: float) -> StaticTarget:
     x, y = -float(load[0]), -float(load[1])
     return StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, 1.0, 0.0)

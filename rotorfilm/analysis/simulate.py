@@ -29,7 +29,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model, stops
 from ..core.port import (
     Bearings,
-    Reaction,
+    clearance_of,
     freedoms_of,
     in_time,
     inertial,
@@ -75,7 +75,7 @@ def simulate(
     ----------
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
-    reaction : Reaction, JFOFilm, or mapping of str to either
+    reaction : Any, JFOFilm, or mapping of str to either
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
         balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
         for each station by name; `mount` takes those of some stations where the last is of another kind.
@@ -124,7 +124,7 @@ def simulate(
             raise InputError(f"method must be None for films that step, got {method!r}")
         return simulate_steps(rotor, given, grid, duration, initial_state, max_step)
     by_station = given is reaction
-    films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
+    films: dict[str, Any] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if by_station and method is None and takes_forces(rotor, films.values()):
         return in_c(mount(rotor, films), initial_state=initial_state)
@@ -152,9 +152,7 @@ def simulate(
     return whole
 
 
-def _compiled(
-    rotor: Dynamic, film: Reaction, in_c: Callable[[MountedRotor], Trajectory]
-) -> Trajectory | None:
+def _compiled(rotor: Dynamic, film: Any, in_c: Callable[[MountedRotor], Trajectory]) -> Trajectory | None:
     """Return the compiled motion; None where it does not take rotor and film, or does not come to the end."""
     mounted = compiled_form(rotor, film)
     if mounted is None:
@@ -189,7 +187,7 @@ def _require_gap(system: Coupled, t: float, state: Array) -> None:
         where = f" of {journal.station!r}" if journal.station else ""
         raise ContactError(
             f"journal{where} reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
-            f"{journal.reaction.clearance!r} m is left"
+            f"{clearance_of(journal.reaction)!r} m is left"
         )
 
 
@@ -340,7 +338,7 @@ class Coupled:
     Parameters
     ----------
     rotor : Dynamic
-    films : mapping of str to Reaction
+    films : mapping of str to Any
         By station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
 
     Attributes

@@ -14,7 +14,7 @@ from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.port import (
     Force,
-    Reaction,
+    PlanarReaction,
     Tangent,
     carries_load,
     has_wall,
@@ -91,16 +91,16 @@ class ParallelReaction(SharedReaction):
 
     Parameters
     ----------
-    reactions : tuple of Reaction
+    reactions : tuple of PlanarReaction
         Two at least, all about the same center.
 
     Raises
     ------
     InputError
-        If there are fewer, or one is no Reaction or has states.
+        If there are fewer, or one is no PlanarReaction or has states.
     """
 
-    reactions: tuple[Reaction, ...]
+    reactions: tuple[PlanarReaction, ...]
 
     def __post_init__(self) -> None:
         require_tuple("reactions", self.reactions, object)
@@ -151,7 +151,7 @@ class Sprung(SharedReaction):
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : PlanarReaction
         Such as a `PorousDamper`.
     stiffness : float [N/m]
         Of the springs together, along either axis.
@@ -162,15 +162,15 @@ class Sprung(SharedReaction):
         If the reaction is none or the stiffness is not positive.
     """
 
-    reaction: Reaction
+    reaction: PlanarReaction
     stiffness: float
 
     def __post_init__(self) -> None:
-        require_kind("reaction", self.reaction, Reaction, "a Reaction such as a PorousDamper")
+        require_kind("reaction", self.reaction, PlanarReaction, "a PlanarReaction such as a PorousDamper")
         require_positive("stiffness", self.stiffness)
 
     @property
-    def reactions(self) -> tuple[Reaction]:
+    def reactions(self) -> tuple[PlanarReaction]:
         """The reaction alone: its springs add no mass, and have no wall."""
         return (self.reaction,)
 

@@ -58,6 +58,31 @@ class Reaction(Model, Protocol):
     """
 
 
+@runtime_checkable
+class PlanarReaction(Reaction, Protocol):
+    """A Reaction to x and y with its force for batches: the fast path of searches and orbits."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]: the journal center stays within this distance of the origin."""
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force on the journal [N], shape (2, ...).
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z, either sign.
+        """
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
+
+
 Bearings = Mapping[str, Reaction]
 """Reactions by the names of the stations in which they are."""
 
@@ -187,7 +212,7 @@ def tangent_of(reaction: Any) -> Tangent:
     return tangent
 
 
-def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: Any) -> Array:
     """Return force and moment of a reaction without states on the shaft, shape (n,) [N], [N m]."""
     law = getattr(reaction, "force", None)
     if law is not None:
@@ -196,7 +221,7 @@ def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed:
     return np.asarray(found)[: len(freedoms_of(reaction))]
 
 
-def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: Any) -> Array:
     """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1)."""
     law = getattr(reaction, "jacobian", None)
     if law is not None:
@@ -438,6 +463,14 @@ def has_states(reaction: Any) -> bool:
     )
 
 
+def drifts(reaction: Any) -> bool:
+    """Return whether a reaction has states that hardly move within a turn, as wear or a temperature.
+
+    Coefficients hold them where they are, unless a frequency is named.
+    """
+    return is_warming(reaction) or bool(getattr(reaction, "states", ()))
+
+
 def quasi_static(reaction: Any) -> Any:
     """Return a reaction with its states at rest under a shaft at rest; itself where it has none."""
     own = getattr(reaction, "at_rest", None)
@@ -615,7 +648,7 @@ class StatesStiffness:
         A, B, C, D = self.at
         n, size = len(C), len(A)
         push = np.hstack([D[:, : 2 * n], C])
-        push = np.linalg.solve(mass, push) if np.ndim(mass) else push / mass
+        push = np.linalg.solve(np.asarray(mass, dtype=float), push) if np.ndim(mass) else push / mass
         whole = np.vstack([np.eye(n, 2 * n + size, n), push, np.hstack([B[:, : 2 * n], A])])
         values = np.linalg.eigvals(whole).astype(complex)
         return values[np.argsort(-values.real)]

@@ -214,8 +214,8 @@ class FrequencyDependentCoefficients(ReducedCoefficients):
         """
         K, slope = self.dynamic_stiffness(s)
         return Coefficients(
-            stiffness=K - s * slope,  # type: ignore[arg-type]
-            damping=slope,  # type: ignore[arg-type]
+            stiffness=K - s * slope,
+            damping=slope,
             position=self.position,
             speed=self.speed,
             freedoms=vars(self)["freedoms"],
