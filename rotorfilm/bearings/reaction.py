@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Protocol
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,34 +18,36 @@ from ..core.errors import (
     require_vector,
 )
 from ..core.model import Array, Linearization, static_linearization
-from ..core.port import Force, Tangent, force_of
-from ..core.signals import MASS_OUTPUTS, Signal, force_outputs, journal_inputs
+from ..core.port import Force, Tangent, force_of, freedoms_of
+from ..core.signals import MASS_OUTPUTS, PLANAR, Signal, force_outputs, journal_inputs, place_names
 
 NOMINAL_SPEED = 100.0
 """Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
 
 
-def broadcast_state(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, Array]:
-    """Return position (2, ...), velocity (2, ...) and speed (...) as float arrays of one batch shape.
+def broadcast_state(
+    position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, size: int = 2
+) -> tuple[Array, Array, Array]:
+    """Return position (size, ...), velocity (size, ...), speed (...) as float arrays of one batch shape.
 
     Raises
     ------
     InputError
         If a value is not finite or the shapes do not fit.
     """
-    q = require_vector("position", position)
-    v = require_vector("velocity", velocity)
+    q = require_vector("position", position, size)
+    v = require_vector("velocity", velocity, size)
     omega = require_finite("speed", speed)
     if q.shape == v.shape and q.shape[1:] == omega.shape:
         return q, v, omega
     try:
-        x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
+        *parts, omega = np.broadcast_arrays(*q, *v, omega)
     except ValueError:
         raise InputError(
-            "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
+            f"position ({size}, ...), velocity ({size}, ...) and speed (...) must broadcast, "
             f"got shapes {q.shape}, {v.shape} and {omega.shape}"
         ) from None
-    return np.stack([x, y]), np.stack([vx, vy]), omega
+    return np.stack(parts[:size]), np.stack(parts[size:]), omega
 
 
 def without_overflow(
@@ -68,19 +70,29 @@ def require_no_overflow(found: Array, position: Array, velocity: Array, speed: A
         )
 
 
-def input_vector(u: ArrayLike) -> Array:
-    """Return the input (x, y, vx, vy, speed) of a reaction, shape (5,); raise InputError otherwise."""
+def input_vector(u: ArrayLike, freedoms: Sequence[str] = PLANAR) -> Array:
+    """Return the input of a reaction, as (x, y, vx, vy, speed); raise InputError of another shape."""
     values = require_finite("u", u)
-    if values.shape != (5,):
-        raise InputError(f"u must have shape (5,) for x, y, vx, vy, speed, got shape {values.shape}")
+    if values.shape != (2 * len(freedoms) + 1,):
+        wanted = *place_names(freedoms), "speed"
+        raise InputError(
+            f"u must have shape ({len(wanted)},) for {', '.join(wanted)}, got shape {values.shape}"
+        )
     return values
+
+
+def state_of(reaction: object, u: ArrayLike) -> tuple[Array, Array, float]:
+    """Return places (n,), rates (n,) and speed of the input u of a reaction; InputError as `input_vector`."""
+    freedoms = freedoms_of(reaction)
+    values, n = input_vector(u, freedoms), len(freedoms)
+    return values[:n], values[n : 2 * n], values[-1]
 
 
 class Called:
     """What makes a reaction a function: of position, velocity and speed, as its `force`."""
 
     def __call__(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal [N], shape (2, ...)."""
+        """Return the force on the shaft, shape (n, ...) [N], [N m]."""
         return self.force(position, velocity, speed)
 
 
@@ -93,28 +105,32 @@ class Feedthrough(Called):
         return ()
 
     def output(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = input_vector(u)
-        return self.force(values[:2], values[2:4], values[4])
+        """Return the forces for the input u = (places, rates, speed); t and x are not used."""
+        return self.force(*state_of(self, u))
 
     def linearization(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
-        values = input_vector(u)
-        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
+        """Return the exact derivatives at u: all of them in the feedthrough matrix D (n, 2 n + 1)."""
+        return static_linearization(self.jacobian(*state_of(self, u)))
 
 
 class StaticReaction(Feedthrough):
-    """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
+    """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`.
+
+    One with tilts among its freedoms says its `arm` too.
+    """
+
+    arm: ClassVar[float] = 1.0
+    """The clearance over it is a typical tilt, the nominal force times it a typical moment [m]."""
 
     @property
     def inputs(self: Any) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(self.clearance, NOMINAL_SPEED)
+        """Signals of the places of its freedoms, of their rates, and the speed: x, y, vx, vy, speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED, freedoms_of(self), self.arm)
 
     @property
     def outputs(self: Any) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(self.nominal_force)
+        """Signals of the forces on the shaft: force_x, force_y."""
+        return force_outputs(self.nominal_force, freedoms_of(self), self.arm)
 
     @property
     def largest_eccentricity_ratio(self) -> float:
@@ -134,15 +150,16 @@ class StaticReaction(Feedthrough):
         Parameters
         ----------
         position : array_like, shape (2, ...) [m]
-            Journal center from the bearing center.
+            Journal center from the bearing center; (n, ...) with the tilts [rad] of other freedoms.
         velocity : array_like, shape (2, ...) [m/s]
-            Velocity of the journal center.
+            Velocity of the journal center; (n, ...) with their rates [rad/s].
         speed : array_like, shape (...) [rad/s]
             Angular speed about +z.
 
         Returns
         -------
         ndarray, shape (2, ...) [N]
+            Or (n, ...), with moments [N m].
 
         Raises
         ------
@@ -151,7 +168,7 @@ class StaticReaction(Feedthrough):
         FilmContactError
             If the journal touches the wall anywhere in the batch.
         """
-        q, v, omega = broadcast_state(position, velocity, speed)
+        q, v, omega = broadcast_state(position, velocity, speed, len(freedoms_of(self)))
         self.require_film(q)
         return without_overflow(self.prepared_force, q, v, omega)
 
@@ -166,7 +183,8 @@ class StaticReaction(Feedthrough):
         Returns
         -------
         ndarray, shape (2, 5, ...)
-            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
+            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad]; (n, 2 n + 1, ...) by
+            places, rates and speed.
 
         Raises
         ------
@@ -175,7 +193,7 @@ class StaticReaction(Feedthrough):
         UndefinedDerivativeError
             Where the film has no derivative.
         """
-        q, v, omega = broadcast_state(position, velocity, speed)
+        q, v, omega = broadcast_state(position, velocity, speed, len(freedoms_of(self)))
         self.require_film(q)
         return without_overflow(self.prepared_jacobian, q, v, omega)
 
@@ -311,19 +329,18 @@ class InertialModel(StaticReaction):
 
     def output(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""
-        values = input_vector(u)
-        force = self.force(values[:2], values[2:4], values[4])
+        state = state_of(self, u)
+        force = self.force(*state)
         if not self.has_inertia:
             return force
-        return np.concatenate([force, self.mass(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]])
+        return np.concatenate([force, self.mass(*state)[_ROWS, _COLUMNS]])
 
     def linearization(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D."""
-        values = input_vector(u)
-        D = self.jacobian(values[:2], values[2:4], values[4])
+        state = state_of(self, u)
+        D = self.jacobian(*state)
         if self.has_inertia:
-            mass = self.mass_slopes(values[:2], values[2:4], values[4])[_ROWS, _COLUMNS]
-            D = np.vstack([D, mass])
+            D = np.vstack([D, self.mass_slopes(*state)[_ROWS, _COLUMNS]])
         return static_linearization(D)
 
 

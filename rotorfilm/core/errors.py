@@ -179,11 +179,11 @@ def require_number(name: str, value: float) -> float:
     return float(value)
 
 
-def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    """Return `value` as a finite array of shape (2, ...); raise InputError otherwise."""
+def require_vector(name: str, value: ArrayLike, size: int = 2) -> NDArray[np.float64]:
+    """Return `value` as a finite array of shape (size, ...); raise InputError otherwise."""
     array = require_finite(name, value)
-    if array.ndim == 0 or array.shape[0] != 2:
-        raise InputError(f"{name} must have shape (2, ...), got shape {array.shape}")
+    if array.ndim == 0 or array.shape[0] != size:
+        raise InputError(f"{name} must have shape ({size}, ...), got shape {array.shape}")
     return array
 
 
