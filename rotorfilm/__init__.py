@@ -63,6 +63,7 @@ if TYPE_CHECKING:
         FiniteMapSqueeze as FiniteMapSqueeze,
         FiniteSqueeze as FiniteSqueeze,
         FiveDegreeBalls as FiveDegreeBalls,
+        FrequencyDependentReaction as FrequencyDependentReaction,
         Friction as Friction,
         FullFilm as FullFilm,
         Groove as Groove,

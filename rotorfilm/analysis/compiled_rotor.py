@@ -35,7 +35,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array, Dynamic
-from ..core.port import Reaction, inertial, require_massless
+from ..core.port import Reaction, inertial, require_massless, static_force, static_slopes
 from ..core.results import Trajectory
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel
@@ -197,9 +197,9 @@ def _called_back(reaction: Reaction) -> FilmCall:
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
         position, velocity = np.array(state[:2]), np.array(state[2:4])
         try:
-            for i, value in enumerate(np.asarray(reaction.force(position, velocity, state[4])).tolist()):
+            for i, value in enumerate(static_force(reaction, position, velocity, state[4]).tolist()):
                 force[i] = value
-            slopes = np.asarray(reaction.jacobian(position, velocity, state[4]))[:, :5]
+            slopes = static_slopes(reaction, position, velocity, state[4])[:, :5]
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:

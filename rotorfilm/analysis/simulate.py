@@ -39,6 +39,8 @@ from ..core.port import (
     require_reaction,
     require_turned,
     require_turning,
+    static_force,
+    static_slopes,
     takes_steps,
 )
 from ..core.readable import Readable
@@ -348,7 +350,7 @@ class Journal(NamedTuple):
         """Return the derivatives of the film at the same arguments."""
         if self.film.states:
             return self.film.linearization(t, x[self.inner], at)
-        return static_linearization(self.film.jacobian(at[:2], at[2:4], at[4]))
+        return static_linearization(static_slopes(self.film, at[:2], at[2:4], at[4]))
 
 
 def connect(rotor: Dynamic, films: Bearings) -> list[Journal]:
@@ -519,7 +521,7 @@ class Coupled:
                 outputs = [journal.film.output(t, x, u) for t, x, u in pairs]
                 shown = np.reshape(outputs, (len(time), len(journal.film.outputs))).T
             else:
-                shown = np.array(journal.film.force(at[:2], at[2:4], at[4]))
+                shown = np.array(static_force(journal.film, at[:2], at[2:4], at[4]))
             if self._heavy:
                 shown[:2] = np.reshape(heavy, (len(time), len(self._taken))).T[2 * k : 2 * k + 2]
             rows += [shown, inner]

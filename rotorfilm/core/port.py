@@ -123,11 +123,11 @@ def require_terminals(name: str, reaction: Reaction) -> None:
         raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
 
 
-def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: float) -> Array:
-    """Return the input of a reaction, shape (2 n + 1,), from places (n,), rates (n,) or none, and speed."""
+def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: ArrayLike) -> Array:
+    """Return the input of a reaction, shape (2 n + 1, ...), from places, rates or none, and the speed."""
     place = np.asarray(position, dtype=float)
     rate = np.zeros_like(place) if velocity is None else np.asarray(velocity, dtype=float)
-    return np.concatenate([place, rate, [speed]])
+    return np.concatenate([place, rate, np.broadcast_to(speed, (1, *place.shape[1:]))])
 
 
 # The force for plain numbers, for loops that go state by state.
@@ -176,23 +176,28 @@ def tangent_of(reaction: Any) -> Tangent:
     return tangent
 
 
-def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
-    """Return force and moment of a reaction without states on the shaft, shape (n,) [N], [N m]."""
+def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    """Return force and moment of a reaction without states on the shaft, shape (n, ...) [N], [N m]."""
     law = getattr(reaction, "force", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
-    found = reaction.output(0.0, np.zeros(0), input_of(position, velocity, speed))
-    return np.asarray(found)[: len(freedoms_of(reaction))]
+    n = len(freedoms_of(reaction))
+    return _each(lambda u: reaction.output(0.0, np.zeros(0), u)[:n], input_of(position, velocity, speed))
 
 
-def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
-    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1)."""
+def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1, ...)."""
     law = getattr(reaction, "jacobian", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
     n = len(freedoms_of(reaction))
-    found = reaction.linearization(0.0, np.zeros(0), input_of(position, velocity, speed))
-    return np.asarray(found.D)[:n, : 2 * n + 1]
+    at = input_of(position, velocity, speed)
+    return _each(lambda u: reaction.linearization(0.0, np.zeros(0), u).D[:n, : 2 * n + 1], at)
+
+
+def _each(law: Callable[[Array], Array], inputs: Array) -> Array:
+    """Return what a law has for one input (2 n + 1,), or for each of a batch."""
+    return np.asarray(law(inputs) if inputs.ndim == 1 else np.apply_along_axis(law, 0, inputs))
 
 
 def largest_eccentricity_ratio(reaction: object) -> float:
