@@ -82,7 +82,7 @@ if TYPE_CHECKING:
         MomentCarryingBalls as MomentCarryingBalls,
         Oil as Oil,
         Pad as Pad,
-        ParallelReaction as ParallelReaction,
+        Parallel as Parallel,
         PointContact as PointContact,
         PorousCage as PorousCage,
         PorousDamper as PorousDamper,

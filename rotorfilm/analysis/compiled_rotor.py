@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.assemblies import ParallelReaction, Sprung
+from ..bearings.assemblies import Parallel, Sprung
 from ..bearings.damper import PorousDamper, SqueezeFilmDamper
 from ..bearings.films.law import BoundKernel
 from ..bearings.linear import LinearBearing
@@ -63,7 +63,7 @@ from .modal_reduction import Condensed, models
 #
 # with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it
 # along, `LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, `RubRing` and
-# the sum of `ParallelReaction` in native/loops/rub.h, and any other reaction is called back in
+# the sum of `Parallel` in native/loops/rub.h, and any other reaction is called back in
 # Python: slower, with the same result.
 
 
@@ -151,8 +151,10 @@ def kernel_call(reaction: Reaction) -> FilmCall | None:
         return None if film is None else film.beside(0.0, still=True)
     if type(reaction) is Sprung:
         inner = kernel_call(reaction.reaction)
+        if isinstance(reaction.stiffness, tuple):
+            return _summed([inner, kernel_call(LinearBearing(stiffness=reaction.matrix))])
         return None if inner is None else inner.beside(reaction.stiffness, still=False)
-    if type(reaction) is ParallelReaction:
+    if type(reaction) is Parallel:
         return _summed([kernel_call(one) for one in reaction.reactions])
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import accumulate, pairwise
@@ -559,10 +560,14 @@ class Coupled:
 
     def _slopes(self, journal: Journal, t: float, x: Array, u: Array, sensed: Array) -> Linearization:
         at = sensed[journal.motion]
-        try:
+        with suppress(UndefinedDerivativeError):
             return journal.slopes(t, x, at)
-        except UndefinedDerivativeError:
-            return journal.slopes(t, x, self._nudged(journal, t, x, u, at))
+        at = self._nudged(journal, t, x, u, at)
+        with suppress(UndefinedDerivativeError):
+            return journal.slopes(t, x, at)
+        moved = x.copy()
+        moved[journal.inner] += NUDGE * np.array([signal.nominal for signal in journal.film.states])
+        return journal.slopes(t, moved, at)
 
     def _nudged(self, journal: Journal, t: float, x: Array, u: Array, at: Array) -> Array:
         """Return the journal state with a trace of the velocity that it is about to have.

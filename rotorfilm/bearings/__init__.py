@@ -11,7 +11,7 @@ if TYPE_CHECKING:
         ReducedCoefficients as ReducedCoefficients,
     )
     from ..core.sources import show
-    from .assemblies import ParallelReaction as ParallelReaction, Sprung as Sprung
+    from .assemblies import Body as Body, Parallel as Parallel, Series as Series, Sprung as Sprung
     from .bush import *
     from .contact import *
     from .damper import *

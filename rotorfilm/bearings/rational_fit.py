@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, Linearization
@@ -59,11 +60,7 @@ class RationalFit(NamedTuple):
             A.append(np.kron(turn if pole.imag else turn[:1, :1], np.eye(rank)))
             B.append(drive.real)
             C.append(seen.real)
-        ends = np.cumsum([len(part) for part in A])
-        whole = np.zeros((ends[-1], ends[-1]))
-        for part, end in zip(A, ends, strict=True):
-            whole[end - len(part) : end, end - len(part) : end] = part
-        return Linearization(whole, np.vstack(B), np.hstack(C), self.polynomial[0])
+        return Linearization(block_diag(*A), np.vstack(B), np.hstack(C), self.polynomial[0])
 
 
 def rational_fit(

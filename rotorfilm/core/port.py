@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import (
     EquilibriumError,
+    FilmContactError,
     InputError,
     brief,
     require_kind,
@@ -46,6 +47,7 @@ class Reaction(Model, Protocol):
     - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
     - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest;
+    - `has_states`, whether its states rest with the shaft, where having `force` does not tell;
     - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
     - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
@@ -427,8 +429,12 @@ def has_states(reaction: Any) -> bool:
 
     Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
     """
-    return hasattr(reaction, "at_rest") or (
-        not hasattr(reaction, "force") and bool(getattr(reaction, "states", ()))
+    told = getattr(reaction, "has_states", None)
+    return (
+        told
+        if told is not None
+        else hasattr(reaction, "at_rest")
+        or (not hasattr(reaction, "force") and bool(getattr(reaction, "states", ())))
     )
 
 
@@ -459,30 +465,62 @@ def rest_state(reaction: Any, position: ArrayLike, speed: float) -> Array:
         return np.asarray(own(position, speed))
     if not reaction.states:
         return np.zeros(0)
-    u, x = input_of(position, None, speed), np.array(reaction.initial_state, dtype=float)
-    nominal = np.array([signal.nominal for signal in reaction.states])
-    rate = np.asarray(reaction.derivative(0.0, x, u))
+    u = input_of(position, None, speed)
+    found = newton_root(
+        lambda x: np.asarray(reaction.derivative(0.0, x, u)),
+        lambda x: np.asarray(reaction.linearization(0.0, x, u).A),
+        np.array(reaction.initial_state, dtype=float),
+        np.array([signal.nominal for signal in reaction.states]),
+    )
+    if found is None:
+        raise no_rest(reaction, position, speed)
+    return found
+
+
+def no_rest(reaction: Any, position: ArrayLike, speed: float) -> EquilibriumError:
+    """Return what to raise where no states were found that rest with the shaft at a place."""
+    return EquilibriumError(
+        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
+        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
+    )
+
+
+def newton_root(
+    law: Callable[[Array], Array], slopes: Callable[[Array], Array], start: Array, nominal: Array
+) -> Array | None:
+    """Return where a law (m,) of x (m,) vanishes, by Newton's method with halved steps; None if nowhere.
+
+    A trial at which the journal would touch its wall counts as one that is too far.
+
+    Parameters
+    ----------
+    law, slopes : callable
+        Its value and its derivatives (m, m).
+    start, nominal : ndarray, shape (m,)
+        Where to begin, and typical sizes of x and of its rates.
+    """
+    x, rate = start, law(start)
     for _ in range(_STEPS):
-        A = np.asarray(reaction.linearization(0.0, x, u).A)
+        A = slopes(x)
         if np.linalg.cond(A * nominal / nominal[:, None]) > 1e14:
-            break
+            return None
         step = -np.linalg.solve(A, rate)
         if np.abs(step / nominal).max() <= _SETTLED * max(1.0, np.abs(x / nominal).max()):
-            return x + step
+            return np.asarray(x + step)
         for halving in range(_HALVINGS):
             trial = x + 0.5**halving * step
-            moved = np.asarray(reaction.derivative(0.0, trial, u))
+            try:
+                moved = law(trial)
+            except FilmContactError:
+                continue
             if np.abs(moved / nominal).max() < np.abs(rate / nominal).max() or not moved.any():
                 x, rate = trial, moved
                 break
         else:
-            break
+            return None
         if not rate.any():
             return x
-    raise EquilibriumError(
-        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
-        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
-    )
+    return None
 
 
 def rest_linearization(reaction: Any, position: ArrayLike, speed: float) -> Linearization:
@@ -528,6 +566,10 @@ class QuasiStatic:
     def minimum_film(self, position: Array) -> Array:
         """Return the least film of the reaction [m]."""
         return minimum_film(self.reaction, position)
+
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff may leave of the force of the reaction [N]."""
+        return force_noise(self.reaction, speed)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return the force on a shaft at rest, shape (n,); the velocity is not used."""

@@ -7,7 +7,12 @@ import pytest
 from scipy.linalg import eigvals
 
 from rotorfilm import Coefficients, ConvergenceError, coefficients, critical_mass, whirl_threshold
-from rotorfilm.analysis.frequency_dependent import growing_count, mass_borders, counted_exponents, rigid_growing
+from rotorfilm.analysis.frequency_dependent import (
+    counted_exponents,
+    growing_count,
+    mass_borders,
+    rigid_growing,
+)
 from rotorfilm.bearings import FrequencyDependentCoefficients
 from rotorfilm.bearings.films.mass_conserving import circular_gap, oil_outflow
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
