@@ -57,6 +57,9 @@ if TYPE_CHECKING:
         VariableCompliance as VariableCompliance,
         coefficient_table as coefficient_table,
         coefficients as coefficients,
+        dynamic_stiffness as dynamic_stiffness,
+        frozen_coefficients as frozen_coefficients,
+        quasi_static_coefficients as quasi_static_coefficients,
         variable_compliance as variable_compliance,
     )
     from .compiled_march import simulate_rotor as simulate_rotor

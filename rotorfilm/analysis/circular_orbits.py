@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,11 +18,14 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
     Reaction,
+    clearance_of,
     inertial,
     largest_eccentricity_ratio,
     orbit_mass,
     require_reaction,
     require_turning,
+    static_force,
+    static_slopes,
 )
 from ..core.readable import Drawable, Item, Readable, items_of
 from ..core.results import CircularOrbit, InertialCoefficients, Trajectory
@@ -155,7 +158,7 @@ def synchronous_orbits(
     ----------
     rotor : RigidRotor
         At constant speed, without static load (preloaded springs carry the weight).
-    reaction : Reaction
+    reaction : Any
         Isotropic: a `PorousDamper`, usually inside a `Sprung`.
     unbalances : array_like, shape (n,) [kg m], optional
         Positive; the rotor's own by default.
@@ -291,7 +294,7 @@ class OrbitRotor(NamedTuple):
     mass: float
     speed: float
     clearance: float
-    reaction: Reaction
+    reaction: Any
     reach: float
     """Largest eccentricity ratio that the film is meant for."""
 
@@ -317,7 +320,7 @@ class OrbitSlope(NamedTuple):
     added: tuple[Array, Array] | None
 
 
-def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
+def orbit_rotor(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
     require_kind("rotor", rotor, RigidRotor, "a RigidRotor")
     require_reaction("reaction", reaction, heavy=True, planar=True)
@@ -396,7 +399,7 @@ def _require_isotropy(system: OrbitRotor) -> None:
 # One synchronous orbit of a rotor in a damper, next to one that is known; radii are eccentricity ratios.
 
 
-def damped_orbit(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
+def damped_orbit(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     """Return the constants of a rotor on a film that is known to be isotropic, at its first speed."""
     reach = largest_eccentricity_ratio(reaction)
     return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
@@ -457,13 +460,13 @@ def _squared_slope(system: OrbitRotor, radius: float) -> float:
 # Motion on a damper in eccentricity and phase, and what reaches the housing over time.
 
 
-def polar_acceleration(rotor: RigidRotor, reaction: Reaction, t: float, polar: Array) -> tuple[float, float]:
+def polar_acceleration(rotor: RigidRotor, reaction: Any, t: float, polar: Array) -> tuple[float, float]:
     """Return the second derivatives of eccentricity ratio and angle.
 
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Reaction
+    reaction : Any
     t : float [s]
     polar : array_like, shape (4,)
         Eccentricity ratio [1], angle phi from +x [rad] and their rates [1/s, rad/s]; not at the center.
@@ -682,7 +685,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : Any
         Isotropic.
     eccentricity_ratio : float [1]
         Radius of the orbit / clearance, above 0 and below 1.
@@ -700,8 +703,8 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     require_positive("eccentricity_ratio", eccentricity_ratio)
     if require_number("speed", speed) == 0.0:
         raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
-    radius = eccentricity_ratio * reaction.clearance
-    radial, tangential = reaction.force([radius, 0.0], [0.0, speed * radius], speed)
+    radius = eccentricity_ratio * clearance_of(reaction)
+    radial, tangential = static_force(reaction, [radius, 0.0], [0.0, speed * radius], speed)
     heavy = inertial(reaction)
     if heavy is not None:
         heavy.require_range(speed)
@@ -727,7 +730,7 @@ def small_motion_transmissibility(
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Reaction
+    reaction : Any
         Film and springs, isotropic at the center, without cross coupling: a damper with a full film.
     name : str, optional
 
@@ -764,7 +767,7 @@ def orbit_system(
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Reaction
+    reaction : Any
         Film and springs.
     orbit : CircularOrbit
         As `synchronous_orbits(...).at(...)` returns them, stable or not.
@@ -778,15 +781,15 @@ def orbit_system(
         change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
     """
     require_reaction("reaction", reaction, heavy=True, planar=True)
-    radius = orbit.eccentricity_ratio * reaction.clearance
+    radius = orbit.eccentricity_ratio * clearance_of(reaction)
     position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
-    film = reaction.jacobian(position, velocity, orbit.speed)
+    film = static_slopes(reaction, position, velocity, orbit.speed)
     added = orbit_mass(reaction, position, velocity, orbit.speed)
     matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
     inputs = signals_of(*((f"force_{axis}", "N", nominal, f"{axis} force on the rotor") for axis in TURNING))
     housing = ((f"housing_{axis}", "N", nominal, f"{axis} force on the housing") for axis in TURNING)
-    states = _turning_states(reaction.clearance, abs(orbit.speed))
+    states = _turning_states(clearance_of(reaction), abs(orbit.speed))
     return state_space(matrices, inputs, (*states, *signals_of(*housing)), states, name)
 
 

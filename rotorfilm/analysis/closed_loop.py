@@ -21,26 +21,21 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model
-from ..core.port import Bearings, Reaction, inertial, require_reaction, require_turning
+from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, require_reaction, require_turning
 from ..core.results import Coefficients, Equilibrium, added_mass
-from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
+from ..core.signals import force_names, indices, names
 from ..rotors import FlexibleRotor, require_flexible, translations
-from ..rotors.mounted import with_mass
-from ..rotors.structure import output_rows, station_name
+from ..rotors.mounted import Mount, join
+from ..rotors.structure import output_rows, station_name, station_names
 from .equilibrium import equilibrium
-from .linearize import OperatingPoint, checked_vector, control_system, film_states, linearize
+from .linearize import control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import LeftOut, journal_rows, remembering, rest_near, second_order, small_motion
+from .rotor_matrices import LeftOut, remembering, rest_near, second_order, small_motion
 from .rotor_modes import first_growing
 
 if TYPE_CHECKING:
     import control
-
-INERTIA = ("inertia_force_x", "inertia_force_y")
-"""Outputs of a rotor that carries its film's mass: minus that mass times the acceleration."""
-
-HOUSING = ("housing_force_x", "housing_force_y")
 
 
 @arguments
@@ -54,7 +49,7 @@ def closed_loop(
     rotor : Dynamic
         Takes force_x, force_y and gives x, y, vx, vy of the journal; the connection is by these names.
     reaction : Reaction
-        The film; the states of tilting pads and of lubricated balls are states of the loop.
+        The film; its states are states of the loop.
     at : Equilibrium
         Where the film is linearized; the rotor is taken at its initial state at t = 0.
     name : str, optional
@@ -71,53 +66,50 @@ def closed_loop(
     Raises
     ------
     InputError
-        If the rotor lacks one of these signals, `at` is no Equilibrium, or the film has states that never
-        rest: `linearize(mount(rotor, {"": reaction}), OperatingPoint(x=...))` takes those.
+        If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
     require_reaction("reaction", reaction, heavy=True)
     require_turning(reaction, rotor)
-    indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
-    indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
-    shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
-    housing = [[f"-film.{signal}"] for signal in FORCE_OUTPUTS]
-    if inertial(reaction) is not None:
-        housing = [[*of, f"-rotor.{own}"] for of, own in zip(housing, INERTIA, strict=True)]
-    import control
-
-    return control.interconnect(
-        [_rotor(rotor, reaction, at, shaft), linearize(reaction, at, name="film")],
-        connections=[
-            *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION_NAMES),
-            *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE_OUTPUTS),
-        ],
-        inplist=[f"rotor.{signal}" for signal in FORCE_OUTPUTS],
-        inputs=list(FORCE_OUTPUTS),
-        outlist=[
-            *(f"rotor.{signal}" for signal in MOTION_NAMES),
-            *housing,
-        ],
-        outputs=[*MOTION_NAMES, *HOUSING],
-        name=name,
-        # the speed is a parameter of the linear loop, whatever the rotor says about it
-        check_unused=False,
+    motion, force = station_names("", freedoms_of(reaction))
+    pushed = indices("rotor must have the inputs", names(rotor.inputs), force)
+    seen = indices("rotor must have the outputs", names(rotor.outputs), motion)
+    film = linearize(reaction, at)
+    states = range(len(rotor.states), len(rotor.states) + film.nstates)
+    shaft = rotor.linearization(0.0, rotor.initial_state, -at.load)
+    # The speed is a parameter of the linear loop, whatever the rotor says about it.
+    still = len(shaft.C)
+    shaft = shaft._replace(
+        C=np.vstack([shaft.C, np.zeros((1, len(shaft.A)))]),
+        D=np.vstack([shaft.D, np.zeros((1, shaft.D.shape[1]))]),
     )
-
-
-def _rotor(rotor: Dynamic, reaction: Reaction, at: Equilibrium, shaft: OperatingPoint) -> control.StateSpace:
-    """Return a rotor with the mass that its film adds, whose forces on the journal are outputs then."""
-    heavy = inertial(reaction)
-    if heavy is None:
-        return linearize(rotor, shaft, name="rotor")
-    force = indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
-    motion = indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
-    state = checked_vector("x", shaft.x, len(rotor.states))
-    matrices = rotor.linearization(0.0, state, checked_vector("u", shaft.u, len(rotor.inputs)))
-    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2), at.speed), force, motion)
-    outputs = (*names(rotor.outputs), *INERTIA)
+    station = Mount(
+        station="",
+        reaction=reaction,
+        motion=[*seen, still],
+        force=pushed,
+        inner=slice(states.start, states.stop),
+        call=None,
+        alone=False,
+        clearance=np.inf,
+    )
+    mass = mass_of(reaction, at.position, np.zeros_like(at.position), at.speed)
+    part = Linearization(film.A, film.B, film.C, film.D)
+    A, B, C, D = join(shaft, [station], [part], pushed, mass if inertial(reaction) is not None else None)
+    felt = slice(still + 1, still + 1 + len(force))
     return control_system(
-        *whole, inputs=names(rotor.inputs), outputs=outputs, states=names(rotor.states), name="rotor"
+        A,
+        B,
+        np.vstack([C[seen], -C[felt]]),
+        np.vstack([D[seen], -D[felt]]),
+        inputs=force,
+        outputs=[*motion, *(f"housing_{name}" for name in force)],
+        states=[
+            *(f"rotor_{name}" for name in names(rotor.states)),
+            *(f"film_{name}" for name in film.state_labels),
+        ],
+        name=name,
     )
 
 
@@ -164,7 +156,9 @@ def transmissibility(
         if isinstance(error, EquilibriumError) or not np.any(load):
             raise type(error)(f"{error}; {CENTERED}") from error
         raise
-    return frequency_response(responses, frequencies, list(FORCE_OUTPUTS), list(HOUSING), "transmissibility")
+    force = force_names(freedoms_of(reaction))
+    housing = [f"housing_{name}" for name in force]
+    return frequency_response(responses, frequencies, force, housing, "transmissibility")
 
 
 def frequency_response(
@@ -188,13 +182,13 @@ def checked_speeds(speeds: ArrayLike, name: str = "speeds") -> Array:
 def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:
     """Return the (2, 2) complex gains to the housing at the frequency of rotation."""
     loop = closed_loop(rotor, reaction, equilibrium(reaction, load, speed))
-    return np.asarray(loop(1j * speed, squeeze=False))[len(MOTION_NAMES) :]
+    return np.asarray(loop(1j * speed, squeeze=False))[-loop.ninputs :]
 
 
 # A flexible rotor on its films as one linear system: eigenvalues, python-control, unbalance response.
 
 
-FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
+FORCES = tuple(f"{owner}_force_{axis}" for owner in ("housing", "ground") for axis in "xyz")
 """How the names of forces on housings and on the ground end."""
 
 
@@ -516,18 +510,20 @@ def rotor_states(
     direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
     mass, damping, stiffness = second_order(structure, direct)
     n, sizes = len(mass), [len(film.A) for film in films.values()]
-    rows = {name: journal_rows(structure, name) for name in films}
+    rows = {name: film_rows(structure, name, freedoms_of(at.coefficients[name])) for name in films}
     pushes = [np.zeros((n, 0)), *(rows[name].T @ film.C for name, film in films.items())]
     tally("factorizations")
     columns = np.hstack([-stiffness, -damping, *pushes, loads])
     motion, pushed = np.split(np.linalg.solve(mass, columns), [2 * n + sum(sizes)], axis=1)
-    felt = [np.hstack([f.B[:, :2] @ rows[name], f.B[:, 2:] @ rows[name]]) for name, f in films.items()]
+    felt = [np.hstack([part @ rows[name] for part in np.hsplit(f.B, 2)]) for name, f in films.items()]
     own = np.asarray(block_diag(np.zeros((0, 0)), *(film.A for film in films.values())))
     sense, outputs = response_rows(rotor, direct)
     by_state = np.hstack([sense[:, : 2 * n], np.zeros((len(sense), sum(sizes)))])
     for name, first, film in zip(films, np.cumsum([2 * n, *sizes]), films.values(), strict=False):
-        row = outputs.index(station_name(name, HOUSING[0]))
-        by_state[row : row + 2, first : first + len(film.A)] -= film.C
+        row = outputs.index(
+            station_name(name, f"housing_{force_names(freedoms_of(at.coefficients[name]))[0]}")
+        )
+        by_state[row : row + len(film.C), first : first + len(film.A)] -= film.C
     by_acceleration = sense[:, 2 * n :]
     A = [np.eye(n, motion.shape[1], n), motion, np.hstack([np.vstack([np.zeros((0, 2 * n)), *felt]), own])]
     B = [np.zeros_like(pushed), pushed, np.zeros((len(own), pushed.shape[1]))]
@@ -547,21 +543,20 @@ def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, li
     rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
-        felt = film_rows(s, name, len(film.stiffness))
-        parts = (film.stiffness, film.damping, added_mass(film))
-        rows = [*rows, np.hstack([part[:2] @ felt for part in parts])]
-        labels += [station_name(name, signal) for signal in HOUSING]
+        freedoms = freedoms_of(film)
+        felt = film_rows(s, name, freedoms)
+        rows = [*rows, np.hstack([part @ felt for part in (film.stiffness, film.damping, added_mass(film))])]
+        labels += [station_name(name, f"housing_{force}") for force in force_names(freedoms)]
     return np.vstack(rows), labels
 
 
 def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, Coefficients]:
     """Return stiffness and damping of films whose states are held."""
-    return {
-        name: Coefficients(
-            stiffness=-film.D[:, :2],
-            damping=-film.D[:, 2:],
-            position=at.coefficients[name].position,
-            speed=at.speed,
+    held = {}
+    for name, film in films.items():
+        stiffness, damping = np.hsplit(-film.D, 2)
+        place, freedoms = at.coefficients[name].position, freedoms_of(at.coefficients[name])
+        held[name] = Coefficients(
+            stiffness=stiffness, damping=damping, position=place, speed=at.speed, freedoms=freedoms
         )
-        for name, film in films.items()
-    }
+    return held

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Number
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,24 +15,31 @@ from ..core.errors import (
     brief,
     require_count,
     require_finite,
+    require_kind,
     require_number,
-    require_pair,
 )
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
+    Complex,
     Reaction,
     coefficients_of,
+    drifts,
+    freedoms_of,
     has_states,
+    in_time,
     inertial,
+    mass_of,
+    require_place,
     require_range,
     require_reaction,
+    rest_linearization,
     settled,
     small_motion,
     static_slopes,
 )
 from ..core.readable import Drawable
-from ..core.results import Coefficients, InertialCoefficients
+from ..core.results import Coefficients, Equilibrium, InertialCoefficients
 from .equilibrium import equilibrium
 
 if TYPE_CHECKING:
@@ -57,8 +65,9 @@ def coefficients(
         Angular speed about +z.
     frequency : float or None [rad/s]
         Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
-        names it. None for that of the shaft, 0 for slow motion. Those of a film that conserves its oil are
-        `FrequencyDependentCoefficients` with None, from which modes and critical masses take K(s).
+        names it. None for that of the shaft, 0 for slow motion. With None they are
+        `FrequencyDependentCoefficients`, from which modes and critical masses take K(s). States that drift,
+        as the wear of a bush and the temperature of a film, are held with None, and follow with a frequency.
 
     Raises
     ------
@@ -75,33 +84,114 @@ def coefficients(
         If the film is not laminar, or its oil is beyond its viscosity law; see `equilibrium`.
     """
     require_reaction("reaction", reaction, heavy=True)
-    position, speed = require_pair("position", position), require_number("speed", speed)
+    position, speed = require_place(reaction, position), require_number("speed", speed)
     film = settled(reaction, position, speed)
     warn_of_flow(film, speed)
     if has_states(film):
         require_range(film, speed if frequency is None else frequency)
-    return film_coefficients(film, position, speed, frequency)
+    return film_coefficients(film if frequency is None else reaction, position, speed, frequency)
 
 
 def film_coefficients(
-    reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
+    reaction: Any, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
-    position = require_pair("position", position)
-    film = settled(reaction, position, speed)
+    position = require_place(reaction, position)
+    if has_states(reaction) or (frequency is not None and drifts(reaction)):
+        film = settled(reaction, position, speed) if has_states(reaction) else in_time(reaction)
+        motion = small_motion(film, position, speed)
+        return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
+    return _held(settled(reaction, position, speed), position, speed)
+
+
+def _held(film: Any, position: Array, speed: float) -> Coefficients:
+    """Return K and C of a film with its states, if there are some, held."""
+    n, still = len(position), np.zeros_like(position)
+    slopes = static_slopes(film, position, still, speed)
     if has_states(film):
-        return coefficients_of(small_motion(film, position, speed), position, speed, frequency)
-    derivative, n = static_slopes(film, position, np.zeros_like(position), speed), len(position)
-    stiffness, damping, heavy = -derivative[:, :n], -derivative[:, n : 2 * n], inertial(film)
-    if heavy is None:
-        return Coefficients(stiffness=stiffness, damping=damping, position=position, speed=speed)
-    return InertialCoefficients(
-        stiffness=stiffness,
-        damping=damping,
+        slopes = rest_linearization(film, position, speed).D
+    found = Coefficients(
+        stiffness=-slopes[:, :n],
+        damping=-slopes[:, n : 2 * n],
         position=position,
         speed=speed,
-        mass=heavy.mass(position, np.zeros_like(position), speed),
+        freedoms=freedoms_of(film),
     )
+    heavy = inertial(film)
+    return (
+        found
+        if heavy is None
+        else InertialCoefficients(**vars(found), mass=heavy.mass(position, still, speed))
+    )
+
+
+@arguments
+def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
+    """Return K and C of a reaction whose states are held where they rest: its answer to very fast motion.
+
+    Parameters
+    ----------
+    reaction, position, speed
+        As in `coefficients`.
+
+    Raises
+    ------
+    InputError, FilmContactError, UndefinedDerivativeError
+        As in `coefficients`; InputError too for a film that steps, whose states are its own.
+    """
+    require_reaction("reaction", reaction, heavy=True, over_time=True)
+    position, speed = require_place(reaction, position), require_number("speed", speed)
+    return _held(settled(reaction, position, speed), position, speed)
+
+
+@arguments
+def quasi_static_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
+    """Return K(0) and dK/ds(0) of a reaction whose states follow the shaft: its answer to slow motion.
+
+    Parameters
+    ----------
+    reaction, position, speed
+        As in `coefficients`.
+
+    Raises
+    ------
+    InputError, FilmContactError, UndefinedDerivativeError
+        As in `coefficients`.
+    """
+    return coefficients(reaction, position, speed, frequency=0.0)
+
+
+@arguments
+def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Complex:
+    """Return K(s) + s C(s) + s^2 M of a reaction about a rest, its states eliminated.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Its states follow the shaft, the temperature of a film and the wear of a bush among them.
+    at : Equilibrium
+        Where the shaft rests.
+    s : complex [1/s]
+        Exponent of the motion, growth rate + i frequency.
+
+    Returns
+    -------
+    ndarray, shape (n, n), complex [N/m]
+        The force on the shaft changes by minus this times q e^(s t) as the shaft moves by q e^(s t).
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+    require_reaction("reaction", reaction, heavy=True)
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
+    if not isinstance(s, Number) or not np.isfinite(s):
+        raise InputError(f"s must be a finite number, got {s!r}")
+    place, exponent = require_place(reaction, at.position, "at.position"), complex(s)
+    film = settled(reaction, place, at.speed) if has_states(reaction) else in_time(reaction)
+    mass = mass_of(reaction, place, np.zeros_like(place), at.speed)
+    return np.asarray(small_motion(film, place, at.speed).stiffness(exponent) + exponent**2 * mass)
 
 
 @arguments

@@ -35,7 +35,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array, Dynamic
-from ..core.port import Reaction, inertial, require_massless, static_force, static_slopes
+from ..core.port import inertial, require_massless, static_force, static_slopes
 from ..core.results import Trajectory
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel
@@ -114,13 +114,13 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
     warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
 
-def film_call(reaction: Reaction) -> FilmCall:
+def film_call(reaction: Any) -> FilmCall:
     """Return the compiled force of a reaction without states, one that calls back where it has none."""
     require_massless("reaction", reaction)
     return kernel_call(reaction) or _called_back(reaction)
 
 
-def call_with_added_mass(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]:
+def call_with_added_mass(reaction: Any) -> tuple[FilmCall, tuple[int, int]]:
     """Return the compiled force of a reaction without states, and where the mass that it adds is.
 
     That is the address of an rf_mass_response of native/films/film.h, and of its first argument; zeros where
@@ -142,7 +142,7 @@ def call_with_added_mass(reaction: Reaction) -> tuple[FilmCall, tuple[int, int]]
     return film, (bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
 
 
-def kernel_call(reaction: Reaction) -> FilmCall | None:
+def kernel_call(reaction: Any) -> FilmCall | None:
     """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
     if isinstance(reaction, FilmReaction):
         return _bound(reaction.film_in_c)
@@ -193,7 +193,7 @@ def _address(name: str) -> int:
     return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
 
 
-def _called_back(reaction: Reaction) -> FilmCall:
+def _called_back(reaction: Any) -> FilmCall:
     raised: list[BaseException] = []
 
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
@@ -242,7 +242,7 @@ class Parts(NamedTuple):
     ----------
     structure : Structure
     profile : SpeedProfile
-    bearings : tuple of Reaction
+    bearings : tuple of Any
     names : tuple of str
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
@@ -255,7 +255,7 @@ class Parts(NamedTuple):
 
     structure: Structure
     profile: SpeedProfile
-    bearings: tuple[Reaction, ...]
+    bearings: tuple[Any, ...]
     names: tuple[str, ...]
     rows: Array
     base: BaseMotion | None = None
@@ -554,7 +554,7 @@ EQUATIONS = ("derivative", "output", "operators")
 """Of a rotor, which a subclass may change."""
 
 
-def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
+def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     """Return a rotor in all its bearings for `simulate_rotor`; None where that does not take it, or slowly.
 
     It takes it where
@@ -569,7 +569,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     ----------
     rotor : Dynamic
         With one station left, the one without a name.
-    reaction : Reaction
+    reaction : Any
         The bearing of that.
     """
     if not _is_linear(rotor) or not _is_compiled(reaction):
@@ -584,7 +584,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     return mounted
 
 
-def takes_forces(rotor: Dynamic, bearings: Iterable[Reaction]) -> bool:
+def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
 
     It takes the linear rotors of `compiled_form`, on bearings without states and added mass.
@@ -594,7 +594,7 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Reaction]) -> bool:
     return _is_linear(rotor) and not any(film.states or inertial(film) is not None for film in every)
 
 
-def _is_compiled(bearing: Reaction) -> bool:
+def _is_compiled(bearing: Any) -> bool:
     return inertial(bearing) is None and kernel_call(bearing) is not None
 
 

@@ -16,7 +16,7 @@ from scipy.linalg import eig, eigh
 from ..core.errors import ConvergenceError, InputError, require_count, require_finite
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Bearings
+from ..core.port import Bearings, freedoms_of
 from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
@@ -430,7 +430,7 @@ class SpannedModes:
                 for one in (low.coefficients[name], film, high.coefficients[name])
             )
             force = (last - first) / (2.0 * self.half) + (last + first - 2.0 * own) * share
-            rows = film_rows(structure, name, len(film.stiffness))
+            rows = film_rows(structure, name, freedoms_of(film))
             changed = changed + rows.T @ (force @ (rows @ right))
         return np.asarray(changed)
 

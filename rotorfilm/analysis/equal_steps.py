@@ -6,14 +6,14 @@ import math
 from collections.abc import Callable
 from ctypes import byref
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..bearings.reaction import InertialModel
 from ..core.errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ..core.model import Array
-from ..core.port import Reaction, has_wall, inertial
+from ..core.port import has_wall, inertial
 from ..native import Status
 from ..native.library import loops
 from ..native.structs import structure
@@ -46,7 +46,7 @@ FAR = 10.0
 
 
 def march(
-    reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array, step: float, count: int
+    reaction: Any, mass: float, speed: float, pull: Pull, rest: Array, step: float, count: int
 ) -> tuple[MarchMotion, int]:
     """Return the motion from rest by average acceleration (native/loops/shake.h), and the number of tangents.
 
@@ -174,7 +174,7 @@ class ExcitedRotor(NamedTuple):
 
     Attributes
     ----------
-    reaction : Reaction
+    reaction : Any
         What holds it.
     mass : float [kg]
     speed : float [rad/s]
@@ -184,7 +184,7 @@ class ExcitedRotor(NamedTuple):
         External force (x, y) [N] at a time [s].
     """
 
-    reaction: Reaction
+    reaction: Any
     mass: float
     speed: float
     rest: Array
@@ -205,7 +205,7 @@ class ExcitedRotor(NamedTuple):
         position = self.rest[:, None] + moved.position
         return MarchMotion(time=moved.time, position=position, velocity=moved.velocity)
 
-    def tangents(self, film: Reaction | RestTangent, states: StatesAlong) -> RestTangent:
+    def tangents(self, film: Any | RestTangent, states: StatesAlong) -> RestTangent:
         """Return force and derivatives of a film along a motion."""
         q, v, a, count = states.position, states.velocity, states.acceleration, states.position.shape[1]
         if isinstance(film, RestTangent):
@@ -225,9 +225,7 @@ class ExcitedRotor(NamedTuple):
         mass = heavy.mass(q, v, speeds)
         return RestTangent(force, -slopes[:, :2], -slopes[:, 2:], mass)
 
-    def propagated(
-        self, states: StatesAlong, own: Reaction | RestTangent, rich: Reaction
-    ) -> tuple[Array, float]:
+    def propagated(self, states: StatesAlong, own: Any | RestTangent, rich: Any) -> tuple[Array, float]:
         """Return how much a richer film moves the journal (2, n) [m], to first order.
 
         With it comes the relative distance to what the slopes of the rotor's own film make of the same

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
@@ -30,18 +31,25 @@ from ..core.port import (
     MOST_LEFT,
     Reaction,
     Tangent,
+    clearance_of,
     force_noise,
+    freedoms_of,
     has_states,
     has_wall,
     is_warming,
+    minimum_film,
     prepared_tangent,
     quasi_static,
     relative_film,
+    require_place,
     require_reaction,
     rest_place,
+    static_force,
+    static_slopes,
 )
 from ..core.readable import Readable
 from ..core.results import Equilibrium
+from ..core.signals import PLANAR
 
 UNLOADED = (
     "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
@@ -60,10 +68,11 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : Any
         The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
     load : array_like, shape (2,) [N]
-        External static force on the journal, weight included; film force + load = 0.
+        External static force on the journal, weight included; film force + load = 0. For a reaction with
+        other freedoms the force or moment in each of them, shape (n,).
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 
@@ -94,7 +103,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     among which there may be no force at all, find their rest themselves (`core.model`).
     """
     require_reaction("reaction", reaction, heavy=True)
-    load = checked_load(load)
+    freedoms = freedoms_of(reaction)
+    load = checked_load(load) if freedoms == PLANAR else require_place(reaction, load, "load")
     speed = require_number("speed", speed)
     found = _found(reaction, load, speed)
     warn_of_pressure(reaction, load)
@@ -102,12 +112,14 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     return found
 
 
-def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
+def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
     if is_warming(reaction):
         return _warm(reaction, load, speed)
     following = has_states(reaction)
     film: Any = quasi_static(reaction)
+    if freedoms_of(film) != PLANAR or not clearance_of(film) < math.inf:
+        return _without_circle(film, load, speed)
     room = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if following else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
@@ -132,6 +144,70 @@ def _found(reaction: Reaction, load: Array, speed: float) -> Equilibrium:
         )
     tell = getattr(film, "settled", None)
     return found if tell is None else tell(found)
+
+
+_ENOUGH, _BACK, _PLACES = 1e-12, 40, 60
+"""Imbalance, over the load, that is sought; halvings of a step, and steps."""
+
+
+def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium of a reaction with other freedoms than x, y, or without a clearance.
+
+    Newton's method from the middle, or from where the reaction says; forces and moments are compared as
+    work along the nominal places of the freedoms.
+    """
+    n = len(load)
+    way = np.array([signal.nominal for signal in reaction.inputs[:n]])
+    told = rest_place(reaction, load.tolist(), speed)
+    place, still = np.zeros(n) if told is None else np.asarray(told, dtype=float), np.zeros(n)
+
+    def left(at: Array) -> Array:
+        return static_force(reaction, at, still, speed) + load
+
+    size, steps = float(np.linalg.norm(load * way)), 0
+    missing = left(place)
+    while float(np.linalg.norm(missing * way)) > _ENOUGH * size and steps < _PLACES:
+        slopes = static_slopes(reaction, place, still, speed)[:, :n]
+        step = np.linalg.lstsq(slopes * np.outer(way, way), -missing * way, rcond=1e-14)[0] * way
+        for halving in range(_BACK):
+            trial = place + 0.5**halving * step
+            with suppress(FilmContactError, ConvergenceError):
+                other = left(trial)
+                if np.linalg.norm(other * way) < np.linalg.norm(missing * way):
+                    place, missing, steps = trial, other, steps + 1
+                    break
+        else:
+            break
+    imbalance = float(np.linalg.norm(missing * way)) / size if size else 0.0
+    if not imbalance <= max(
+        _ENOUGH, min(force_noise(reaction, speed) * way.max() / max(size, 1e-300), MOST_LEFT)
+    ):
+        raise EquilibriumError(_not_found(load, speed, imbalance))
+    return _told(reaction, place, load, speed, imbalance, steps)
+
+
+def _told(
+    reaction: Any, place: Array, load: Array, speed: float, imbalance: float, steps: int
+) -> Equilibrium:
+    """Return a place of any freedoms as an equilibrium."""
+    freedoms, clearance = freedoms_of(reaction), clearance_of(reaction)
+    planar = freedoms[:2] == PLANAR
+    distance = math.hypot(*place[:2]) if planar else 0.0
+    angle = 0.0
+    if planar and distance and np.any(load[:2]):
+        turned = math.atan2(place[1], place[0]) - math.atan2(load[1], load[0])
+        angle = math.remainder(math.copysign(1.0, speed) * turned, 2.0 * math.pi)
+    return Equilibrium(
+        position=place,
+        speed=speed,
+        load=load,
+        eccentricity_ratio=distance / clearance,
+        attitude_angle=angle,
+        minimum_film=float(minimum_film(reaction, place)),
+        residual=imbalance,
+        iterations=steps,
+        reaction=reaction,
+    )
 
 
 def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
@@ -179,7 +255,7 @@ def checked_load(load: ArrayLike) -> Array:
     return array
 
 
-def _result(reaction: Reaction, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
+def _result(reaction: Any, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
     position = np.array(point.position)
     force = reaction.force(position, np.zeros(2), target.speed)
     angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
@@ -196,7 +272,7 @@ def _result(reaction: Reaction, load: Array, target: StaticTarget, point: Static
     )
 
 
-def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) -> float:
+def _minimum_film(reaction: Any, target: StaticTarget, point: StaticPoint) -> float:
     """Return the least film [m]; in a circle from s, which has its digits near the wall."""
     if has_wall(reaction):
         return float(reaction.minimum_film(point.position))
@@ -627,10 +703,10 @@ class FieldFilm(Protocol):
     def supply_temperature(self) -> float:
         """Temperature of the fresh oil [K]."""
 
-    def cold(self) -> Reaction:
+    def cold(self) -> Any:
         """Return the film of fresh oil."""
 
-    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Reaction:
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature, as it is fed at a place."""
 
     def warmed(self, position: ArrayLike, speed: float, before: Any = None, *, closing: bool = False) -> Any:
@@ -704,6 +780,6 @@ def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[Static
     return here, np.array(there.position) if math.isfinite(there.norm) else place
 
 
-def _target(film: Reaction, load: Array, speed: float) -> StaticTarget:
+def _target(film: Any, load: Array, speed: float) -> StaticTarget:
     x, y = -float(load[0]), -float(load[1])
     return StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, 1.0, 0.0)

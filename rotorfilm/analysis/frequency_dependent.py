@@ -16,9 +16,9 @@ from ..core.port import Bearings, DynamicStiffness, has_states
 from ..core.results import FrequencyDependentCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
-from .modal_reduction import models, usual_frequency
+from .modal_reduction import all_rows, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import journal_rows, remembering, second_order, whirl_near
+from .rotor_matrices import remembering, second_order, whirl_near
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
@@ -68,15 +68,17 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
         Exponents next to which the phase turns fast.
     """
     system, films = second_order(structure, at), remembering(at)
-    rows = np.vstack([journal_rows(structure, name) for name in films])
+    rows = all_rows(structure, films)
     mass, damping, stiffness = (np.asarray(part) for part in system)
 
     def ratio(nu: float) -> complex:
         change = np.zeros((len(rows), len(rows)), dtype=complex)
-        for k, film in enumerate(films.values()):
-            pair = slice(2 * k, 2 * k + 2)
+        first = 0
+        for film in films.values():
+            own = slice(first, first + len(film.stiffness))
             K = film.dynamic_stiffness.stiffness(1j * nu)
-            change[pair, pair] = K - film.stiffness - 1j * nu * film.damping
+            change[own, own] = K - film.stiffness - 1j * nu * film.damping
+            first = own.stop
         receptance = rows @ np.linalg.solve(stiffness - nu**2 * mass + 1j * nu * damping, rows.T)
         return complex(np.linalg.det(np.eye(len(rows)) + receptance @ change))
 

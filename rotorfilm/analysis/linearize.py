@@ -64,8 +64,8 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
         system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
     at : OperatingPoint or Equilibrium
         An Equilibrium stands for the journal at rest there, as input of a reaction, whose states rest with
-        it; the wear of a bush is the one that it starts with, and a film that warms keeps the temperature of the
-        rest.
+        it; the wear of a bush is the one that it starts with, and a film that warms keeps the temperature
+        of the rest.
     name : str, optional
         Name of the system; python-control numbers it by default.
 
@@ -234,7 +234,7 @@ def film_system(
     the fit, and its damping in fast motion is positive.
     """
     if not has_states(film):
-        raise InputError(f"film must be one that remembers, such as a JFOFilm, got {brief(film)}")
+        raise InputError(f"film must be a film that remembers, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)
     coefficients: Any = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
@@ -267,7 +267,8 @@ def film_states(film: FrequencyDependentCoefficients) -> Linearization:
     motion = film.dynamic_stiffness
     if at := getattr(motion, "at", None):
         A, B, C, D = at
-        return Linearization(A, B[:, :4], C[:2], D[:2, :4])
+        n = len(C)
+        return Linearization(A, B[:, : 2 * n], C, D[:, : 2 * n])
     return _fitted(film, None, TOLERANCE).linearization
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
@@ -21,11 +21,10 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
 from ..core.model import Array
-from ..core.port import quasi_static, require_reactions, static_force, static_slopes
-from ..core.results import Coefficients
+from ..core.port import freedoms_of, quasi_static, static_force, static_slopes
+from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
-from .coefficients import film_coefficients
 
 # Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
 
@@ -298,29 +297,13 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
     return found
 
 
-# Bearings that resist the tilt of a shaft too: what linear analysis asks of them, and where they act.
+# Where bearings act, and the force of one whose states rest.
 
 
-def resists_tilt(bearing: object) -> bool:
-    """Return whether a bearing has force and moment over the place (x, y, tilt_x, tilt_y) [m], [rad].
-
-    It says them by `tilting_force(place, speed)`, shape (4,), and `tilting_coefficients(place, speed)` with
-    matrices of shape (4, 4); `planar` is the bearing with its tilts held.
-    """
-    return hasattr(type(bearing), "tilting_force")
-
-
-def require_bearings(bearings: object) -> None:
-    """Raise InputError unless these are bearings by station, planar or such as resist tilts."""
-    if isinstance(bearings, Mapping):
-        bearings = {name: b for name, b in bearings.items() if not resists_tilt(b)}
-    require_reactions("bearings", bearings, heavy=True)
-
-
-def film_rows(structure: Structure, name: str, size: int) -> Array:
-    """Return the rows of what a bearing feels, shape (size, N): x, y, and of four degrees tilt_x, tilt_y."""
+def film_rows(structure: Structure, name: str, freedoms: Sequence[str] = PLANAR) -> Array:
+    """Return the rows of what a bearing feels of a rotor at rest, shape (n, N)."""
     pair = 2 * structure.stations.index(name) + np.arange(2)
-    if size == 2:
+    if len(freedoms) == 2:
         return structure.journals[pair]
     tilts = None if structure.tilts is None else structure.tilts[pair]
     if tilts is None or not tilts.any():
@@ -331,13 +314,17 @@ def film_rows(structure: Structure, name: str, size: int) -> Array:
     return np.concatenate([structure.journals[pair], tilts])
 
 
-def force_at(bearing: Any, place: Array, speed: float) -> Array:
-    """Return the force on a shaft at rest at a place, shape (2,), or (4,) with the moments.
+def all_rows(structure: Structure, films: Mapping[str, Any]) -> Array:
+    """Return the rows of what bearings, or their coefficients, feel of a rotor, one after the other."""
+    rows = [film_rows(structure, name, freedoms_of(film)) for name, film in films.items()]
+    return np.concatenate([np.zeros((0, len(structure.weight))), *rows])
 
-    States of a bearing's own, as the tilts of pads, rest too; of pads without film nothing is said here.
+
+def force_at(bearing: Any, place: Array, speed: float) -> Array:
+    """Return the force on a shaft at rest at a place, shape (n,), the states of the bearing at rest too.
+
+    Of pads without film nothing is said here.
     """
-    if resists_tilt(bearing):
-        return bearing.tilting_force(place, speed)
     film = quasi_static(bearing)
     if film is bearing:
         return static_force(film, place, np.zeros_like(place), speed)
@@ -348,16 +335,7 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
 
 def slopes_at(bearing: Any, place: Array, speed: float) -> Array:
     """Return d(force)/d(place), square, of the force that `force_at` returns."""
-    if resists_tilt(bearing):
-        return -bearing.tilting_coefficients(place, speed).stiffness
     return static_slopes(quasi_static(bearing), place, np.zeros_like(place), speed)[:, : len(place)]
-
-
-def coefficients_at(bearing: Any, place: Array, speed: float) -> Coefficients:
-    """Return K and C at a place."""
-    if resists_tilt(bearing):
-        return bearing.tilting_coefficients(place, speed)
-    return film_coefficients(bearing, place, speed)
 
 
 # How many eigenvalues of a Hermitian matrix are negative, by Sylvester's law of inertia.

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import MOST_LEFT, Bearings, Reaction, reach
+from ..core.port import MOST_LEFT, Bearings, clearance_of, reach, static_force, static_slopes
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
@@ -559,7 +559,7 @@ class DrivenRotor(NamedTuple):
     ----------
     answers : RotorAnswers
         Of the rotor.
-    bearings, sloped : mapping of str to Reaction
+    bearings, sloped : mapping of str to Any
         By station: whose forces, and whose slopes.
     """
 
@@ -570,7 +570,7 @@ class DrivenRotor(NamedTuple):
     @property
     def clearances(self) -> Array:
         """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
-        return np.array([self.bearings[name].clearance for name in self.answers.stations])
+        return np.array([clearance_of(self.bearings[name]) for name in self.answers.stations])
 
     @property
     def speed(self) -> float:
@@ -588,7 +588,9 @@ class DrivenRotor(NamedTuple):
 
     def forces(self, position: Array, velocity: Array) -> Array:
         """Return the forces of the bearings, those of K0 and C0 added."""
-        forces = [self.bearings[name].force(*motion) for name, motion in self._motions(position, velocity)]
+        forces = [
+            static_force(self.bearings[name], *motion) for name, motion in self._motions(position, velocity)
+        ]
         stiffness, damping = self.answers.stiffness, self.answers.damping
         springs = stiffness @ _by_bearing(position) + damping @ _by_bearing(velocity)
         return np.concatenate(forces) + springs.reshape(position.shape)
@@ -596,7 +598,7 @@ class DrivenRotor(NamedTuple):
     def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
         """Return the forces and their slopes."""
         slopes = np.concatenate(
-            [self.sloped[name].jacobian(*motion) for name, motion in self._motions(position, velocity)]
+            [static_slopes(self.sloped[name], *motion) for name, motion in self._motions(position, velocity)]
         )
         stiffness, damping = (
             part.reshape(-1, 2, 1) for part in (self.answers.stiffness, self.answers.damping)
@@ -621,7 +623,7 @@ def rest_position(at: RotorEquilibrium, stations: Sequence[str]) -> Array:
     return np.concatenate([at.coefficients[name].position for name in stations])
 
 
-def rest_on_film(rotor: RigidRotor, bearing: Reaction) -> RotorEquilibrium:
+def rest_on_film(rotor: RigidRotor, bearing: Any) -> RotorEquilibrium:
     """Return where a rigid rotor at constant speed rests in its bearing, with stiffness and damping there."""
     speed, load = rotor.profile.speeds[0], rotor.static_load
     at = equilibrium(bearing, load, speed)

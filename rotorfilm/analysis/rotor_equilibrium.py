@@ -23,20 +23,30 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import MOST_LEFT, Bearings, Reaction, inertial, minimum_film, relative_film, rest_temperature
+from ..core.port import (
+    MOST_LEFT,
+    Bearings,
+    clearance_of,
+    freedoms_of,
+    inertial,
+    minimum_film,
+    relative_film,
+    require_reactions,
+    rest_place,
+    rest_temperature,
+)
 from ..core.readable import Readable
 from ..core.results import Coefficients
+from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, across_planes
+from .coefficients import film_coefficients
 from .equilibrium import equilibrium
 from .modal_reduction import (
-    coefficients_at,
+    all_rows,
     counted,
-    film_rows,
     force_at,
     models,
-    require_bearings,
-    resists_tilt,
     slopes_at,
     tally,
     usual_frequency,
@@ -134,7 +144,7 @@ def rest(
     if near is not None and _is_the_same_at_any_speed(structure, bearings):
         return _at_speed(near, speed)
     tally("equilibria")
-    require_bearings(bearings)
+    require_reactions("bearings", bearings, heavy=True)
     for bearing in bearings.values():
         if heavy := inertial(bearing):
             heavy.require_range(abs(speed))
@@ -192,7 +202,7 @@ def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float 
     films = dict(zip(system.names, system.bearings, strict=True))
     return RotorEquilibrium(
         speed=system.speed,
-        coefficients={name: coefficients_at(films[name], at, system.speed) for name, at in places.items()},
+        coefficients={name: film_coefficients(films[name], at, system.speed) for name, at in places.items()},
         loads=dict(zip(system.names, system.split(-forces), strict=True)),
         displacement=q,
         residual=float(np.abs(system.residual(q, p, 1.0)[0]).max()) / system.size,
@@ -228,10 +238,8 @@ class RestEquations:
         self.given = [bearings[name] for name in self.names]
         self.bearings = list(self.given)
         self.speed = speed
-        self.tilting = [resists_tilt(b) for b in self.given]
-        self.sizes = [4 if tilting else 2 for tilting in self.tilting]
-        rows = [film_rows(structure, *pair) for pair in zip(self.names, self.sizes, strict=True)]
-        self.journals = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
+        self.sizes = [len(freedoms_of(bearing)) for bearing in self.given]
+        self.journals = all_rows(structure, {name: bearings[name] for name in self.names})
         self.stiffness = structure.stiffness + speed * structure.circulation
         if structure.hysteresis is not None:
             self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
@@ -278,12 +286,12 @@ class RestEquations:
     def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
         bearing: Any = self.given[k]
-        if resists_tilt(bearing):
-            still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
-            place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
-            return np.append(place, (0.0, 0.0)), None
-        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
-            return np.zeros(2), self._balanced(bearing, np.zeros(2))
+        middle = np.zeros(self.sizes[k])
+        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(clearance_of(bearing)):
+            return middle, rest_temperature(bearing, middle, self.speed)
+        told = rest_place(bearing, load.tolist(), self.speed) if len(middle) > 2 else None
+        if told is not None:
+            return np.asarray(told), None
         at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
@@ -296,7 +304,8 @@ class RestEquations:
             except EquilibriumError as failure:
                 # As a seal, which carries little: others may have its load.
                 failed.append(failure)
-                found.append((np.zeros(2), self._balanced(self.given[k], np.zeros(2))))
+                middle = np.zeros(self.sizes[k])
+                found.append((middle, rest_temperature(self.given[k], middle, self.speed)))
         if failed and len(failed) == len(loads):
             raise failed[0]
         return found
@@ -308,10 +317,8 @@ class RestEquations:
 
     def balanced(self, p: Array) -> list[float | None]:
         """Return the temperatures of the films that warm, for these positions of the journals."""
-        return [self._balanced(b, at) for b, at in zip(self.given, self.split(p), strict=True)]
-
-    def _balanced(self, bearing: Reaction, at: Array) -> float | None:
-        return rest_temperature(bearing, at, self.speed)
+        pairs = zip(self.given, self.split(p), strict=True)
+        return [rest_temperature(b, at, self.speed) for b, at in pairs]
 
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
@@ -319,7 +326,7 @@ class RestEquations:
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):
             with suppress(EquilibriumError):
                 return self.solve(q, p, 1.0)
-            if all(self.tilting):
+            if min(self.sizes, default=0) > 2:
                 with suppress(EquilibriumError, ConvergenceError):
                     return self.solve(q, p, 1.0, downhill=True)
             for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
@@ -343,7 +350,7 @@ class RestEquations:
 
     def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
-        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], self.sizes)
+        lengths = np.repeat([min(clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
         forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
         forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
         misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
@@ -385,7 +392,7 @@ class RestEquations:
             return ""
         films = [relative_film(b, at) for b, at in zip(self.bearings, self.split(p), strict=True)]
         k = int(np.argmin(films))
-        row, clearance = sum(self.sizes[:k]), self.bearings[k].clearance
+        row, clearance = sum(self.sizes[:k]), clearance_of(self.bearings[k])
         others = copy(self)
         others.journals = np.delete(self.journals, np.s_[row : row + self.sizes[k]], axis=0)
         try:
@@ -422,10 +429,11 @@ class RestEquations:
     def _within(self, p: Array, step: Array) -> float:
         """Return the part of a step that leaves every journal at least half of its gap."""
         share = 1.0
-        moves = zip(self.bearings, self.split(p), self.split(step), self.tilting, strict=True)
-        for bearing, at, move, tilting in moves:
+        for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
+            if freedoms_of(bearing)[:2] != PLANAR:
+                continue
             # Balls push back wherever the shaft goes: no gap, but a way on which their force may change much.
-            gap = bearing.clearance if tilting else float(minimum_film(bearing, at))
+            gap = clearance_of(bearing) if len(at) > 2 else float(minimum_film(bearing, at))
             length = math.hypot(*move[:2])
             share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
         return share

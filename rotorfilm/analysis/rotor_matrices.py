@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -12,11 +12,11 @@ from scipy.linalg import block_diag, matrix_balance
 
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings
+from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes, both_planes, is_sparse
-from .modal_reduction import MARGIN, Condensed, film_rows, lu_solver, models, usual_frequency
+from .modal_reduction import MARGIN, Condensed, all_rows, film_rows, lu_solver, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
 
 
@@ -54,7 +54,7 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     damping = _turned(structure.damping, at.speed, structure.gyroscopic)
     stiffness = _turned(structure.stiffness, at.speed, structure.circulation)
     for name, film in at.coefficients.items():
-        rows = film_rows(structure, name, len(film.stiffness))
+        rows = film_rows(structure, name, freedoms_of(film))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
         if (added := added_mass(film)).any():
@@ -129,8 +129,7 @@ def motion_near(
 
 def journal_rows(structure: Structure, name: str) -> Array:
     """Return the displacement of a journal from its housing, shape (2, N)."""
-    k = structure.stations.index(name)
-    return structure.journals[2 * k : 2 * k + 2]
+    return film_rows(structure, name)
 
 
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.
@@ -269,12 +268,16 @@ class LeftOut:
         """Return K + i frequency C - frequency^2 M of all stations, over their displacements and tilts."""
         found = np.zeros((len(self.felt), len(self.felt)), dtype=complex)
         for name, film in at.coefficients.items():
-            k = 2 * self.stations.index(name)
-            places = [k, k + 1, k + 2 * len(self.stations), k + 1 + 2 * len(self.stations)]
-            own = places[: len(film.stiffness)]
+            own = self._places(name, freedoms_of(film))
             found[np.ix_(own, own)] += film.stiffness + 1j * frequency * film.damping
             found[np.ix_(own, own)] -= frequency**2 * added_mass(film)
         return found
+
+    def _places(self, station: str, freedoms: Sequence[str]) -> list[int]:
+        """Return where the freedoms of a station are among the rows of all stations."""
+        k, count = self.stations.index(station), 2 * len(self.stations)
+        first = {"x": 0, "y": 1, "tilt_x": count, "tilt_y": count + 1}
+        return [2 * k + first[name] for name in freedoms]
 
 
 def _pieces(s: Structure) -> list[Any]:
@@ -308,8 +311,7 @@ class FullRotorModel:
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
         self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
         films = at.coefficients
-        rows = [film_rows(structure, name, len(film.stiffness)) for name, film in films.items()]
-        self.rows = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
+        self.rows = all_rows(structure, films)
         none, found = np.zeros((0, 0)), films.values()
         self.films = [
             block_diag(none, *(film.stiffness for film in found)),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,32 +23,28 @@ from ..core.errors import (
     InputError,
     UndefinedDerivativeError,
     require_finite,
-    require_inside,
     require_kind,
     require_positive,
 )
 from ..core.inputs import arguments
-from ..core.model import Array, Dynamic, Linearization, Model, static_linearization, stops
+from ..core.model import Array, Dynamic, Linearization, Model, stops
 from ..core.port import (
     Bearings,
-    Force,
-    Reaction,
-    has_wall,
+    clearance_of,
+    freedoms_of,
     in_time,
-    prepared_force,
+    inertial,
     relative_film,
-    require_reaction,
     require_turned,
     require_turning,
     static_force,
-    static_slopes,
     takes_steps,
 )
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Signal, indices, names, units
+from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_names, names, units
 from ..rotors import MountedRotor, mount
-from ..rotors.mounted import AddedMassJournals
+from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
@@ -80,7 +76,7 @@ def simulate(
     ----------
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
-    reaction : Reaction, JFOFilm, or mapping of str to either
+    reaction : Any, JFOFilm, or mapping of str to either
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
         balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
         for each station by name; `mount` takes those of some stations where the last is of another kind.
@@ -129,7 +125,7 @@ def simulate(
             raise InputError(f"method must be None for films that step, got {method!r}")
         return simulate_steps(rotor, given, grid, duration, initial_state, max_step)
     by_station = given is reaction
-    films: dict[str, Reaction] = {name: in_time(film) for name, film in given.items()}
+    films: dict[str, Any] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if by_station and method is None and takes_forces(rotor, films.values()):
         return in_c(mount(rotor, films), initial_state=initial_state)
@@ -157,9 +153,7 @@ def simulate(
     return whole
 
 
-def _compiled(
-    rotor: Dynamic, film: Reaction, in_c: Callable[[MountedRotor], Trajectory]
-) -> Trajectory | None:
+def _compiled(rotor: Dynamic, film: Any, in_c: Callable[[MountedRotor], Trajectory]) -> Trajectory | None:
     """Return the compiled motion; None where it does not take rotor and film, or does not come to the end."""
     mounted = compiled_form(rotor, film)
     if mounted is None:
@@ -194,7 +188,7 @@ def _require_gap(system: Coupled, t: float, state: Array) -> None:
         where = f" of {journal.station!r}" if journal.station else ""
         raise ContactError(
             f"journal{where} reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
-            f"{journal.film.clearance!r} m is left"
+            f"{clearance_of(journal.reaction)!r} m is left"
         )
 
 
@@ -306,101 +300,35 @@ def _retreat(system: Coupled, t: float, wall: FilmContactError) -> float:
     return step
 
 
-# A rotor and the films at its journals joined into one system of ordinary differential equations.
+# A rotor and the films at its journals as one system of ordinary differential equations, for an integrator.
 
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
 
 
-class Journal(NamedTuple):
-    """A journal of a rotor and the film around it.
-
-    Attributes
-    ----------
-    station : str
-    film : Reaction
-    dynamic : Dynamic or None
-        The film, if it has a derivative. Kept because checks against protocols are slow.
-    walled : bool
-        Whether the film itself says where the journal touches.
-    call : Force or None
-        Force of a film without states, for plain numbers.
-    motion, force : list of int
-        Rotor outputs that the film takes, and rotor inputs that take its force.
-    inner : slice
-        States of the film in the state of the system.
-    """
-
-    station: str
-    film: Reaction
-    dynamic: Dynamic | None
-    walled: bool
-    call: Force | None
-    motion: list[int]
-    force: list[int]
-    inner: slice
-
-    def value(self, t: float, x: Array, at: Array) -> Array:
-        """Return the force on the journal [N] at the whole state and the motion (x, y, vx, vy, speed)."""
-        if self.call is None:
-            return self.film.output(t, x[self.inner], at)[: len(FORCE_OUTPUTS)]
-        return np.array(self.call(*at.tolist()))
-
-    def slopes(self, t: float, x: Array, at: Array) -> Linearization:
-        """Return the derivatives of the film at the same arguments."""
-        if self.film.states:
-            return self.film.linearization(t, x[self.inner], at)
-        return static_linearization(static_slopes(self.film, at[:2], at[2:4], at[4]))
-
-
-def connect(rotor: Dynamic, films: Bearings) -> list[Journal]:
-    """Return the journals of a rotor, wired to their films by the names of the signals.
+def connect(rotor: Dynamic, films: Bearings) -> MountedRotor:
+    """Return a rotor with films at all of its journals.
 
     Raises
     ------
     InputError
-        If the rotor lacks an output that a film needs or an input for its force, a single film leaves a
-        further input, which nobody would drive, or a film has states and such an input or no derivative.
+        If a film does not fit the rotor, or a single film leaves a further input, which nobody would drive.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    for station, film in films.items():
-        require_reaction(f"reaction[{station!r}]" if station else "reaction", film, heavy=True)
-    inputs, outputs = names(rotor.inputs), names(rotor.outputs)
-    first = FORCE_OUTPUTS[0]
+    inputs, first = names(rotor.inputs), FORCE_OUTPUTS[0]
     named = [name.removesuffix(f"_{first}") for name in inputs if name.endswith(f"_{first}")]
     if list(films) == [""] and named and first not in inputs:
         raise InputError(
             f"reaction must be a mapping with a film for each of the stations {named} of the rotor, such as "
             f"{{{named[0]!r}: film}}, got {films['']!r}"
         )
-    counts = [len(rotor.states), *(len(film.states) for film in films.values())]
-    speed = JOURNAL_INPUTS[-1:]
-    journals = []
-    for (station, film), (start, end) in zip(films.items(), pairwise(accumulate(counts)), strict=True):
-        motion, force = station_names(station)
-        dynamic = film if isinstance(film, Dynamic) else None
-        if film.states and dynamic is None:
-            raise InputError(f"reaction must have a derivative for its states, got {film!r}")
-        if film.states and names(film.inputs) != list(JOURNAL_INPUTS):
-            raise InputError(
-                f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(film.inputs)}"
-            )
-        journals.append(
-            Journal(
-                station=station,
-                film=film,
-                dynamic=dynamic if film.states else None,
-                walled=has_wall(film),
-                call=None if film.states else prepared_force(film),
-                motion=indices("rotor must have the outputs", outputs, [*motion, *speed]),
-                force=indices("rotor must have the inputs", inputs, force),
-                inner=slice(start, end),
-            )
-        )
-    if list(films) == [""] and len(inputs) > len(FORCE_OUTPUTS):
-        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
-    return journals
+    wired(rotor, films, "reaction")
+    mounted = MountedRotor(rotor=rotor, stations=tuple(films), bearings=tuple(films.values()))
+    if list(films) == [""] and mounted.inputs:
+        taken = force_names(freedoms_of(films[""]))
+        raise InputError(f"rotor must have no inputs but {taken}, got {inputs}")
+    return mounted
 
 
 class Coupled:
@@ -411,7 +339,7 @@ class Coupled:
     Parameters
     ----------
     rotor : Dynamic
-    films : mapping of str to Reaction
+    films : mapping of str to Any
         By station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
 
     Attributes
@@ -424,40 +352,41 @@ class Coupled:
 
     def __init__(self, rotor: Dynamic, films: Bearings) -> None:
         self.rotor = rotor
-        self.journals = connect(rotor, films)
+        self.mounted = connect(rotor, films)
         self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
         self.furthest = 0.0
-        self._no_force = np.zeros(len(rotor.inputs))
-        self._taken = [k for journal in self.journals for k in journal.force]
+        self._free = np.zeros(len(self.mounted.inputs))
+        self._no_input = np.zeros(len(rotor.inputs))
         self._split = len(rotor.states)
-        self._heavy = AddedMassJournals(
-            [journal.film for journal in self.journals], [journal.motion for journal in self.journals]
-        )
+
+    @property
+    def mounts(self) -> list[Mount]:
+        """The films in their stations."""
+        return self.mounted.mounts
 
     @property
     def initial_state(self) -> Array:
         """The state of rotor and films at t = 0."""
-        films = [j.dynamic.initial_state for j in self.journals if j.dynamic is not None]
-        return np.concatenate([self.rotor.initial_state, *films])
+        return self.mounted.initial_state
 
     def scale(self) -> Array:
         """Return the magnitude of each state: a film's nominal value where it has the same signal."""
         nominal = {
-            prefixed(j.station, signal).name: signal.nominal
-            for j in self.journals
-            for signal in j.film.inputs
+            prefixed(m.station, signal).name: signal.nominal
+            for m in self.mounts
+            for signal in m.reaction.inputs
         }
         rotor = [nominal.get(signal.name, signal.nominal) for signal in self.rotor.states]
-        return np.array([*rotor, *(signal.nominal for j in self.journals for signal in j.film.states)])
+        return np.array([*rotor, *(signal.nominal for m in self.mounts for signal in m.reaction.states)])
 
     def sensed(self, t: float, x: Array) -> Array:
         """Return the outputs of the rotor at a state."""
-        return self.rotor.output(t, x[: self._split], self._no_force)
+        return self.rotor.output(t, x[: self._split], self._no_input)
 
-    def closest(self, t: float, x: Array) -> tuple[float, Journal]:
+    def closest(self, t: float, x: Array) -> tuple[float, Mount]:
         """Return the least film of all journals, relative to its clearance [1], and the journal."""
         sensed = self.sensed(t, x)
-        films = [(relative_film(j.film, sensed[j.motion[:2]]), j) for j in self.journals]
+        films = [(relative_film(m.reaction, sensed[m.motion[: m.size]]), m) for m in self.mounts]
         return min(films, key=lambda each: each[0])
 
     def derivative(self, t: float, x: Array) -> Array:
@@ -471,38 +400,16 @@ class Coupled:
             If a film answers with something that is not finite.
         """
         self.furthest = max(self.furthest, t)
-        sensed = self.sensed(t, x)
-        rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, sensed))
-        films = [
-            j.dynamic.derivative(t, x[j.inner], sensed[j.motion])
-            for j in self.journals
-            if j.dynamic is not None
-        ]
-        return np.concatenate([rotor, *films]) if films else rotor
+        self.work["film_evaluations"] += len(self.mounts)
+        return self.mounted.derivative(t, x, self._free)
 
     def jacobian(self, t: float, x: Array) -> Array:
         """Return d(dx/dt)/dx: the rotor's own, plus those of the films through the wiring."""
         self.work["jacobians"] += 1
+        self.work["film_evaluations"] += len(self.mounts)
         sensed = self.sensed(t, x)
-        u = self._input(t, x, sensed)
-        rotor = self.rotor.linearization(t, x[: self._split], u)
-        whole, rows = np.zeros((len(x), len(x))), []
-        whole[: self._split, : self._split] = rotor.A
-        for journal in self.journals:
-            film, motion = self._slopes(journal, t, x, u, sensed), rotor.C[journal.motion]
-            whole[journal.inner, : self._split] = film.B @ motion
-            whole[journal.inner, journal.inner] = film.A
-            row = np.zeros((len(FORCE_OUTPUTS), len(x)))
-            row[:, : self._split] = film.D[: len(row)] @ motion
-            row[:, journal.inner] = film.C[: len(row)]
-            rows.append(row)
-        push, forces = rotor.B[:, self._taken], np.concatenate(rows)
-        if self._heavy:
-            own = x[: self._split]
-            rates, sensed = self.rotor.derivative(t, own, u), self.rotor.output(t, own, u)
-            forces, _ = self._heavy.slopes(rotor, push, push[:, :0], sensed, forces, rates)
-        whole[: self._split] += push @ forces
-        return whole
+        parts = [self._slopes(station, t, x, sensed) for station in self.mounts]
+        return self.mounted.joined(t, x, self._free, parts).A
 
     def film_outputs(self, time: Array, sensed: Array, states: Array) -> Array:
         """Return what the films add to a trajectory: their outputs and states, shape (n_signals, n).
@@ -512,78 +419,64 @@ class Coupled:
         time, sensed, states : ndarray, shapes (n,), (n_outputs, n) and (n_states, n)
             The outputs are those of the rotor, the states those of rotor and films.
         """
-        pulls = zip(time, states.T, sensed.T, strict=True) if self._heavy else ()
-        heavy = [self._input(*moment)[self._taken] for moment in pulls]
-        rows = []
-        for k, journal in enumerate(self.journals):
-            at, inner = sensed[journal.motion], states[journal.inner]
-            if journal.call is None:
-                pairs = zip(time, inner.T, at.T, strict=True)
-                outputs = [journal.film.output(t, x, u) for t, x, u in pairs]
-                shown = np.reshape(outputs, (len(time), len(journal.film.outputs))).T
+        heavy, rows = self._heavy_forces(time, states), []
+        for station in self.mounts:
+            at, inner, n = sensed[station.motion], states[station.inner], station.size
+            if station.call is None:
+                moments = zip(time, states.T, at.T, strict=True)
+                outputs = [station.output(*moment) for moment in moments]
+                shown = np.reshape(outputs, (len(time), len(station.reaction.outputs))).T
+                shown = shown if len(inner) else shown[:n]
             else:
-                shown = np.array(static_force(journal.film, at[:2], at[2:4], at[4]))
-            if self._heavy:
-                shown[:2] = np.reshape(heavy, (len(time), len(self._taken))).T[2 * k : 2 * k + 2]
+                shown = np.array(static_force(station.reaction, at[:n], at[n : 2 * n], at[-1]))
+            if heavy:
+                forces = station_names(station.station, freedoms_of(station.reaction))[1]
+                shown[:n] = [heavy[name] for name in forces]
             rows += [shown, inner]
         return np.concatenate(rows)
+
+    def _heavy_forces(self, time: Array, states: Array) -> dict[str, Array]:
+        """Return the forces of all films with those of their added masses, by name; none without masses."""
+        if not any(inertial(station.reaction) for station in self.mounts):
+            return {}
+        pairs = zip(time, states.T, strict=True)
+        rows = np.reshape([self.mounted.output(t, x, self._free) for t, x in pairs], (len(time), -1)).T
+        return dict(zip(names(self.mounted.outputs), rows, strict=False))
 
     def film_signals(self) -> list[Signal]:
         """Return the signals of `film_outputs`."""
         known = []
-        for j in self.journals:
-            outputs = j.film.outputs if j.film.states else j.film.outputs[: len(FORCE_OUTPUTS)]
-            known += [prefixed(j.station, signal) for signal in (*outputs, *j.film.states)]
+        for station in self.mounts:
+            film = station.reaction
+            outputs = film.outputs if film.states else film.outputs[: station.size]
+            known += [prefixed(station.station, signal) for signal in (*outputs, *film.states)]
         return known
 
-    def _input(self, t: float, x: Array, sensed: Array) -> Array:
-        """Return the rotor's input where its outputs are `sensed`: the forces of the films."""
-        u = self._no_force.copy()
-        for journal in self.journals:
-            at = sensed[journal.motion]
-            if not journal.walled:
-                require_inside(at[:2], journal.film.clearance, f" at t = {t:.9g} s")
-            self.work["film_evaluations"] += 1
-            force = journal.value(t, x, at)
-            if not np.all(np.isfinite(force)):
-                raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
-            u[journal.force] = force
-        return self._with_mass(t, x[: self._split], u) if self._heavy else u
-
-    def _with_mass(self, t: float, x: Array, u: Array) -> Array:
-        """Return the rotor's input with the forces of the films' added masses."""
-        rotor, sensed = self.rotor.linearization(t, x, u), self.rotor.output(t, x, u)
-        push, order = rotor.B[:, self._taken], self._taken
-        whole = u.copy()
-        whole[order] = self._heavy.forces(rotor, push, sensed, u[order], self.rotor.derivative(t, x, u))
-        return whole
-
-    def _slopes(self, journal: Journal, t: float, x: Array, u: Array, sensed: Array) -> Linearization:
-        at = sensed[journal.motion]
+    def _slopes(self, station: Mount, t: float, x: Array, sensed: Array) -> Linearization:
+        at = sensed[station.motion]
         with suppress(UndefinedDerivativeError):
-            return journal.slopes(t, x, at)
-        at = self._nudged(journal, t, x, u, at)
+            return station.slopes(t, x, at)
+        at = self._nudged(station, t, x, at)
         with suppress(UndefinedDerivativeError):
-            return journal.slopes(t, x, at)
+            return station.slopes(t, x, at)
         moved = x.copy()
-        moved[journal.inner] += NUDGE * np.array([signal.nominal for signal in journal.film.states])
-        return journal.slopes(t, moved, at)
+        moved[station.inner] += NUDGE * np.array([signal.nominal for signal in station.reaction.states])
+        return station.slopes(t, moved, at)
 
-    def _nudged(self, journal: Journal, t: float, x: Array, u: Array, at: Array) -> Array:
+    def _nudged(self, station: Mount, t: float, x: Array, at: Array) -> Array:
         """Return the journal state with a trace of the velocity that it is about to have.
 
         A film without source has no derivative, but one along every direction of departure: the journal
         leaves along its acceleration, read from the change of the outputs along dx/dt.
         """
-        own = x[: self._split]
-        rotor = self.rotor.linearization(t, own, u)
-        rate = rotor.C[journal.motion] @ self.rotor.derivative(t, own, u)
-        acceleration = rate[2:4]
-        norm = float(np.hypot(*acceleration))
-        direction = acceleration / norm if norm > 0.0 else np.array([1.0, 0.0])
-        nominal = journal.film.inputs[2].nominal
+        own, n = x[: self._split], station.size
+        rates = self.mounted.derivative(t, x, self._free)[: self._split]
+        rotor = self.rotor.linearization(t, own, self._no_input)
+        acceleration = rotor.C[station.motion[n : 2 * n]] @ rates
+        norm = float(np.linalg.norm(acceleration))
+        direction = acceleration / norm if norm > 0.0 else np.eye(n)[0]
         nudged = at.copy()
-        nudged[2:4] += NUDGE * nominal * direction
+        nudged[n : 2 * n] += NUDGE * station.reaction.inputs[n].nominal * direction
         return nudged
 
 

@@ -11,12 +11,13 @@ import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings
+from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .coefficients import film_coefficients
 from .equilibrium import equilibrium
+from .modal_reduction import film_rows
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import (
     CONVERGED,
@@ -24,7 +25,6 @@ from .rotor_matrices import (
     ROUNDED,
     coefficients_near,
     dynamics,
-    journal_rows,
     rest_near,
     second_order,
     whirl_near,
@@ -243,7 +243,7 @@ def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
     for name, (stiffness, damping) in coefficient_rates(turning, whirl.at, s, STEP).items():
-        rows = journal_rows(structure, name)
+        rows = film_rows(structure, name, freedoms_of(whirl.at.coefficients[name]))
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
     _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
     return complex(-(left @ changed) / (left @ slope @ right))

@@ -25,7 +25,7 @@ from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
 from ..rotors.structure import mean_plane
-from .closed_loop import HOUSING, frequency_response, synchronous_response
+from .closed_loop import frequency_response, synchronous_response
 from .rotor_equilibrium import RotorEquilibrium
 from .rotor_matrices import journal_rows
 from .rotor_modes import rotor_modes
@@ -246,7 +246,7 @@ def _require_covered(speeds: Array, minimum_speed: float, maximum_speed: float) 
 
 
 def _is_displacement(name: str) -> bool:
-    return name.rpartition("_")[2] in ("x", "y") and not name.endswith((*HOUSING, "force_x", "force_y"))
+    return name.rpartition("_")[2] in ("x", "y") and not name.endswith(("force_x", "force_y"))
 
 
 def _peaks(

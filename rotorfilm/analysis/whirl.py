@@ -27,6 +27,7 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
     Reaction,
+    clearance_of,
     coefficients_of,
     has_own_stiffness,
     has_states,
@@ -64,7 +65,7 @@ def whirl_threshold(
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : Any
         The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
         of one that conserves its oil, rotor and oil by K(s): the result is a `VerifiedThreshold`.
     load : array_like, shape (2,) [N]
@@ -106,7 +107,7 @@ def whirl_threshold(
     require_positive("mass", mass)
     force = checked_load(load)
     speeds = _speeds(
-        *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+        *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (clearance_of(reaction) * mass)))
     )
     passed: list[str] = []
     search = _settling if has_states(reaction) else _searched
@@ -159,7 +160,7 @@ def _passing(passed: list[str]) -> Iterator[None]:
 
 
 def _searched(
-    reaction: Reaction, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
+    reaction: Any, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
 ) -> WhirlThreshold:
     """Return the threshold by stiffness and damping at the equilibria, from the first speed that has one."""
     stable: list[bool] = []
@@ -177,7 +178,7 @@ def _searched(
 
 
 def _settling(
-    reaction: Reaction, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
+    reaction: Any, load: Array, mass: float, speeds: Array, first: int, passed: list[str]
 ) -> WhirlThreshold:
     """Return the threshold by the exponents of rotor and bearing together."""
 
@@ -230,7 +231,7 @@ def _speeds(low: float, high: float) -> Array:
     return np.geomspace(low, high, points)
 
 
-def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
+def _first_carried(reaction: Any, load: Array, speeds: list[float]) -> int:
     """Return the place of the lowest speed that carries the load, by bisection; past the end if none does.
 
     A failed search costs far more than one that finds its equilibrium.
@@ -255,7 +256,7 @@ def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
 
 
 def _refined(
-    reaction: Reaction,
+    reaction: Any,
     load: Array,
     mass: float,
     bracket: tuple[Coefficients, Coefficients],
@@ -505,7 +506,7 @@ class VerifiedThreshold(WhirlThreshold):
     growing_above: int
 
 
-def counted_threshold(reaction: Reaction, found: WhirlThreshold) -> VerifiedThreshold:
+def counted_threshold(reaction: Any, found: WhirlThreshold) -> VerifiedThreshold:
     """Return a threshold with the numbers of exponents that grow beside it.
 
     Raises
@@ -520,7 +521,7 @@ def counted_threshold(reaction: Reaction, found: WhirlThreshold) -> VerifiedThre
     assert at is not None
     assert mass is not None
     beside = (speed * (1.0 - BESIDE), speed * (1.0 + BESIDE))
-    rests = [equilibrium(reaction, at.load, one) for one in beside]  # type: ignore[arg-type]
+    rests = [equilibrium(reaction, at.load, one) for one in beside]
     below, above = (rigid_growing(_film(reaction, rest), mass) for rest in rests)
     if below or not above:
         raise ConvergenceError(
@@ -530,7 +531,7 @@ def counted_threshold(reaction: Reaction, found: WhirlThreshold) -> VerifiedThre
     return VerifiedThreshold(**vars(found), growing_below=below, growing_above=above)
 
 
-def threshold_near(reaction: Reaction, load: ArrayLike, mass: float, start: float) -> VerifiedThreshold:
+def threshold_near(reaction: Any, load: ArrayLike, mass: float, start: float) -> VerifiedThreshold:
     """Return the onset of whirl nearest to a speed [rad/s], found by the whirl at about half the speed.
 
     Only that whirl is followed, so that a speed takes a tenth of what a count does; what grows beside the
@@ -564,7 +565,7 @@ def threshold_near(reaction: Reaction, load: ArrayLike, mass: float, start: floa
     )
 
 
-def _film(reaction: Reaction, at: Equilibrium) -> FrequencyDependentCoefficients:
+def _film(reaction: Any, at: Equilibrium) -> FrequencyDependentCoefficients:
     film = settled(reaction, at.position, at.speed)
     found = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     return cast(FrequencyDependentCoefficients, found)

@@ -23,6 +23,7 @@ from ..core.inputs import quantities
 from ..core.model import Array, Linearization, static_linearization
 from ..core.port import (
     Force,
+    PlanarReaction,
     Reaction,
     Tangent,
     carries_load,
@@ -63,10 +64,10 @@ def _require_part(name: str, part: Any) -> None:
         )
 
 
-def _at_rest(part: Any, position: Array, speed: float) -> Linearization:
-    """Return the derivatives of a part whose states rest; those that drift are held."""
+def _at_rest(part: Any, position: Array, speed: float, follows: bool) -> Linearization:
+    """Return the derivatives of a part whose states rest, and follow the shaft or are held."""
     n = len(position)
-    if not has_states(part):
+    if not follows:
         return static_linearization(static_slopes(part, position, np.zeros(n), speed))
     A, B, C, D = rest_linearization(part, position, speed)
     if D.shape[1] > 2 * n:
@@ -314,9 +315,14 @@ class Parallel(SharedReaction):
         return np.concatenate([rest_state(one, q[rows], speed) for one, rows, _, _ in self._places])
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
-        """Return the derivatives with all states at rest; see `core.port`."""
-        q = require_finite("position", position)
-        return self._joined([_at_rest(one, q[rows], speed) for one, rows, _, _ in self._places])
+        """Return the derivatives with all states at rest; see `core.port`.
+
+        States that drift, as wear, are held beside those that rest.
+        """
+        q, held = require_finite("position", position), self.has_states
+        follow = [has_states(one) if held else bool(one.states) for one in self.reactions]
+        places = zip(self._places, follow, strict=True)
+        return self._joined([_at_rest(one, q[rows], speed, moves) for (one, rows, _, _), moves in places])
 
     def _joined(self, parts: Sequence[Linearization]) -> Linearization:
         """Return the derivatives of the sum from those of the reactions."""
@@ -509,7 +515,12 @@ class Series:
         inner, outer = self._apart(q, self._resting_body(q, speed))
         felt = np.concatenate([outer, np.zeros(len(outer) + 1)])
         still = np.zeros((len(self._shared), len(felt)))
-        return self._joined(_at_rest(self.inner, inner, speed), _at_rest(self.outer, outer, 0.0), felt, still)
+        return self._joined(
+            _at_rest(self.inner, inner, speed, has_states(self.inner)),
+            _at_rest(self.outer, outer, 0.0, has_states(self.outer)),
+            felt,
+            still,
+        )
 
     @cached_property
     def _shared(self) -> tuple[str, ...]:
@@ -627,7 +638,7 @@ class Sprung(SharedReaction):
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : PlanarReaction
         Such as a `PorousDamper`.
     stiffness : float [N/m], or 2 or 2 x 2 numbers
         Of the springs together: along either axis, along x and y, or rows for force x, y.
@@ -638,11 +649,11 @@ class Sprung(SharedReaction):
         If the reaction is none, reacts to more than x and y or has states, or the stiffness is not positive.
     """
 
-    reaction: Reaction
+    reaction: PlanarReaction
     stiffness: Stiffness
 
     def __post_init__(self) -> None:
-        require_kind("reaction", self.reaction, Reaction, "a Reaction such as a PorousDamper")
+        require_kind("reaction", self.reaction, PlanarReaction, "a PlanarReaction such as a PorousDamper")
         require_reaction("reaction", self.reaction, heavy=True, planar=True)
         if getattr(self.reaction, "states", ()):
             raise InputError(
@@ -664,7 +675,7 @@ class Sprung(SharedReaction):
         return not isinstance(self.stiffness, tuple)
 
     @property
-    def reactions(self) -> tuple[Reaction]:
+    def reactions(self) -> tuple[PlanarReaction]:
         """The reaction alone: its springs add no mass, and have no wall."""
         return (self.reaction,)
 

@@ -18,6 +18,7 @@ from ..charts import (
     plot_thresholds,
     save,
 )
+from ..core.port import clearance_of
 from ..core.results import Trajectory
 from ..scenes.demo import ECCENTRICITY_RATIOS, DemoResult, demo_rungs
 from ..studies import FilmFamily
@@ -72,7 +73,7 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
         verdict = " (refused)" if run.refused else ""
         orbits[f"coupled, {math.degrees(run.macro_angle):.3g} deg{verdict}"] = run.trajectory
     center = result.answer.equilibrium.position
-    return plot_orbits(orbits, clearance=result.scene.bearing.clearance, center=center, axes=axes)
+    return plot_orbits(orbits, clearance=clearance_of(result.scene.bearing), center=center, axes=axes)
 
 
 def _draw_locus(result: DemoResult) -> Axes:

@@ -19,12 +19,13 @@ from .errors import (
     FilmContactError,
     InputError,
     brief,
+    require_finite,
     require_kind,
     require_number,
 )
 from .model import Array, Dynamic, Linearization, Model, static_linearization
 from .results import FrequencyDependentCoefficients, ReducedCoefficients
-from .signals import PLANAR, force_names, names, place_names
+from .signals import PLANAR, Signal, force_names, names, place_names
 
 Complex = NDArray[np.complex128]
 
@@ -57,6 +58,31 @@ class Reaction(Model, Protocol):
     - `carries_load`, False of a reaction that takes no share of the weight, as a seal;
     - `portable()`, an equal object that holds what it would make on first use, for an FMU.
     """
+
+
+@runtime_checkable
+class PlanarReaction(Reaction, Protocol):
+    """A Reaction to x and y with its force for batches: the fast path of searches and orbits."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]: the journal center stays within this distance of the origin."""
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force on the journal [N], shape (2, ...).
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z, either sign.
+        """
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
 Bearings = Mapping[str, Reaction]
@@ -114,6 +140,8 @@ def require_reactions(name: str, values: object, *, heavy: bool = False, over_ti
 
 def require_terminals(name: str, reaction: Reaction) -> None:
     """Raise InputError unless a reaction takes the motion of its freedoms and the speed, and nothing else."""
+    if reaction.states and not isinstance(reaction, Dynamic):
+        raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
     freedoms = freedoms_of(reaction)
     taken, wanted = names(reaction.inputs), [*place_names(freedoms), "speed"]
     if taken != wanted:
@@ -121,8 +149,16 @@ def require_terminals(name: str, reaction: Reaction) -> None:
     given, forces = names(reaction.outputs), force_names(freedoms)
     if given[: len(forces)] != forces:
         raise InputError(f"{name} must have outputs that begin with {forces}, got {given}")
-    if reaction.states and not isinstance(reaction, Dynamic):
-        raise InputError(f"{name} must have a derivative for its states, got {reaction!r}")
+
+
+def require_place(reaction: object, position: ArrayLike, name: str = "position") -> Array:
+    """Return a place of the shaft as an array, shape (n,); raise InputError where it breaks a rule."""
+    freedoms, place = freedoms_of(reaction), require_finite(name, position)
+    if place.shape != (len(freedoms),):
+        raise InputError(
+            f"{name} must have shape ({len(freedoms)},) for {', '.join(freedoms)}, got shape {place.shape}"
+        )
+    return place
 
 
 def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: ArrayLike) -> Array:
@@ -438,6 +474,14 @@ def has_states(reaction: Any) -> bool:
     )
 
 
+def drifts(reaction: Any) -> bool:
+    """Return whether a reaction has states that hardly move within a turn, as wear or a temperature.
+
+    Coefficients hold them where they are, unless a frequency is named.
+    """
+    return is_warming(reaction) or bool(getattr(reaction, "states", ()))
+
+
 def quasi_static(reaction: Any) -> Any:
     """Return a reaction with its states at rest under a shaft at rest; itself where it has none."""
     own = getattr(reaction, "at_rest", None)
@@ -563,6 +607,12 @@ class QuasiStatic:
         """That of the reaction [m]."""
         return clearance_of(self.reaction)
 
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Those of the reaction."""
+        signals: tuple[Signal, ...] = self.reaction.inputs
+        return signals
+
     def minimum_film(self, position: Array) -> Array:
         """Return the least film of the reaction [m]."""
         return minimum_film(self.reaction, position)
@@ -645,7 +695,7 @@ class StatesStiffness:
         A, B, C, D = self.at
         n, size = len(C), len(A)
         push = np.hstack([D[:, : 2 * n], C])
-        push = np.linalg.solve(mass, push) if np.ndim(mass) else push / mass
+        push = np.linalg.solve(np.asarray(mass, dtype=float), push) if np.ndim(mass) else push / mass
         whole = np.vstack([np.eye(n, 2 * n + size, n), push, np.hstack([B[:, : 2 * n], A])])
         values = np.linalg.eigvals(whole).astype(complex)
         return values[np.argsort(-values.real)]
@@ -685,7 +735,11 @@ def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: floa
 
 
 def coefficients_of(
-    motion: DynamicStiffness, position: Array, speed: float, frequency: float | None = None
+    motion: DynamicStiffness,
+    position: Array,
+    speed: float,
+    frequency: float | None = None,
+    freedoms: tuple[str, ...] = PLANAR,
 ) -> ReducedCoefficients:
     """Return Re K(i nu) and Im K(i nu)/nu, with their limits at 0.
 
@@ -698,11 +752,12 @@ def coefficients_of(
         Where the journal rests.
     frequency : float, optional [rad/s]
         nu; by default that of the shaft.
+    freedoms : tuple of str
     """
     nu = abs(speed) if frequency is None else require_number("frequency", frequency)
     K, slope = motion(1j * nu) if nu == 0.0 else (motion.stiffness(1j * nu), None)
     damping = K.imag / nu if slope is None else slope.real
     found = ReducedCoefficients(
-        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu
+        stiffness=K.real, damping=damping, position=position, speed=speed, frequency=nu, freedoms=freedoms
     )
     return found if frequency is not None else FrequencyDependentCoefficients(**vars(found), motion=motion)

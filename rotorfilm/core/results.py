@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from .errors import RotorfilmError, require_each, require_finite
 from .files import write_atomically
 from .readable import Drawable, Item, Readable, Row, rows_of
+from .signals import PLANAR
 
 Array = NDArray[np.float64]
 
@@ -61,17 +62,17 @@ class Equilibrium(Readable):
     Attributes
     ----------
     position : ndarray, shape (2,) [m]
-        Journal center from the bearing center.
+        Journal center from the bearing center; with other freedoms the place in these, shape (n,).
     speed : float [rad/s]
         Angular speed about +z.
     load : ndarray, shape (2,) [N]
-        External static force on the journal.
+        External static force on the journal, and moments [N m] where the reaction has tilts.
     eccentricity_ratio : float [1]
-        |position| / clearance.
+        |position| / clearance; 0 without a clearance.
     attitude_angle : float [rad]
-        Angle from the load line to the journal center, in the sense of rotation.
+        Angle from the load line to the journal center, in the sense of rotation; 0 without x and y.
     minimum_film : float [m]
-        clearance - |position|.
+        clearance - |position|; infinite without a clearance.
     residual : float [1]
         |film force + load| / |load|.
     iterations : int
@@ -117,22 +118,28 @@ class Equilibrium(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class Coefficients(Readable):
-    """Stiffness K = -dF/dq and damping C = -dF/dv of a film at a position, F being the force on the journal.
+    """Stiffness K = -dF/dq and damping C = -dF/dv of a reaction at a place, F being the force on the shaft.
 
     Attributes
     ----------
     stiffness : ndarray, shape (2, 2) [N/m]
-        Rows: force x, y; columns: position x, y.
+        Rows: force x, y; columns: position x, y. With other freedoms shape (n, n), in N m and rad for tilts.
     damping : ndarray, shape (2, 2) [N s/m]
         Rows: force x, y; columns: velocity x, y.
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
+    freedoms : tuple of str
+        The motions of the shaft that rows and columns are of.
     """
 
     stiffness: Array
     damping: Array
     position: Array
     speed: float
+    freedoms: InitVar[tuple[str, ...]] = PLANAR
+
+    def __post_init__(self, freedoms: tuple[str, ...]) -> None:
+        object.__setattr__(self, "freedoms", freedoms)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +194,8 @@ class FrequencyDependentCoefficients(ReducedCoefficients):
 
     motion: InitVar[Any] = None
 
-    def __post_init__(self, motion: Any) -> None:
+    def __post_init__(self, freedoms: tuple[str, ...], motion: Any) -> None:
+        super().__post_init__(freedoms)
         if motion is None:
             raise TypeError("motion must be the stiffness of the film over s, got None")
         object.__setattr__(self, "_motion", motion)
@@ -206,10 +214,11 @@ class FrequencyDependentCoefficients(ReducedCoefficients):
         """
         K, slope = self.dynamic_stiffness(s)
         return Coefficients(
-            stiffness=K - s * slope,  # type: ignore[arg-type]
-            damping=slope,  # type: ignore[arg-type]
+            stiffness=K - s * slope,
+            damping=slope,
             position=self.position,
             speed=self.speed,
+            freedoms=vars(self)["freedoms"],
         )
 
 

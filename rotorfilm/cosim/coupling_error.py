@@ -15,7 +15,7 @@ from scipy.linalg import expm
 from ..core.answers import DISAGREEMENT
 from ..core.errors import PartialResultError, UndefinedDerivativeError
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import PlanarReaction
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
@@ -89,7 +89,7 @@ class CouplingCase:
     ----------
     rotor : RigidRotor
         At constant speed.
-    reaction : Reaction
+    reaction : PlanarReaction
         Without states.
     revolutions : float [1]
         Length of a run.
@@ -98,7 +98,7 @@ class CouplingCase:
     """
 
     rotor: RigidRotor
-    reaction: Reaction
+    reaction: PlanarReaction
     revolutions: float
     film: str = ""
 
@@ -230,7 +230,7 @@ class _Replay(PartnerInterface):
         return self._following
 
 
-def samples_of(reaction: Reaction, run: Trajectory, speed: float) -> list[Sample]:
+def samples_of(reaction: PlanarReaction, run: Trajectory, speed: float) -> list[Sample]:
     """Return the communication points of a motion at constant speed [rad/s], with the films' derivatives."""
     time, q, v = run.time, run.position, run.velocity
     forces = reaction.force(q, v, np.full(time.size, speed))
@@ -416,7 +416,9 @@ def _rates(rotor: RigidRotor, laws: Sequence[ForceLaw], dt: Array) -> tuple[Arra
     return M, which.ravel()
 
 
-def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motion: InnerMotion) -> Drift:
+def drift(
+    rotor: RigidRotor, reaction: PlanarReaction, laws: Sequence[ForceLaw], motion: InnerMotion
+) -> Drift:
     """Return how far a coupled run is off.
 
     The force of the film changes from the run to the motion that is sought by its mean slopes between them:

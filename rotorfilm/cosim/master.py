@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from os import PathLike
+from typing import cast
 
 import numpy as np
 
@@ -116,7 +117,7 @@ def _run(
         def opened(film: Film) -> Slave:
             if isinstance(film, str | PathLike):
                 return stack.enter_context(open_fmu(film))
-            return SteppedPartner(film) if takes_steps(film) else InProcessSlave(film)
+            return SteppedPartner(film) if takes_steps(film) else InProcessSlave(cast(Model, film))
 
         if isinstance(rotor, str | PathLike):
             first: Slave = stack.enter_context(open_rotor(rotor, held=not scheme.needs.laws))

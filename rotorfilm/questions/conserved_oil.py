@@ -14,6 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..analysis import equilibrium
+from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
 from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import InputError, RotorfilmError
@@ -57,7 +58,7 @@ class FilmEquilibrium(JournalEquilibrium):
         """K and C: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
         film, at = self.reaction, self.at
         if isinstance(film, JFOFilm):
-            return film.coefficients(at.position, at.speed)
+            return film_coefficients(film, at.position, at.speed)
         slopes = tangent(film, at.position, at.speed, smooth=True)[1]
         return Corrected(position=at.position, slopes=slopes, doubt="")
 

@@ -54,7 +54,7 @@ from ..core.errors import (
     RotorfilmError,
 )
 from ..core.model import Array
-from ..core.port import Reaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
+from ..core.port import PlanarReaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..scenes.damper_films import (
@@ -111,12 +111,12 @@ class DamperCurveRung(CandidateRung):
         return self.quantity in (UP, DOWN)
 
     @cached_property
-    def support(self) -> Reaction:
+    def support(self) -> PlanarReaction:
         """Film and springs."""
         return sprung(self.film.reaction, self.stiffness)
 
     @cached_property
-    def search(self) -> Reaction:
+    def search(self) -> PlanarReaction:
         """Film and springs that are quick enough for hundreds of orbits."""
         slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
         return sprung(self.film.moving, self.stiffness) if slow else self.support
@@ -357,7 +357,7 @@ class DamperPeakRung(PeakRung):
     duration: float
 
     @cached_property
-    def support(self) -> Reaction:
+    def support(self) -> PlanarReaction:
         """Film and springs, the film on its map where it has one."""
         return sprung(self.film.moving, self.stiffness)
 
@@ -367,7 +367,7 @@ class DamperPeakRung(PeakRung):
         return prepared_tangent(self.support)
 
     @cached_property
-    def rich(self) -> Reaction | None:
+    def rich(self) -> PlanarReaction | None:
         """The richer film and the springs; None if there is none."""
         found = self.film.rich_moving
         return None if found is None else sprung(found, self.stiffness)
@@ -458,7 +458,7 @@ class DamperPeakRung(PeakRung):
         states.velocity[:, 0] = 1e-3 * states.velocity[:, 1]
         return states
 
-    def _by_defect(self, motion: MarchMotion, value: float, rich: Reaction) -> tuple[float, str, int]:
+    def _by_defect(self, motion: MarchMotion, value: float, rich: PlanarReaction) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""
         states = self._sampled(motion)
         q, calls = states.position, states.position.shape[1]
@@ -474,7 +474,7 @@ class DamperPeakRung(PeakRung):
         return {self.tangents: 3 * self.grid(self.steps)[1]} if self.steps else {}
 
 
-def _reach(reaction: Reaction) -> float:
+def _reach(reaction: PlanarReaction) -> float:
     return min(0.999, largest_eccentricity_ratio(reaction))
 
 

@@ -5,29 +5,152 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate, pairwise
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import InputError, require_kind
+from ..core.errors import ConvergenceError, InputError, require_inside, require_kind
 from ..core.inputs import arguments, quantities
-from ..core.model import Array, Dynamic, Linearization
+from ..core.model import Array, Dynamic, Linearization, Model, static_linearization
 from ..core.port import (
     Bearings,
+    Force,
     Reaction,
+    clearance_of,
+    freedoms_of,
+    has_wall,
     in_time,
     inertial,
+    mass_of,
+    prepared_force,
     require_reaction,
     require_reactions,
+    require_terminals,
     require_turning,
+    static_slopes,
 )
-from ..core.signals import JOURNAL_INPUTS, Signal, indices, names
+from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec
 from .profile import SpeedProfile
 from .rigid import RigidRotor, native_parameter
-from .structure import AroundRotor, FlexibleRotor, Operators, prefixed
+from .structure import AroundRotor, FlexibleRotor, Operators, prefixed, station_names
+
+
+class Mount(NamedTuple):
+    """A reaction in its station, wired to the rotor by the names of the signals.
+
+    Attributes
+    ----------
+    station : str
+    reaction : Reaction
+    motion, force : list of int
+        Outputs of the rotor that the reaction takes: places, rates, speed; inputs that take its forces.
+    inner : slice
+        Its states in the state of the system.
+    call : Force or None
+        Force of a planar reaction without states, for plain numbers.
+    alone : bool
+        Whether its forces are all its outputs.
+    clearance : float [m]
+        Radius of the circle in which its journal stays; infinite where the reaction says itself what touches.
+    """
+
+    station: str
+    reaction: Reaction
+    motion: list[int]
+    force: list[int]
+    inner: slice
+    call: Force | None
+    alone: bool
+    clearance: float
+
+    @property
+    def size(self) -> int:
+        """Number of its freedoms."""
+        return len(self.force)
+
+    def push(self, t: float, x: Array, at: Array) -> Array:
+        """Return the forces of the reaction at the whole state and what it feels.
+
+        Raises
+        ------
+        FilmContactError
+            If the journal is not inside its clearance.
+        ConvergenceError
+            If the reaction answers with something that is not finite.
+        """
+        return self._checked(t, x, at)[: self.size]
+
+    def output(self, t: float, x: Array, at: Array) -> Array:
+        """Return all outputs of the reaction, its forces first; it raises what `push` raises."""
+        if self.call is None or self.alone:
+            return self._checked(t, x, at)
+        return np.asarray(self.reaction.output(t, x[self.inner], at))
+
+    def _checked(self, t: float, x: Array, at: Array) -> Array:
+        if self.clearance < np.inf:
+            require_inside(at[:2], self.clearance, f" at t = {t:.9g} s")
+        if self.call is None:
+            found = np.asarray(self.reaction.output(t, x[self.inner], at))
+        else:
+            found = np.array(self.call(*at.tolist()))
+        if not np.all(np.isfinite(found)):
+            raise ConvergenceError(f"film force must be finite, got {found} at t = {t:.9g} s")
+        return found
+
+    def rates(self, t: float, x: Array, at: Array) -> Array:
+        """Return the rates of the states of the reaction."""
+        if self.inner.start == self.inner.stop:
+            return np.zeros(0)
+        return np.asarray(self.reaction.derivative(t, x[self.inner], at))  # type: ignore[attr-defined]
+
+    def slopes(self, t: float, x: Array, at: Array) -> Linearization:
+        """Return the derivatives of the reaction at the same arguments."""
+        if self.call is None or not self.alone:
+            return self.reaction.linearization(t, x[self.inner], at)
+        return static_linearization(static_slopes(self.reaction, at[:2], at[2:4], at[4]))
+
+
+def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
+    """Return reactions in the stations of a rotor.
+
+    Parameters
+    ----------
+    rotor : Model
+    bearings : mapping of str to Reaction
+        By station; the empty name is that of a rotor with one journal.
+    name : str
+        Of the argument, for messages.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks an output that a reaction needs or an input for its force, a reaction takes
+        further inputs, or has states and no derivative.
+    """
+    inputs, outputs = names(rotor.inputs), names(rotor.outputs)
+    mounts, last = [], len(rotor.states)
+    for station, bearing in bearings.items():
+        said = f"{name}[{station!r}]" if station else name
+        require_reaction(said, bearing, heavy=True, over_time=True)
+        require_terminals(said, bearing)
+        freedoms, states = freedoms_of(bearing), len(bearing.states)
+        motion, force = station_names(station, freedoms)
+        mounts.append(
+            Mount(
+                station=station,
+                reaction=bearing,
+                motion=indices("rotor must have the outputs", outputs, [*motion, "speed"]),
+                force=indices("rotor must have the inputs", inputs, force),
+                inner=slice(last, last + states),
+                call=prepared_force(bearing) if freedoms == PLANAR and not states else None,
+                alone=len(bearing.outputs) == len(freedoms),
+                clearance=np.inf if has_wall(bearing) or freedoms[:2] != PLANAR else clearance_of(bearing),
+            )
+        )
+        last += states
+    return mounts
 
 
 @quantities
@@ -49,8 +172,8 @@ class MountedRotor(AroundRotor):
     Raises
     ------
     InputError
-        If the rotor has no such station, a bearing with states is not Dynamic or takes other inputs than the
-        motion of the journal and the speed, or there are not as many of both.
+        If the rotor has no such station or not all freedoms of its bearing, a bearing with states is not
+        Dynamic or takes other inputs than motion and speed, or there are not as many of both.
     """
 
     rotor: Dynamic
@@ -63,15 +186,7 @@ class MountedRotor(AroundRotor):
                 f"bearings must be one for each of the stations {self.stations!r}, got {len(self.bearings)}"
             )
         require_kind("rotor", self.rotor, Dynamic, "a rotor such as a ShaftRotor")
-        for station, bearing in zip(self.stations, self.bearings, strict=True):
-            require_reaction(f"bearings[{station!r}]", bearing, heavy=True)
-            if bearing.states and not isinstance(bearing, Dynamic):
-                raise InputError(f"bearings with states must be Dynamic, got {bearing!r}")
-            if names(bearing.inputs) != list(JOURNAL_INPUTS):
-                raise InputError(
-                    f"bearings must have the inputs {list(JOURNAL_INPUTS)}, got {names(bearing.inputs)}"
-                )
-        _ = self._motion, self.force_places
+        _ = self.mounts
 
     @property
     def bare(self) -> Dynamic:
@@ -95,8 +210,8 @@ class MountedRotor(AroundRotor):
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
-        """The outputs of the rotor, force_x, force_y of each bearing, and the further outputs of bearings."""
-        further = [prefixed(name, s) for name, b in self._own_bearings.items() for s in b.outputs[2:]]
+        """The outputs of the rotor, the forces of each bearing, and the further outputs of bearings."""
+        further = [prefixed(m.station, s) for m in self.mounts for s in m.reaction.outputs[m.size :]]
         return (*self.rotor.outputs, *(self.rotor.inputs[k] for k in self._taken), *further)
 
     @property
@@ -108,126 +223,217 @@ class MountedRotor(AroundRotor):
     @property
     def initial_state(self) -> Array:
         """The states of rotor and bearings at t = 0."""
-        of_bearings = [b.initial_state for b in self.bearings if isinstance(b, Dynamic)]
+        of_bearings = [b.initial_state for b in self.bearings if b.states]  # type: ignore[attr-defined]
         return np.concatenate([self.rotor.initial_state, *of_bearings])
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
-        own, felt = self._split(t, x)
-        forces = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
-        rates = [b.derivative(t, z, m) for b, z, m in felt if isinstance(b, Dynamic)]
-        return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
+        whole, own, sensed = self._sensed(t, x)
+        inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
+        rates = [mount.rates(t, whole, sensed[mount.motion]) for mount in self.mounts]
+        return np.concatenate([self.rotor.derivative(t, own, inputs), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs of the rotor, the bearings' forces, and their further outputs."""
-        own, felt = self._split(t, x)
-        values = [b.output(t, z, m) for b, z, m in felt]
-        forces = self._forces(t, own, [value[:2] for value in values], u)
-        whole = self.rotor.output(t, own, self._inputs(forces, u))
-        return np.concatenate([whole, *forces, *(value[2:] for value in values)])
+        whole, own, sensed = self._sensed(t, x)
+        values = [mount.output(t, whole, sensed[mount.motion]) for mount in self.mounts]
+        forces = self._forces(t, own, [v[: m.size] for m, v in zip(self.mounts, values, strict=True)], u)
+        further = [value[mount.size :] for mount, value in zip(self.mounts, values, strict=True)]
+        return np.concatenate([self.rotor.output(t, own, self._inputs(forces, u)), *forces, *further])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives of rotor and bearings; the speed is held."""
-        own, felt = self._split(t, x)
-        parts = [b.linearization(t, z, m) for b, z, m in felt]
-        values = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
-        inputs = self._inputs(values, u)
-        rotor = self.rotor.linearization(t, own, inputs)
-        A, forces, further = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
-        taken, free = self._taken, list(self._free)
-        driven = np.zeros((len(forces), len(free)))
+        whole, _, sensed = self._sensed(t, x)
+        parts = [mount.slopes(t, whole, sensed[mount.motion]) for mount in self.mounts]
+        return self.joined(t, whole, u, parts)
+
+    def joined(self, t: float, whole: Array, u: ArrayLike, parts: Sequence[Linearization]) -> Linearization:
+        """Return the derivatives of rotor and bearings, those of the bearings given."""
+        own, sensed = self._sensed(t, whole)[1:]
+        inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
+        rotor, masses = self.rotor.linearization(t, own, inputs), None
         if self._heavy:
-            rates, sensed = self.rotor.derivative(t, own, inputs), self.rotor.output(t, own, inputs)
-            columns = rotor.B[:, taken], rotor.B[:, free]
-            forces, driven = self._heavy.slopes(rotor, *columns, sensed, forces, rates)
-        states = len(A) - len(rotor.A)
-        push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ forces
-        seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ forces
-        by_input = rotor.B[:, free] + rotor.B[:, taken] @ driven
-        return Linearization(
-            np.vstack([push, A[len(rotor.A) :]]),
-            np.vstack([by_input, np.zeros((states, len(free)))]),
-            np.vstack([seen, forces, further]),
-            np.vstack([rotor.D[:, free], driven, np.zeros((len(further), len(free)))]),
-        )
+            rates = self.rotor.derivative(t, own, inputs)
+            pairs = zip(self.mounts, parts, strict=True)
+            parts = [_with_mass_slopes(mount, part, sensed, rotor, rates) for mount, part in pairs]
+            masses = self._masses(sensed)
+        return join(rotor, self.mounts, parts, self._free, masses)
 
     def native(self) -> NativeSpec | None:
         """Return rotor and bearings as one kernel of the C library; None if a part of them has none."""
-        if type(self) is not MountedRotor:
+        if type(self) is not MountedRotor or any(mount.size != len(PLANAR) for mount in self.mounts):
             return None
         return system_kernel(
             self.rotor,
             self._own_bearings,
             carried=self._taken,
             free=self._free,
-            motion=[row for rows in self.motion_places for row in rows],
+            motion=[row for mount in self.mounts for row in mount.motion[:-1]],
         )
 
-    def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[tuple[Reaction, Array, Array]]]:
-        """Return the state of the rotor; each bearing with its state and what it feels."""
+    def _sensed(self, t: float, x: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return the whole state, that of the rotor, and the outputs of the rotor."""
         whole = np.asarray(x, dtype=float)
-        own = whole[: self._ends[0]]
-        sensed = self.rotor.output(t, own, np.zeros(len(self.rotor.inputs)))
-        inner = [whole[a:b] for a, b in pairwise(self._ends)]
-        motion = [sensed[rows] for rows in self._motion]
-        return own, list(zip(self.bearings, inner, motion, strict=True))
+        own = whole[: self._split]
+        return whole, own, self.rotor.output(t, own, self._no_input)
+
+    def _pushes(self, t: float, whole: Array, sensed: Array) -> list[Array]:
+        return [mount.push(t, whole, sensed[mount.motion]) for mount in self.mounts]
 
     def _forces(self, t: float, own: Array, forces: list[Array], u: ArrayLike) -> list[Array]:
-        """Return the forces of the bearings, with those of their added masses."""
+        """Return the forces of the bearings, with those of their added masses.
+
+        A bearing answers F - M a, a = V f(x, u) being the acceleration of its journal, f linear in the forces
+        u, so (1 + M V B) (u - F) = -M V f(x, F) is solved for the forces, whatever the rotor: no exchange of
+        accelerations, which diverges where the oil is heavier than the rotor.
+        """
         if not self._heavy:
             return forces
         inputs = self._inputs(forces, u)
         rotor, rates = self.rotor.linearization(t, own, inputs), self.rotor.derivative(t, own, inputs)
-        sensed, push = self.rotor.output(t, own, inputs), rotor.B[:, self._taken]
-        return np.split(self._heavy.forces(rotor, push, sensed, np.concatenate(forces), rates), len(forces))
+        along = self._masses(self.rotor.output(t, own, inputs)) @ _velocities(rotor, self.mounts)
+        joint = np.eye(len(along)) + along @ rotor.B[:, self._taken]
+        whole = np.concatenate(forces) - np.linalg.solve(joint, along @ rates)
+        return np.split(whole, np.cumsum([mount.size for mount in self.mounts])[:-1])
+
+    def _masses(self, sensed: Array) -> Array:
+        """Return the added masses of all journals [kg], block by block."""
+        found = []
+        for mount in self.mounts:
+            at, n = sensed[mount.motion], mount.size
+            found.append(mass_of(mount.reaction, at[:n], at[n : 2 * n], at[-1]))
+        return block_diagonal(found)
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
-        whole = np.empty(len(self.rotor.inputs))
+        whole = np.empty(len(self._no_input))
         whole[list(self._free)] = np.asarray(u, dtype=float)
-        for rows, force in zip(self.force_places, forces, strict=True):
-            whole[rows] = force
+        for mount, force in zip(self.mounts, forces, strict=True):
+            whole[mount.force] = force
         return whole
 
-    # Asked once: signals are made when they are asked for, and checks against protocols are slow.
+    # Asked once: signals are made when they are asked for.
     @cached_property
-    def _ends(self) -> list[int]:
-        """Where the states of the rotor end, and those of each bearing."""
-        counts = [len(self.rotor.states), *(len(b.states) for b in self.bearings)]
-        return list(accumulate(counts))
+    def mounts(self) -> list[Mount]:
+        """Each bearing in its station."""
+        return wired(self.rotor, self._own_bearings, "bearings")
 
     @cached_property
-    def _motion(self) -> list[list[int]]:
-        speed = indices("rotor must have the outputs", names(self.rotor.outputs), ["speed"])
-        return [rows + speed for rows in self.motion_places]
+    def _split(self) -> int:
+        return len(self.rotor.states)
 
     @cached_property
-    def _heavy(self) -> AddedMassJournals:
-        return AddedMassJournals(self.bearings, self._motion)
+    def _no_input(self) -> Array:
+        return np.zeros(len(self.rotor.inputs))
+
+    @cached_property
+    def _heavy(self) -> bool:
+        return any(inertial(bearing) is not None for bearing in self.bearings)
 
     @cached_property
     def _taken(self) -> list[int]:
         """Inputs of the rotor that are forces of the bearings."""
-        return [k for pair in self.force_places for k in pair]
+        return [k for mount in self.mounts for k in mount.force]
 
     @cached_property
     def _free(self) -> tuple[int, ...]:
-        return tuple(k for k in range(len(self.rotor.inputs)) if k not in self._taken)
+        return tuple(k for k in range(len(self._no_input)) if k not in self._taken)
 
 
-def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> tuple[Array, Array, Array]:
-    """Return A, forces, further outputs of all bearings by the states of the rotor, `size`, and their own."""
+def join(
+    rotor: Linearization,
+    mounts: Sequence[Mount],
+    parts: Sequence[Linearization],
+    free: Sequence[int],
+    masses: Array | None = None,
+) -> Linearization:
+    """Return a rotor and reactions in its stations as one linear system.
+
+    Parameters
+    ----------
+    rotor : Linearization
+        Without feedthrough to the outputs that reactions take.
+    mounts : sequence of Mount
+    parts : sequence of Linearization
+        Of the reactions, over what each feels.
+    free : sequence of int
+        Inputs of the rotor that stay inputs; one that takes the force of a reaction is a load beside it.
+    masses : ndarray, optional [kg]
+        Added masses of all reactions, block by block.
+
+    Returns
+    -------
+    Linearization
+        States: of the rotor and of each reaction. Outputs: of the rotor, the forces of all reactions with
+        those of their added masses, their further outputs.
+    """
+    A, forces, further = _reacting(mounts, parts, rotor.C)
+    taken, free, size = [k for mount in mounts for k in mount.force], list(free), len(rotor.A)
+    push, load = rotor.B[:, taken], rotor.B[:, free]
+    driven = np.zeros((len(forces), len(free)))
+    if masses is not None:
+        along = masses @ _velocities(rotor, mounts)
+        joint = np.eye(len(masses)) + along @ push
+        forces[:, :size] -= along @ rotor.A
+        forces = np.asarray(np.linalg.solve(joint, forces), dtype=float)
+        driven = -np.asarray(np.linalg.solve(joint, along @ load), dtype=float)
+    A[:size] = push @ forces
+    A[:size, :size] += rotor.A
+    seen = rotor.D[:, taken] @ forces
+    seen[:, :size] += rotor.C
+    return Linearization(
+        A,
+        np.vstack([load + push @ driven, np.zeros((len(A) - size, len(free)))]),
+        np.vstack([seen, forces, further]),
+        np.vstack([rotor.D[:, free], driven, np.zeros((len(further), len(free)))]),
+    )
+
+
+def _reacting(
+    mounts: Sequence[Mount], parts: Sequence[Linearization], sense: Array
+) -> tuple[Array, Array, Array]:
+    """Return A, forces, further outputs of all reactions by the states of the rotor and their own."""
+    size = sense.shape[1]
     total = size + sum(len(part.A) for part in parts)
     A, forces, further = np.zeros((total, total)), [np.zeros((0, total))], [np.zeros((0, total))]
     first = size
-    for part, sensed in zip(parts, motion, strict=True):
-        inner = slice(first, first + len(part.A))
-        A[inner, :size], A[inner, inner] = part.B @ sensed, part.A
+    for mount, part in zip(mounts, parts, strict=True):
+        inner, felt = slice(first, first + len(part.A)), sense[mount.motion]
+        A[inner, :size], A[inner, inner] = part.B @ felt, part.A
         seen = np.zeros((len(part.C), total))
-        seen[:, :size], seen[:, inner] = part.D @ sensed, part.C
-        forces.append(seen[:2])
-        further.append(seen[2:])
+        seen[:, :size], seen[:, inner] = part.D @ felt, part.C
+        forces.append(seen[: mount.size])
+        further.append(seen[mount.size :])
         first = inner.stop
     return A, np.concatenate(forces), np.concatenate(further)
+
+
+def _with_mass_slopes(
+    mount: Mount, part: Linearization, sensed: Array, rotor: Linearization, rates: Array
+) -> Linearization:
+    """Return the derivatives of a reaction with those of its added mass times the present acceleration."""
+    heavy = inertial(mount.reaction)
+    if heavy is None:
+        return part
+    at, n = sensed[mount.motion], mount.size
+    slopes = heavy.mass_slopes(at[:n], at[n : 2 * n], at[-1])
+    D = part.D.copy()
+    D[:n] -= np.einsum("ijk,j->ik", slopes, rotor.C[mount.motion[n : 2 * n]] @ rates)
+    return part._replace(D=D)
+
+
+def _velocities(rotor: Linearization, mounts: Sequence[Mount]) -> Array:
+    """Return the rows of the rates of all freedoms over the states of the rotor."""
+    return np.concatenate([rotor.C[mount.motion[mount.size : 2 * mount.size]] for mount in mounts])
+
+
+def block_diagonal(blocks: Sequence[Array]) -> Array:
+    """Return a matrix with these square ones along its diagonal."""
+    size = sum(map(len, blocks))
+    whole, first = np.zeros((size, size)), 0
+    for block in blocks:
+        whole[first : first + len(block), first : first + len(block)] = block
+        first += len(block)
+    return whole
 
 
 @arguments
@@ -351,124 +557,4 @@ def _distinct(specs: Sequence[NativeSpec]) -> tuple[list[int], list[NativeSpec]]
 def _equal(one: NativeSpec, other: NativeSpec) -> bool:
     return one.tables.keys() == other.tables.keys() and all(
         np.array_equal(table, other.tables[name]) for name, table in one.tables.items()
-    )
-
-
-# A rotor in bearings whose oil adds mass: the forces that solve the accelerations of both at once.
-#
-# A bearing answers F - M a, a = V f(x, u) being the acceleration of its journal, f linear in the
-# forces u, so
-#
-# (1 + M V B) (u - F) = -M V f(x, F)
-#
-# is solved for the forces, whatever the rotor: no exchange of accelerations, which diverges where the
-# oil is heavier than the rotor.
-
-
-class AddedMassJournals:
-    """The journals of a rotor, by their places in its inputs and outputs.
-
-    Parameters
-    ----------
-    bearings : sequence of Reaction
-        One for each journal, those without mass too.
-    motion : sequence of list of int
-        Places of x, y, vx, vy, speed of each among the rotor's outputs.
-    """
-
-    def __init__(self, bearings: Sequence[Reaction], motion: Sequence[Sequence[int]]) -> None:
-        self.heavy: list[Any] = [inertial(bearing) for bearing in bearings]
-        self.motion = [list(rows) for rows in motion]
-
-    def __bool__(self) -> bool:
-        return any(bearing is not None for bearing in self.heavy)
-
-    def forces(self, rotor: Linearization, push: Array, sensed: Array, forces: Array, rates: Array) -> Array:
-        """Return the forces of all bearings on the journals [N], shape (2 n,).
-
-        Parameters
-        ----------
-        rotor : Linearization
-        push : ndarray, shape (n_states, 2 n)
-            Columns of its B for these forces.
-        sensed : ndarray, shape (n_outputs,)
-            Outputs of the rotor.
-        forces : ndarray, shape (2 n,) [N]
-            Of the bearings without their mass.
-        rates : ndarray, shape (n_states,)
-            dx/dt of the rotor under those.
-        """
-        mass, along = self._mass(sensed), self._velocity(rotor)
-        return forces - np.linalg.solve(np.eye(len(mass)) + mass @ along @ push, mass @ along @ rates)
-
-    def slopes(
-        self, rotor: Linearization, push: Array, free: Array, sensed: Array, slopes: Array, rates: Array
-    ) -> tuple[Array, Array]:
-        """Return the derivatives of these forces, by the whole state and by the free inputs.
-
-        Parameters
-        ----------
-        rotor, push, sensed
-            As in `forces`.
-        free : ndarray, shape (n_states, n_free)
-            Columns of B for the free inputs.
-        slopes : ndarray, shape (2 n, n_whole)
-            Of the forces without mass by the whole state, which begins with that of the rotor.
-        rates : ndarray, shape (n_states,)
-            dx/dt of the rotor under the forces that `forces` returns.
-        """
-        mass, along = self._mass(sensed), self._velocity(rotor)
-        moved, size = slopes.copy(), len(rotor.A)
-        moved[:, :size] -= mass @ along @ rotor.A
-        for k, (bearing, rows) in enumerate(zip(self.heavy, self.motion, strict=True)):
-            if bearing is not None:
-                at = sensed[rows]
-                by_place = bearing.mass_slopes(at[:2], at[2:4], at[4])
-                by_motion = np.einsum("ijk,j->ik", by_place, rotor.C[rows[2:4]] @ rates)
-                moved[2 * k : 2 * k + 2, :size] -= by_motion @ rotor.C[rows]
-        joint = np.eye(len(mass)) + mass @ along @ push
-        by_state = np.asarray(np.linalg.solve(joint, moved), dtype=float)
-        by_input = -np.asarray(np.linalg.solve(joint, mass @ along @ free), dtype=float)
-        return by_state, by_input
-
-    def _mass(self, sensed: Array) -> Array:
-        """Return the added masses of all journals, shape (2 n, 2 n) [kg]."""
-        mass = np.zeros((2 * len(self.heavy), 2 * len(self.heavy)))
-        for k, (bearing, rows) in enumerate(zip(self.heavy, self.motion, strict=True)):
-            if bearing is not None:
-                own = slice(2 * k, 2 * k + 2)
-                mass[own, own] = bearing.mass(sensed[rows[:2]], sensed[rows[2:4]], sensed[rows[4]])
-        return mass
-
-    def _velocity(self, rotor: Linearization) -> Array:
-        """Return the rows of the velocities of the journals, shape (2 n, n_states)."""
-        return np.concatenate([rotor.C[rows[2:4]] for rows in self.motion])
-
-
-def with_mass(rotor: Linearization, mass: ArrayLike, force: list[int], motion: list[int]) -> Linearization:
-    """Return a rotor whose journal carries an added mass: its forces accelerate both.
-
-    Parameters
-    ----------
-    rotor : Linearization
-        Without feedthrough.
-    mass : array_like, shape (2, 2) [kg]
-    force : list of int
-        Inputs that are the force on the journal.
-    motion : list of int
-        Outputs that are x, y, vx, vy of the journal.
-
-    Returns
-    -------
-    Linearization
-        With two outputs more: minus the added mass times the acceleration of the journal [N].
-    """
-    M, V, push = np.asarray(mass, dtype=float), rotor.C[motion[2:]], rotor.B[:, force]
-    joint = np.eye(2) + M @ V @ push
-    by_state, by_input = (-np.linalg.solve(joint, M @ V @ part) for part in (rotor.A, rotor.B))
-    return Linearization(
-        rotor.A + push @ by_state,
-        rotor.B + push @ by_input,
-        np.vstack([rotor.C, by_state]),
-        np.vstack([rotor.D, by_input]),
     )

@@ -11,6 +11,7 @@ import numpy as np
 from ..analysis import simulate
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Stepped
+from ..core.port import clearance_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
@@ -173,7 +174,7 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
 
 
 def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
-    own, clearance, scheme = result.trajectory, scene.bearing.clearance, result.scheme
+    own, clearance, scheme = result.trajectory, clearance_of(scene.bearing), result.scheme
     times = np.minimum(own.time, scene.duration)
     try:
         whole = monolithic_solution(scene, times)

@@ -33,7 +33,7 @@ from ..bearings.damper import (
 from ..bearings.films.geometry import FullFilm
 from ..core.answers import WorkUnit
 from ..core.errors import InputError, RotorfilmError, ValidityWarning
-from ..core.port import Reaction
+from ..core.port import PlanarReaction
 from ..core.results import CircularOrbit
 from ..rotors import RigidRotor
 from .damper_table import DamperTable
@@ -275,7 +275,7 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> Reaction:
+def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> PlanarReaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
     return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
 

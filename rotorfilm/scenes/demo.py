@@ -18,6 +18,7 @@ from ..bearings.oil import GRADES, Cooling, Oil
 from ..core.errors import InputError, PartialResultError
 from ..core.files import write_atomically
 from ..core.model import Array
+from ..core.port import clearance_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance, to_plain, write_csv
@@ -257,7 +258,7 @@ def _compared(
         macro_angle=angle,
         macro_step=simulation.macro_step,
         spectral_radius=theory.spectral_radius,
-        orbit_error=orbit_distance(own, monolithic) / scene.bearing.clearance,
+        orbit_error=orbit_distance(own, monolithic) / clearance_of(scene.bearing),
         wall_time=wall,
         refused=refused,
         trajectory=own,
@@ -417,7 +418,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
         running=running_bearing(scene.journal_bearing, scene.static_load, scene.speed),
         speed_parameter=speed_parameter(
             speed=scene.speed,
-            clearance=scene.bearing.clearance,
+            clearance=clearance_of(scene.bearing),
             mass=scene.rotor.mass,
             load=scene.static_load,
         ),

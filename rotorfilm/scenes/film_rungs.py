@@ -35,7 +35,7 @@ from ..core.answers import DISAGREEMENT, WorkUnit
 from ..core.errors import InputError, require_vector
 from ..core.model import Array
 from ..core.port import (
-    Reaction,
+    PlanarReaction,
     Tangent,
     has_wall,
     inertial,
@@ -258,9 +258,9 @@ class FilmCandidate:
     Attributes
     ----------
     name : str
-    reaction : Reaction
+    reaction : PlanarReaction
         The bearing with this film.
-    rich : Reaction
+    rich : PlanarReaction
         With the richer one.
     rich_name : str
         Name of the richer film.
@@ -299,7 +299,7 @@ class FilmCandidate:
         own, rich = (one.at_temperature(temperature) for one in (self.reaction, self.rich))
         return replace(self, reaction=own, rich=rich)
 
-    def frozen(self, film: Reaction) -> Self:
+    def frozen(self, film: Any) -> Self:
         """Return the candidate with the bearing replaced by a film that keeps its temperature."""
         return replace(self, reaction=film, bounded=False, making=0.0)
 
@@ -349,7 +349,7 @@ class FilmCandidate:
         """Return the same for states all round a turn."""
         position, still = np.array([0.3, 0.4]) * room(self.reaction), np.zeros(2)
 
-        def sampled(reaction: Reaction) -> Callable[[], object]:
+        def sampled(reaction: PlanarReaction) -> Callable[[], object]:
             return lambda: (
                 reaction.force(position, still, speed),
                 reaction.jacobian(position, still, speed),
@@ -544,7 +544,7 @@ class FilmRest(JournalEquilibrium):
     at : Equilibrium
         Of the film that may answer.
     film : FilmCandidate
-    bearing : Reaction
+    bearing : PlanarReaction
         With one of both films.
     position : ndarray, shape (2,) [m]
     matrices : callable
@@ -605,7 +605,7 @@ def attitude(position: Array, load: Array, speed: float) -> float:
     return math.copysign(1.0, speed) * turned
 
 
-def room(bearing: Reaction) -> float:
+def room(bearing: PlanarReaction) -> float:
     """Return how far a journal may go from the center in any direction [m]."""
     return float(minimum_film(bearing, np.zeros(2)))
 
@@ -693,13 +693,13 @@ NEUTRAL = 1e-9
 
 
 def tangent(
-    bearing: Reaction, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
+    bearing: PlanarReaction, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
 ) -> tuple[Array, Array]:
     """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
 
     Parameters
     ----------
-    bearing : Reaction
+    bearing : PlanarReaction
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     smooth : bool
@@ -812,11 +812,11 @@ class Counted(InertialModel):
 
     Parameters
     ----------
-    reaction : Reaction
+    reaction : PlanarReaction
         Without states.
     """
 
-    def __init__(self, reaction: Reaction) -> None:
+    def __init__(self, reaction: PlanarReaction) -> None:
         self._reaction = reaction
         self.forces = 0
         self.tangents = 0
@@ -890,6 +890,6 @@ class WorkCountingWalledReaction(Counted):
         return minimum_film(self._reaction, require_vector("position", position))
 
 
-def counted_calls(reaction: Reaction) -> Counted:
+def counted_calls(reaction: PlanarReaction) -> Counted:
     """Return a reaction that counts its evaluations."""
     return (WorkCountingWalledReaction if has_wall(reaction) else Counted)(reaction)

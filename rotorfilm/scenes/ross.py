@@ -24,7 +24,7 @@ from ..core.errors import InputError
 from ..core.files import read_text
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Reaction, require_massless
+from ..core.port import PlanarReaction, require_massless
 from ..core.results import Coefficients
 from ..rotors import (
     ClassicalBeam,
@@ -57,7 +57,7 @@ class RossRotor:
     ----------
     rotor : ShaftRotor
         With a station for each bearing, in the order of the file, and the classical beam element.
-    bearings : dict of str to Reaction
+    bearings : dict of str to PlanarReaction
         By station: LinearBearing, or TabulatedBearing where the file has a table over speed.
     """
 
@@ -334,7 +334,7 @@ def to_ross(
 
 @arguments
 def to_ross_force(
-    rotor: Rotor, films: Mapping[int, Reaction], rests: Mapping[int, Coefficients]
+    rotor: Rotor, films: Mapping[int, PlanarReaction], rests: Mapping[int, Coefficients]
 ) -> Callable[..., Array]:
     """Return what films do beyond their stiffness and damping, for `add_to_RHS` of ROSS's time response.
 
@@ -347,7 +347,7 @@ def to_ross_force(
     Parameters
     ----------
     rotor : ross.Rotor
-    films : mapping of int to Reaction
+    films : mapping of int to PlanarReaction
         By node.
     rests : mapping of int to Coefficients
         Where each journal rests, with K and C there, as `coefficients` or a `RotorEquilibrium` has them.

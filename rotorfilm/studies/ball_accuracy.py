@@ -22,7 +22,7 @@ from ..bearings.rolling import (
 from ..core.errors import InputError, RotorfilmError, require_count, require_finite, require_kind
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Reaction, prepared_tangent
+from ..core.port import PlanarReaction, prepared_tangent
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, shortest_time, spread, table
@@ -98,9 +98,9 @@ def _drawn(
     return replace(bearing, axial_load=thrust), (0.0, -0.3 * thrust), speed
 
 
-def _laws(bearing: BallBearing) -> dict[str, Reaction]:
+def _laws(bearing: BallBearing) -> dict[str, PlanarReaction]:
     """Return the models of a bearing; the closed form has no contact angle."""
-    laws: dict[str, Reaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
+    laws: dict[str, PlanarReaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
     if not bearing.separates:
         laws[CLOSED] = PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
     return laws
@@ -129,12 +129,12 @@ def _on_films(bearing: BallBearing, load: tuple[float, float], speed: float) -> 
     return replace(bearing, films=films)
 
 
-def _stiffness(model: Reaction, load: Sequence[float], speed: float) -> Array:
+def _stiffness(model: PlanarReaction, load: Sequence[float], speed: float) -> Array:
     at = equilibrium(model, tuple(load), speed)
     return coefficients(model, at.position, speed).stiffness
 
 
-def _time(model: Reaction) -> float:
+def _time(model: PlanarReaction) -> float:
     """Return the shortest time of force and derivatives at one place [s]."""
     tangent, way = prepared_tangent(model), 0.3 * model.clearance
     return shortest_time(lambda: tangent(0.2 * way, -way, 0.0, 0.0, 1000.0), ROUNDS)

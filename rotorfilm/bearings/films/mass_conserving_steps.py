@@ -404,10 +404,7 @@ class FilmInMotion:
         """
         if s == 0.0:
             stiffness, damping = slow_motion(self.film, self.state)
-            return self.scale * stiffness.astype(complex), self.scale * damping.astype(complex)
-        if s == 0.0:
-            stiffness, damping = slow_motion(self.film, self.state)
-            return self.scale * stiffness.astype(complex), self.scale * damping.astype(complex)
+            return (self.scale * stiffness).astype(complex), (self.scale * damping).astype(complex)
         rate, by_s = _wave_rate(self.film, self.state, s)
         moved, held = self._slopes
         still = self._response(rate, moved + s * held)
