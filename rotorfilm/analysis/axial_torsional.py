@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,8 +23,9 @@ from ..core.model import Array
 from ..core.port import MOST_LEFT
 from ..core.readable import Readable
 from ..rotors import Coupling, LayeredElement, ShaftRotor
-from ..rotors.shaft_elements import POINTS, WEIGHTS, ShaftElement, ShaftPiece
-from ..rotors.structure import dense_matrix, summed
+from ..rotors.rod_elements import Chain, axial_chain, torsional_chain
+from ..rotors.shaft_elements import ShaftPiece
+from ..rotors.structure import dense_matrix
 from .closed_loop import checked_speeds, frequency_response
 
 if TYPE_CHECKING:
@@ -32,13 +33,6 @@ if TYPE_CHECKING:
 
 _SWINGS = 1e-6
 """Frequency / size of an eigenvalue, above which a motion swings."""
-
-
-Section = tuple[float | Array, float | Array]
-"""Stiffness and inertia of a cross section of a rod: numbers, or arrays at the places `POINTS`."""
-
-Chain = tuple[Any, Any]
-"""Mass and stiffness of a shaft along its axis, or about it, sparse arrays; the nodes come first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,7 +128,7 @@ def axial_modes(
     Elements have a degree of freedom inside: frequencies are of fourth order in their length. Along its axis
     a straight shaft does not feel its bending and its rotation.
     """
-    return _modes(axial_of(rotor), rotor, bearings, count)
+    return _modes(axial_chain(rotor.elements, rotor.disks), rotor, bearings, count)
 
 
 @arguments
@@ -157,7 +151,7 @@ def torsional_modes(
     InputError
         If a spring is on no node, or a coupling has no stiffness.
     """
-    return _modes(twist_of(rotor), rotor, springs, count)
+    return _modes(torsional_chain(rotor.elements, rotor.disks), rotor, springs, count)
 
 
 @arguments
@@ -182,36 +176,13 @@ def axial_response(
     """
     grid = checked_speeds(frequencies, "frequencies")
     require_shaft_node("node", node, rotor)
-    chain = axial_of(rotor)
+    chain = axial_chain(rotor.elements, rotor.disks)
     stiffness, damping = grounded(chain, rotor, bearings)
-    mass, count = dense_matrix(chain[0]), len(rotor.elements) + 1
+    mass, count = dense_matrix(chain.mass), len(rotor.elements) + 1
     load = np.zeros(len(stiffness))
     load[node] = 1.0
     found = [np.linalg.solve(stiffness - w**2 * mass + 1j * w * damping, load)[:count, None] for w in grid]
     return frequency_response(found, grid, ["force_z"], [f"z_{k}" for k in range(count)], "axial_response")
-
-
-def axial_of(rotor: ShaftRotor) -> Chain:
-    """Return the matrices of a rotor along its axis, of sections with E A [N] and rho A [kg/m]."""
-
-    def section(element: ShaftElement) -> Section:
-        mass = element.section().mass
-        return element.material.young_modulus / element.material.density * mass, mass
-
-    return _chain(
-        rotor.elements, "axial_stiffness", section, ((disk.node, disk.mass) for disk in rotor.disks)
-    )
-
-
-def twist_of(rotor: ShaftRotor) -> Chain:
-    """Return the matrices of a rotor about its axis, of sections, round as they are, with G J and rho J."""
-
-    def section(element: ShaftElement) -> Section:
-        inertia = 2.0 * element.section().inertia
-        return element.material.shear_modulus / element.material.density * inertia, inertia
-
-    disks = ((disk.node, disk.polar_inertia) for disk in rotor.disks)
-    return _chain(rotor.elements, "twist_stiffness", section, disks)
 
 
 def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
@@ -222,7 +193,7 @@ def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:
 
 def grounded(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tuple[Array, Array]:
     """Return stiffness and damping with the springs to the ground, dense."""
-    stiffness = dense_matrix(chain[1])
+    stiffness = dense_matrix(chain.stiffness)
     damping = np.zeros_like(stiffness)
     for spring in springs:
         require_shaft_node("bearings", spring.node, rotor)
@@ -234,7 +205,7 @@ def grounded(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring]) -> tup
 def _modes(chain: Chain, rotor: ShaftRotor, springs: Sequence[_Spring], count: int) -> AxialTorsionalModes:
     require_count("count", count)
     stiffness, damping = grounded(chain, rotor, springs)
-    mass = dense_matrix(chain[0])
+    mass = dense_matrix(chain.mass)
     n = len(mass)
     upper = np.hstack([np.zeros((n, n)), np.eye(n)])
     values, vectors = eig(np.vstack([upper, -np.linalg.solve(mass, np.hstack([stiffness, damping]))]))
@@ -296,7 +267,7 @@ def axial_statics(
     EquilibriumError
         If the bearings are so soft beside the shaft that roundoff decides what they carry.
     """
-    chain = axial_of(rotor)
+    chain = axial_chain(rotor.elements, rotor.disks)
     stiffness, _ = grounded(chain, rotor, bearings)
     if not any(bearing.stiffness > 0.0 for bearing in bearings):
         raise InputError("bearings must hold the shaft along its axis, got none with a stiffness")
@@ -352,45 +323,3 @@ def _stretched(element: ShaftPiece, tension: float) -> ShaftPiece:
         rest = sum(layer.axial_force for layer in others)
         return replace(element, layers=(replace(first, axial_force=tension - rest), *others))
     return replace(element, axial_force=tension)
-
-
-# A shaft that stretches, or twists: one degree of freedom a node, and one in each element.
-
-
-def _rod(
-    element: ShaftElement | LayeredElement, section_of: Callable[[ShaftElement], Section]
-) -> tuple[Array, Array]:
-    """Return mass and stiffness of an element, over both nodes and its middle."""
-    layers = element.layers if isinstance(element, LayeredElement) else (element,)
-    sections = [section_of(layer) for layer in layers]
-    stiffness, inertia = (np.broadcast_to(sum(part), POINTS.shape) for part in zip(*sections, strict=True))
-    s = POINTS
-    shapes = np.array([(1.0 - s) * (1.0 - 2.0 * s), s * (2.0 * s - 1.0), 4.0 * s * (1.0 - s)])
-    slopes = np.array([4.0 * s - 3.0, 4.0 * s - 1.0, 4.0 - 8.0 * s]) / element.length
-    weights = element.length * WEIGHTS
-    return (shapes * inertia * weights) @ shapes.T, (slopes * stiffness * weights) @ slopes.T
-
-
-def _chain(
-    elements: Sequence[ShaftPiece],
-    wanted: str,
-    section_of: Callable[[ShaftElement], Section],
-    masses: Iterable[tuple[int, float]],
-) -> Chain:
-    """Return the matrices of a shaft with masses [kg], or polar moments of inertia [kg m2], at nodes."""
-    inside = len(elements) + 1
-    inertia = [([node], np.array([[mass]])) for node, mass in masses]
-    stiffness: list[tuple[list[int], Array]] = []
-    for number, element in enumerate(elements):
-        ends = [number, number + 1]
-        if isinstance(element, Coupling):
-            spring = getattr(element, wanted)
-            if spring is None:
-                raise InputError(f"{wanted} must be given of the coupling behind node {number}, got None")
-            stiffness.append((ends, spring * np.array([[1.0, -1.0], [-1.0, 1.0]])))
-            continue
-        mass, springs = _rod(element, section_of)
-        inertia.append(([*ends, inside], mass))
-        stiffness.append(([*ends, inside], springs))
-        inside += 1
-    return summed(inside, inertia), summed(inside, stiffness)

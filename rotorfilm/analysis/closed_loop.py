@@ -26,10 +26,10 @@ from ..core.results import Coefficients, Equilibrium, added_mass
 from ..core.signals import force_names, indices, names
 from ..rotors import FlexibleRotor, require_flexible, translations
 from ..rotors.mounted import Mount, join
-from ..rotors.structure import output_rows, station_name, station_names
+from ..rotors.structure import force_rows, freedom_rows, output_rows, station_name, station_names
 from .equilibrium import equilibrium
 from .linearize import control_system, film_states, linearize
-from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, film_rows, models, tally, with_work
+from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import LeftOut, remembering, rest_near, second_order, small_motion
 from .rotor_modes import first_growing
@@ -222,7 +222,7 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     ConvergenceError
         As `film_system`.
     """
-    return _state_space(rotor, at, rotor.structure.journals.T, names(rotor.inputs), name)
+    return _state_space(rotor, at, force_rows(rotor.structure).T, names(rotor.inputs), name)
 
 
 BASE = ("base_acceleration_x", "base_acceleration_y")
@@ -413,7 +413,8 @@ def rotor_transmissibility(
         raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
     outputs = [labels[k] for k in wanted]
     return with_work(
-        frequency_response(responses, grid, names(rotor.inputs), outputs, "transmissibility"), work
+        frequency_response(responses, grid, names(rotor.inputs)[: len(push)], outputs, "transmissibility"),
+        work,
     )
 
 
@@ -510,7 +511,7 @@ def rotor_states(
     direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
     mass, damping, stiffness = second_order(structure, direct)
     n, sizes = len(mass), [len(film.A) for film in films.values()]
-    rows = {name: film_rows(structure, name, freedoms_of(at.coefficients[name])) for name in films}
+    rows = {name: freedom_rows(structure, name, freedoms_of(at.coefficients[name])) for name in films}
     pushes = [np.zeros((n, 0)), *(rows[name].T @ film.C for name, film in films.items())]
     tally("factorizations")
     columns = np.hstack([-stiffness, -damping, *pushes, loads])
@@ -544,7 +545,7 @@ def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, li
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
         freedoms = freedoms_of(film)
-        felt = film_rows(s, name, freedoms)
+        felt = freedom_rows(s, name, freedoms)
         rows = [*rows, np.hstack([part @ felt for part in (film.stiffness, film.damping, added_mass(film))])]
         labels += [station_name(name, f"housing_{force}") for force in force_names(freedoms)]
     return np.vstack(rows), labels

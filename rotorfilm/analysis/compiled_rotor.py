@@ -51,7 +51,14 @@ from ..rotors import (
     mount,
     translations,
 )
-from ..rotors.structure import NOMINAL_LENGTH, Structure, mean_plane, solved_equations, station_name
+from ..rotors.structure import (
+    NOMINAL_LENGTH,
+    MatrixRotor,
+    Structure,
+    mean_plane,
+    solved_equations,
+    station_name,
+)
 from .modal_reduction import Condensed, models
 
 # The force of a bearing as a compiled function behind an address, for loops that must not enter
@@ -371,6 +378,11 @@ def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
         raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
     if rotor.structure.hysteresis is not None:
         raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
+    if rotor.structure.others:
+        raise InputError(
+            "rotor must move in its planes only here, without axial and torsional motion, which "
+            "simulate(rotor, bearings) takes"
+        )
     return rotor.structure, rotor.profile
 
 
@@ -603,6 +615,8 @@ def _is_linear(rotor: Dynamic) -> bool:
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     bare = bare.rotor if isinstance(bare, BaseExcitedRotor) else bare
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
+    if isinstance(bare, FlexibleRotor) and bare.assembly.others:
+        return False
     return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)
 
 
@@ -616,25 +630,6 @@ FURTHER = 2
 """Doublings of the frequency from one set of shapes to the next: one may add shapes that nothing excites."""
 
 
-class ShapesRotor(FlexibleRotor):
-    """A rotor that moves in some of its shapes.
-
-    Parameters
-    ----------
-    rotor : FlexibleRotor
-    structure : Structure
-        Its matrices in the shapes.
-    """
-
-    def __init__(self, rotor: FlexibleRotor, structure: Structure) -> None:
-        self.speed, self.gravity, self.initial = rotor.speed, rotor.gravity, ()
-        self._structure = structure
-
-    def assembled(self) -> Structure:
-        """Return the matrices."""
-        return self._structure
-
-
 def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tuple[MountedRotor, Array, bool]]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
@@ -646,7 +641,7 @@ def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tupl
             if model.space is None:
                 break
             if k % FURTHER == 0:
-                small = ShapesRotor(rotor, model.structure)
+                small = MatrixRotor(rotor, model.structure)
                 yield mount(small, mounted.all_bearings), _within(model, state), True
     yield mounted, state, False
 

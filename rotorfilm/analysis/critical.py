@@ -19,7 +19,7 @@ from ..core.model import Array
 from ..core.port import Bearings, freedoms_of
 from ..core.results import added_mass
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure
+from ..rotors.structure import Structure, freedom_rows, in_planes
 from .modal_reduction import (
     MARGIN,
     TOLERANCE,
@@ -28,7 +28,6 @@ from .modal_reduction import (
     counted,
     counted_array,
     exact_structure,
-    film_rows,
     models,
     negative_count,
     tally,
@@ -430,7 +429,7 @@ class SpannedModes:
                 for one in (low.coefficients[name], film, high.coefficients[name])
             )
             force = (last - first) / (2.0 * self.half) + (last + first - 2.0 * own) * share
-            rows = film_rows(structure, name, freedoms_of(film))
+            rows = freedom_rows(structure, name, freedoms_of(film))
             changed = changed + rows.T @ (force @ (rows @ right))
         return np.asarray(changed)
 
@@ -532,7 +531,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
 
 def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
     """Return the lowest undamped forward critical speeds of a rotor on equal springs, as the map has them."""
-    n = len(s.coordinates)
+    s, n = in_planes(s), len(s.coordinates)
     forward = np.vstack([np.eye(n), -1j * np.eye(n)]) * math.sqrt(0.5)
     inertia = (forward.conj().T @ (s.mass - 1j * s.gyroscopic) @ forward).real
     own = forward.conj().T @ (0.5 * (s.stiffness + s.stiffness.T)) @ forward

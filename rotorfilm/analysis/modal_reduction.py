@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
@@ -19,12 +19,22 @@ from scipy.linalg.lapack import zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from ..core.errors import ConvergenceError, InputError, UnloadedPadWarning
+from ..core.errors import ConvergenceError, UnloadedPadWarning
 from ..core.model import Array
-from ..core.port import freedoms_of, quasi_static, static_force, static_slopes
-from ..core.signals import PLANAR
+from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, is_sparse, mean_plane, new_shapes, projected
+from ..rotors.structure import (
+    MatrixRotor,
+    Structure,
+    freedom_rows,
+    in_planes,
+    is_sparse,
+    mean_plane,
+    new_shapes,
+    projected,
+    untouched,
+    without,
+)
 
 # Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain.
 
@@ -141,6 +151,7 @@ def shape_space(full: Structure, cut: float) -> ShapeSpace:
     numpy.linalg.LinAlgError
         If K + shift^2 M is not positive, as of a shaft that buckles.
     """
+    full = in_planes(full)
     n = len(full.coordinates)
     mass, stiffness = mean_plane(full.mass), mean_plane(full.stiffness)
     shift = SHIFT * cut
@@ -235,19 +246,26 @@ class Condensed(NamedTuple):
         """Return motions, shape (n, ...), in the coordinates of the whole rotor."""
         if self.space is None:
             return motion
-        x, y = np.split(motion, 2)
-        return np.concatenate([self.space.shapes @ x, self.space.shapes @ y])
+        n = self.space.shapes.shape[1]
+        x, y, others = np.split(motion, (n, 2 * n))
+        return np.concatenate([self.space.shapes @ x, self.space.shapes @ y, others])
 
     def seen(self, forces: np.ndarray) -> np.ndarray:
         """Return forces, shape (N, m), as the shapes kept feel them, shape (n, m)."""
         if self.space is None:
             return forces
-        return np.concatenate([self.space.shapes.T @ plane for plane in np.split(forces, 2)])
+        x, y, others = self._by_plane(forces)
+        return np.concatenate([self.space.shapes.T @ x, self.space.shapes.T @ y, others])
 
     def answer(self, forces: np.ndarray) -> np.ndarray:
         """Return how what is left out gives way to slow forces, shape (N, m)."""
         assert self.space is not None
-        return np.concatenate([self.space.solid.solve(plane) for plane in np.split(forces, 2)])
+        x, y, others = self._by_plane(forces)
+        return np.concatenate([self.space.solid.solve(x), self.space.solid.solve(y), np.zeros_like(others)])
+
+    def _by_plane(self, forces: np.ndarray) -> list[np.ndarray]:
+        n = len(self.whole.coordinates)
+        return np.split(forces, (n, 2 * n))
 
 
 def exact_structure(rotor: FlexibleRotor) -> Structure:
@@ -297,26 +315,27 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
     return found
 
 
+def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
+    """Return a rotor without the axial and torsional motion that no bearing reacts to: it does not whirl."""
+    if not rotor.assembly.others:
+        return rotor
+    require_reactions("bearings", bearings, heavy=True)
+    aside = untouched(rotor.assembly, all_rows(rotor.assembly, bearings))
+    if not aside.any():
+        return rotor
+    key = ("whirling", aside.tobytes())
+    if key not in rotor.remembered:
+        rotor.remembered[key] = MatrixRotor(rotor, without(rotor.assembly, aside))
+    found: FlexibleRotor = rotor.remembered[key]
+    return found
+
+
 # Where bearings act, and the force of one whose states rest.
-
-
-def film_rows(structure: Structure, name: str, freedoms: Sequence[str] = PLANAR) -> Array:
-    """Return the rows of what a bearing feels of a rotor at rest, shape (n, N)."""
-    pair = 2 * structure.stations.index(name) + np.arange(2)
-    if len(freedoms) == 2:
-        return structure.journals[pair]
-    tilts = None if structure.tilts is None else structure.tilts[pair]
-    if tilts is None or not tilts.any():
-        raise InputError(
-            f"station {name!r} must feel tilts, Station(feels_tilt=True) of a ShaftRotor, for a bearing that "
-            "resists them"
-        )
-    return np.concatenate([structure.journals[pair], tilts])
 
 
 def all_rows(structure: Structure, films: Mapping[str, Any]) -> Array:
     """Return the rows of what bearings, or their coefficients, feel of a rotor, one after the other."""
-    rows = [film_rows(structure, name, freedoms_of(film)) for name, film in films.items()]
+    rows = [freedom_rows(structure, name, freedoms_of(film)) for name, film in films.items()]
     return np.concatenate([np.zeros((0, len(structure.weight))), *rows])
 
 

@@ -39,7 +39,7 @@ from ..core.readable import Readable
 from ..core.results import Coefficients
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, require_flexible
-from ..rotors.structure import Structure, across_planes
+from ..rotors.structure import Structure, hysteresis_matrices, untouched
 from .coefficients import film_coefficients
 from .equilibrium import equilibrium
 from .modal_reduction import (
@@ -242,9 +242,13 @@ class RestEquations:
         self.journals = all_rows(structure, {name: bearings[name] for name in self.names})
         self.stiffness = structure.stiffness + speed * structure.circulation
         if structure.hysteresis is not None:
-            self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
+            self.stiffness = self.stiffness + np.sign(speed) * hysteresis_matrices(structure)[0]
         self.weight = structure.weight
         self.size = float(np.abs(structure.weight).sum()) or 1.0
+        # Axial and torsional motion that nothing presses on stays where it is.
+        still = 2 * len(structure.coordinates) + np.flatnonzero(untouched(structure, self.journals))
+        self.stiffness[still] = self.stiffness[:, still] = 0.0
+        self.stiffness[still, still] = self.size / 1e-4
 
     def split(self, values: Array) -> list[Array]:
         """Return what a vector over the rows of all bearings has of each."""

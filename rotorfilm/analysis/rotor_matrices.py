@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -15,8 +15,8 @@ from ..core.model import Array
 from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, added_mass
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, across_planes, both_planes, is_sparse
-from .modal_reduction import MARGIN, Condensed, all_rows, film_rows, lu_solver, models, usual_frequency
+from ..rotors.structure import Structure, force_rows, freedom_rows, hysteresis_matrices, in_order, is_sparse
+from .modal_reduction import MARGIN, Condensed, all_rows, lu_solver, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
 
 
@@ -54,7 +54,7 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     damping = _turned(structure.damping, at.speed, structure.gyroscopic)
     stiffness = _turned(structure.stiffness, at.speed, structure.circulation)
     for name, film in at.coefficients.items():
-        rows = film_rows(structure, name, freedoms_of(film))
+        rows = freedom_rows(structure, name, freedoms_of(film))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
         if (added := added_mass(film)).any():
@@ -87,8 +87,8 @@ def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float,
     """
     if structure.hysteresis is None:
         return system
-    driving = np.sign(speed) * across_planes(structure.hysteresis)
-    resisting = 1j * both_planes(structure.hysteresis)
+    across, along = hysteresis_matrices(structure)
+    driving, resisting = np.sign(speed) * across, 1j * along
     share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
     return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
 
@@ -129,7 +129,7 @@ def motion_near(
 
 def journal_rows(structure: Structure, name: str) -> Array:
     """Return the displacement of a journal from its housing, shape (2, N)."""
-    return film_rows(structure, name)
+    return freedom_rows(structure, name)
 
 
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.
@@ -218,19 +218,18 @@ class LeftOut:
         whole = model.whole
         shapes = model.lifted(np.eye(len(model.structure.weight)))
         pieces = _pieces(whole)
-        felt = [whole.journals] if whole.tilts is None else [whole.journals, whole.tilts]
-        forces = [rows.T for rows in felt]
+        felt = force_rows(whole)
         heavy = whole.mass @ shapes
         self.count = len(pieces)
         self.places = seen_rows(whole)
-        self.felt = np.vstack(felt) @ shapes
+        self.felt = felt @ shapes
         self.seen = self.places @ shapes
         starts, ends = (
-            _unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), *forces]), shapes, heavy)
+            _unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), felt.T]), shapes, heavy)
             for first, matrices in ((loads, pieces), (self.places.T, [piece.T for piece in pieces]))
         )
         self.energies = ends.T @ model.answer(starts)
-        self.stations = whole.stations
+        self.freedoms = [(name, freedom) for name, own in in_order(whole) for freedom in own]
 
     def error(
         self,
@@ -268,22 +267,16 @@ class LeftOut:
         """Return K + i frequency C - frequency^2 M of all stations, over their displacements and tilts."""
         found = np.zeros((len(self.felt), len(self.felt)), dtype=complex)
         for name, film in at.coefficients.items():
-            own = self._places(name, freedoms_of(film))
+            own = [self.freedoms.index((name, freedom)) for freedom in freedoms_of(film)]
             found[np.ix_(own, own)] += film.stiffness + 1j * frequency * film.damping
             found[np.ix_(own, own)] -= frequency**2 * added_mass(film)
         return found
-
-    def _places(self, station: str, freedoms: Sequence[str]) -> list[int]:
-        """Return where the freedoms of a station are among the rows of all stations."""
-        k, count = self.stations.index(station), 2 * len(self.stations)
-        first = {"x": 0, "y": 1, "tilt_x": count, "tilt_y": count + 1}
-        return [2 * k + first[name] for name in freedoms]
 
 
 def _pieces(s: Structure) -> list[Any]:
     """Return the matrices that `_weights` are of."""
     found = [s.mass, s.damping, s.gyroscopic, s.stiffness, s.circulation]
-    return found if s.hysteresis is None else [*found, across_planes(s.hysteresis), both_planes(s.hysteresis)]
+    return found if s.hysteresis is None else [*found, *hysteresis_matrices(s)]
 
 
 def _weights(speed: float, frequency: float) -> list[complex]:

@@ -32,6 +32,7 @@ from .modal_reduction import (
     models,
     tally,
     usual_frequency,
+    whirling,
 )
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
@@ -45,6 +46,9 @@ from .rotor_matrices import (
 )
 
 _OSCILLATES = 1e-6
+
+_ASIDE = 1e-20
+"""Energy in the planes / that of axial and torsional motion, below which it is roundoff."""
 
 _HELD = 1e-12
 """Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
@@ -94,7 +98,8 @@ class RotorModes(Whirls, Readable):
     shapes : ndarray, shape (N, n)
         Complex coordinates of the rotor.
     direction : ndarray, shape (n,) [1]
-        From 1, whirl in circles with the rotation, to -1, in circles against it.
+        From 1, whirl in circles with the rotation, to -1, in circles against it; 0 of axial and torsional
+        motion.
     frequency : ndarray, shape (n,) [rad/s]
         Damped frequency, the imaginary part of the eigenvalues.
     log_decrement : ndarray, shape (n,) [1]
@@ -211,19 +216,22 @@ def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorMo
         speed=at.speed,
         eigenvalues=np.concatenate(values),
         shapes=model.lifted(shapes),
-        direction=directions(model.structure.mass, shapes, at.speed),
+        direction=directions(model.structure, shapes, at.speed),
         error=max(errors),
         roundoff=np.concatenate(rounded),
         highest_frequency=math.inf if model.space is None else known_to,
     )
 
 
-def directions(mass: Any, shapes: np.ndarray, speed: float) -> Array:
-    """Return the direction of shapes (N, m) as in `RotorModes`, with their mass matrix."""
-    n = len(shapes) // 2
-    turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
+def directions(structure: Structure, shapes: np.ndarray, speed: float) -> Array:
+    """Return the direction of shapes (N, m) as in `RotorModes`."""
+    n, mass = len(structure.coordinates), structure.mass
+    x, y, others = np.split(shapes, (n, 2 * n))
+    turned = [x + sign * 1j * y for sign in (1.0, -1.0)]
     forward, backward = (np.sum(u.conj() * (mass[:n, :n] @ u), axis=0).real for u in turned)
-    return np.asarray((-1.0 if speed < 0.0 else 1.0) * (forward - backward) / (forward + backward))
+    aside = 2.0 * np.sum(others.conj() * (mass[2 * n :, 2 * n :] @ others), axis=0).real
+    whirl, sense = forward + backward, -1.0 if speed < 0.0 else 1.0
+    return np.where(whirl > _ASIDE * aside, sense * (forward - backward) / (whirl + aside), 0.0)
 
 
 Band = tuple[float, float, float]
@@ -476,6 +484,7 @@ def critical_speeds(
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)
+    rotor = whirling(rotor, bearings)
     with counted(*COUNTS) as work:
         try:
             found = crossings(rotor, bearings, grid)
@@ -490,7 +499,7 @@ def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpe
         CriticalSpeed(
             speed=one.speed,
             log_decrement=float(log_decrement(one.value)),
-            direction=float(directions(rotor.assembly.mass, one.right[:, None], one.speed)[0]),
+            direction=float(directions(rotor.assembly, one.right[:, None], one.speed)[0]),
         )
         for one in found
     ]
@@ -655,7 +664,7 @@ def rotor_threshold(
     ConvergenceError
         If that count is another than that of the exponents found.
     """
-    search = _Stability(rotor, bearings)
+    search = _Stability(whirling(rotor, bearings), bearings)
     grid = speeds_in_turn(speeds)
     with counted(*COUNTS) as work:
         unstable = search.growing(float(grid[0])) > 0
@@ -702,7 +711,7 @@ def stability_changes(
     speeds have the error of `rotor_threshold`.
     """
     with counted(*COUNTS) as work:
-        found = list(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
+        found = list(_Stability(whirling(rotor, bearings), bearings).changes(speeds_in_turn(speeds), report))
     report(1.0, "")
     return TupleWithOperations(found, work)
 
@@ -713,6 +722,7 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
+    rotor = whirling(rotor, bearings)
 
     def growing(speed: float) -> NDArray[np.complex128]:
         motions = motions_at(rotor, bearings, speed)

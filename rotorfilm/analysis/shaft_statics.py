@@ -17,7 +17,7 @@ from ..core.model import Array
 from ..core.port import Bearings, carries_load
 from ..core.readable import Drawable
 from ..rotors import ShaftRotor, Station
-from ..rotors.structure import dense_matrix, mean_plane
+from ..rotors.structure import dense_matrix, in_planes, mean_plane
 from .modal_reduction import BandedCholesky, modes_near
 from .rotor_equilibrium import rotor_equilibrium
 
@@ -88,7 +88,8 @@ def shaft_statics(
         displacement, loads = _on_rigid(rotor, chosen_stations(rotor, supports))
     else:
         displacement, loads = _on_bearings(rotor, bearings, speed, supports)
-    x, y = np.split(displacement, 2)
+    n = len(rotor.assembly.coordinates)
+    x, y = displacement[:n], displacement[n : 2 * n]
     ends = np.array(list(_end_forces(rotor, x + 1j * y))).reshape(-1, 2)
     lengths = [element.length for element in rotor.elements]
     positions = rotor.positions
@@ -123,7 +124,7 @@ def _on_rigid(rotor: ShaftRotor, holding: Sequence[Station]) -> tuple[Array, dic
     nodes = [station.node for station in holding]
     if len(set(nodes)) < len(nodes):
         raise InputError(f"stations must be on different nodes where they are rigid, got {nodes}")
-    full, free = rotor.assembly, free_coordinates(rotor, holding)
+    full, free = in_planes(rotor.assembly), free_coordinates(rotor, holding)
     n = len(full.coordinates)
     both = np.concatenate([free, n + free])
     require_held(rotor, holding)
@@ -204,7 +205,7 @@ def rigid_support_speed(rotor: ShaftRotor, supports: Sequence[str] | None = None
     """
     holding = chosen_stations(rotor, supports)
     require_held(rotor, holding)
-    full, free = rotor.assembly, free_coordinates(rotor, holding)
+    full, free = in_planes(rotor.assembly), free_coordinates(rotor, holding)
     n = len(full.coordinates)
     stiffness, mass = (mean_plane(part)[free][:, free] for part in (full.stiffness, full.mass))
     inertia = mass - full.gyroscopic[:n, n:][free][:, free]

@@ -14,10 +14,9 @@ from ..core.model import Array
 from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure
+from ..rotors.structure import Structure, freedom_rows
 from .coefficients import film_coefficients
 from .equilibrium import equilibrium
-from .modal_reduction import film_rows
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import (
     CONVERGED,
@@ -243,7 +242,7 @@ def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
     for name, (stiffness, damping) in coefficient_rates(turning, whirl.at, s, STEP).items():
-        rows = film_rows(structure, name, freedoms_of(whirl.at.coefficients[name]))
+        rows = freedom_rows(structure, name, freedoms_of(whirl.at.coefficients[name]))
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
     _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
     return complex(-(left @ changed) / (left @ slope @ right))

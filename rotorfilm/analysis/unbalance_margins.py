@@ -24,7 +24,7 @@ from ..core.results import Trajectory
 from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
-from ..rotors.structure import mean_plane
+from ..rotors.structure import in_planes, mean_plane
 from .closed_loop import frequency_response, synchronous_response
 from .rotor_equilibrium import RotorEquilibrium
 from .rotor_matrices import journal_rows
@@ -334,7 +334,7 @@ def bow_response(
     if shape.shape != (count,) or not np.isfinite(shape).all():
         raise InputError(f"bow must be {count} finite numbers, one for each node, got shape {shape.shape}")
     force = _straightening(rotor, shape)
-    turning = np.concatenate([force, -1j * force])
+    turning = np.concatenate([force, -1j * force, np.zeros(len(rotor.assembly.others))])
     loads = np.column_stack([turning.real, turning.imag])
     parts = np.array([[1.0], [1.0j]])
     return synchronous_response(rotor, bearings, speeds, loads, lambda speed: parts, "bow")
@@ -523,7 +523,7 @@ def mode_unbalances(
 
 def _shape(rotor: ShaftRotor, at: RotorEquilibrium, mode: int) -> Array:
     """Return the deflection of the nodes in an undamped mode of one plane, shape (n_nodes,)."""
-    full = rotor.assembly
+    full = in_planes(rotor.assembly)
     n, nodes = len(full.coordinates), len(rotor.elements) + 1
     stiffness, mass = mean_plane(full.stiffness), mean_plane(full.mass)
     for name, film in at.coefficients.items():

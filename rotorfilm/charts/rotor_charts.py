@@ -190,7 +190,8 @@ def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int, *, axes: 
     """
     if not 0 <= number < len(modes.eigenvalues):
         raise InputError(f"number must be from 0 to {len(modes.eigenvalues) - 1}, got {number!r}")
-    x, y = (_deflection(rotor, plane) for plane in np.split(modes.shapes[:, number], 2))
+    n = len(rotor.assembly.coordinates)
+    x, y = (_deflection(rotor, modes.shapes[k : k + n, number]) for k in (0, n))
     size = np.sqrt(np.abs(x) ** 2 + np.abs(y) ** 2).max()
     turn = _turn(x, y) / size
     axes = axes or new_axes("Mode shape")

@@ -15,7 +15,7 @@ from ..core.limits import STEPS
 from ..core.model import Array, Linearization, breakpoints
 from .reduced_rotor import ReducedRotor
 from .rigid import RigidRotor
-from .structure import AroundRotor, FlexibleRotor, both_planes, dense_matrix
+from .structure import AroundRotor, FlexibleRotor, dense_matrix
 
 PER_PERIOD = 20
 """Samples per period of the highest frequency of a spectrum: chords between them are .4 % off."""
@@ -217,7 +217,7 @@ def translations(rotor: RigidRotor | FlexibleRotor) -> Array:
     if isinstance(rotor, ReducedRotor):
         # The translation that has the momentum of that of the whole rotor.
         full = rotor.rotor.assembly
-        momentum = both_planes(rotor.basis).T @ (full.mass @ translations(rotor.rotor))
+        momentum = rotor.transformation.T @ (full.mass @ translations(rotor.rotor))
         return np.asarray(np.linalg.solve(rotor.structure.mass, momentum))
     return np.column_stack([_under(rotor, along) for along in ((1.0, 0.0), (0.0, 1.0))])
 

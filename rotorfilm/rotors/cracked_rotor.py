@@ -125,7 +125,7 @@ class ShaftCrack:
         stiff = float(np.mean(piece.section().bending)) / piece.length
         loss = [stiff * stiff * h / (1.0 + stiff * h) for h in compliance]
         size = len(rotor.assembly.coordinates)
-        rows = np.zeros((2, 2 * size))
+        rows = np.zeros((2, len(rotor.assembly.weight)))
         for plane in range(2):
             first = plane * size + 2 * self.element + 1
             rows[plane, [first, first + 2]] = -1.0, 1.0

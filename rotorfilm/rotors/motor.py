@@ -16,7 +16,7 @@ from ..core.model import Array, Linearization, breakpoints
 from ..core.signals import Signal
 from .profile import SpeedProfile
 from .rigid import RigidRotor
-from .structure import AroundRotor, FlexibleRotor
+from .structure import AroundRotor, FlexibleRotor, beside, force_rows
 
 # The torque of a motor over its speed.
 
@@ -136,8 +136,8 @@ class MotorDrivenRotor(AroundRotor):
     Raises
     ------
     InputError
-        If the speed is a profile, the rotor has a loss factor, or the inertia is not larger than that of the
-        unbalance.
+        If the speed is a profile, the rotor has a loss factor or twists, or the inertia is not larger than
+        that of the unbalance.
     """
 
     rotor: RigidRotor | FlexibleRotor
@@ -155,6 +155,8 @@ class MotorDrivenRotor(AroundRotor):
             )
         _ = self.rotor.operators
         s = self.rotor.structure
+        if s.twist is not None:
+            raise InputError("rotor must not twist beside a motor, got one with torsional=True")
         taken = float(np.linalg.eigvalsh(s.unbalance.T @ np.linalg.solve(s.mass, s.unbalance)).max())
         if not self.inertia > taken:
             raise InputError(
@@ -211,7 +213,7 @@ class MotorDrivenRotor(AroundRotor):
         A[:n, n : 2 * n], A[-2, -1] = np.eye(n), 1.0
         rows = [*range(n, 2 * n), 2 * n + 1]
         A[rows] = np.linalg.solve(inertias, by_state)
-        push = np.vstack([self.rotor.structure.journals.T, np.zeros(len(forces))])
+        push = np.vstack([force_rows(self.rotor.structure).T, np.zeros(len(forces))])
         B[rows] = np.linalg.solve(inertias, push)
         sense = self.rotor.operators.sense
         C = np.zeros((len(sense) + 2, 2 * n + 2))
@@ -245,7 +247,7 @@ class MotorDrivenRotor(AroundRotor):
         turned = self._turned @ turn.q
         rubbed = turned @ self._rotating @ (turn.v - w * turned)
         torque = self.torque.torque(t, w) + self._gravity @ turn.across + rubbed
-        return np.append(s.journals.T @ u + s.weight + w * w * turn.outward - held, torque)
+        return np.append(force_rows(s).T @ u + s.weight + w * w * turn.outward - held, torque)
 
     def _load_slopes(self, t: float, turn: _Turn) -> Array:
         """Return the derivatives of `_loads` by the state."""
@@ -268,8 +270,9 @@ class MotorDrivenRotor(AroundRotor):
     @cached_property
     def _turned(self) -> Array:
         """What turns a displacement by +90 deg, shape (N, N)."""
-        half = len(self.rotor.structure.weight) // 2
-        return np.kron(np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(half))
+        s = self.rotor.structure
+        turn = np.kron(np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(len(s.coordinates)))
+        return np.asarray(beside(turn, np.zeros((len(s.others),) * 2)))
 
     @cached_property
     def _rotating(self) -> Array:

@@ -18,13 +18,16 @@ from .profile import SpeedProfile
 from .structure import (
     FlexibleRotor,
     Structure,
+    beside,
     both_planes,
     check_motion,
     dense,
     dense_matrix,
+    in_planes,
     mean_plane,
     new_shapes,
     projected,
+    whole_basis,
 )
 
 
@@ -74,8 +77,8 @@ class ReducedRotor(FlexibleRotor):
 
     @cached_property
     def basis(self) -> Array:
-        """Shapes of one plane in the coordinates of the rotor, largest entry 1, shape (N / 2, n)."""
-        full = self.rotor.structure
+        """Shapes of one plane in its coordinates, largest entry 1; axial and torsional ones are all kept."""
+        full = in_planes(self.rotor.structure)
         n = len(full.coordinates)
         mass, stiffness = mean_plane(full.mass), mean_plane(full.stiffness)
         held = np.vstack([full.journals[::2, :n], np.eye(n)[list(full.supports)]])
@@ -84,6 +87,11 @@ class ReducedRotor(FlexibleRotor):
         slow, bent = _static_shapes(stiffness, held, loads)
         shapes = np.hstack([slow, modes, new_shapes(bent, modes, mass)])
         return shapes / np.abs(shapes).max(axis=0)
+
+    @property
+    def transformation(self) -> Array:
+        """Coordinates of the rotor per coordinate that is kept, shape (N, n)."""
+        return whole_basis(self.basis, len(self.rotor.assembly.others))
 
 
 def _held_modes(mass: Array, stiffness: Array, held: Array, count: int) -> Array:
@@ -277,7 +285,8 @@ class ModallyDampedRotor(FlexibleRotor):
     def assembled(self) -> Structure:
         """Return the matrices of the rotor, dense, with the damping of its modes."""
         full = dense(self.rotor.assembly)
-        return full._replace(damping=full.damping + both_planes(self._modal(full)))
+        none = np.zeros((len(full.others),) * 2)
+        return full._replace(damping=full.damping + beside(both_planes(self._modal(in_planes(full))), none))
 
     def _modal(self, full: Structure) -> Array:
         n, count = len(full.coordinates), len(self.damping_ratios)

@@ -33,6 +33,7 @@ from .structure import (
     check_motion,
     checked_stations,
     displacements,
+    extended,
     unbalance_columns,
 )
 
@@ -192,7 +193,7 @@ class RigidRotor(Turning):
             journals=np.eye(2),
             weight=self._static_load,
             unbalance=unbalance_columns(self.unbalance, self.unbalance_angle),
-            coordinates=(),
+            coordinates=(("{}", "m", NOMINAL_LENGTH),),
             readouts=(),
         )
 
@@ -209,7 +210,7 @@ def native_parameter(name: str, value: float) -> NativeParameter:
     return parameter(name, unit, value, description, tunable=name != "constant_speed", minimum=minimum)
 
 
-# A rigid shaft that also tilts: four degrees of freedom, any number of bearings.
+# A rigid shaft that also tilts: four degrees of freedom or five, any number of bearings.
 
 
 @quantities
@@ -230,7 +231,13 @@ class RigidShaft(FlexibleRotor):
         [rad] of each unbalance.
     gravity : tuple of two floats [m/s2]
     initial : tuple of float
-        State at t = 0: x, tilt_x, y, tilt_y of the mass center and their rates; empty for rest at zero.
+        State at t = 0: x, tilt_x, y, tilt_y of the mass center, z if it is axial, and their rates; empty
+        for rest at zero. Here tilt_x, tilt_y are the tilts dx/dz, dy/dz in both planes.
+    axial : bool
+        Whether it also moves along z: every station has z, vz and force_z then.
+    feels_tilt : bool
+        Whether bearings may also resist its tilt: every station has tilt_x, tilt_y about +x and +y, their
+        rates and moment_x, moment_y then.
 
     Raises
     ------
@@ -246,6 +253,8 @@ class RigidShaft(FlexibleRotor):
     unbalances: tuple[tuple[float, float, float], ...] = ()
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     initial: tuple[float, ...] = ()
+    axial: bool = False
+    feels_tilt: bool = False
 
     def __post_init__(self) -> None:
         require_positive("mass", self.mass)
@@ -266,7 +275,8 @@ class RigidShaft(FlexibleRotor):
             unbalance += np.kron(np.eye(2), [[1.0], [place]]) @ unbalance_columns(amount, angle)
         rows = [both_planes(np.array([[1.0, place]])) for _, place in self.stations]
         none: Array = np.zeros((4, 4))
-        return Structure(
+        tilts = np.tile([[0.0, 0.0, 0.0, -1.0], [0.0, 1.0, 0.0, 0.0]], (len(rows), 1))
+        planar = Structure(
             mass=both_planes(np.diag([self.mass, self.diametral_inertia])),
             damping=none,
             gyroscopic=across_planes(np.diag([0.0, self.polar_inertia])),
@@ -281,6 +291,14 @@ class RigidShaft(FlexibleRotor):
                 ("tilt_{}", "rad", tilt),
             ),
             readouts=displacements("center", (0, 2), 4),
+            tilts=tilts if self.feels_tilt else None,
+        )
+        if not self.axial:
+            return planar
+        still, rows_z = np.zeros((1, 1)), {"z": np.ones((len(rows), 1))}
+        center = ("center_z", "m", NOMINAL_LENGTH)
+        return extended(
+            planar, [center], mass=self.mass * np.eye(1), damping=still, stiffness=still, rows=rows_z
         )
 
 

@@ -17,6 +17,7 @@ from ..core.signals import signals_of
 from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 from .reduced_rotor import ReducedRotor
+from .rod_elements import Chain, axial_chain, chain_coordinates, torsional_chain
 from .shaft_elements import (
     Beam,
     BeamMatrices,
@@ -44,6 +45,7 @@ from .structure import (
     check_motion,
     checked_stations,
     displacements,
+    extended,
     station_name,
     summed,
     unbalance_columns,
@@ -65,7 +67,8 @@ class ShaftRotor(FlexibleRotor):
     speed : float or SpeedProfile [rad/s]
         Angular speed about +z.
     stations : tuple of Station
-        Where bearings act; each is an input force_x, force_y and an output x, y, vx, vy.
+        Where bearings act; each is an input force_x, force_y and an output x, y, vx, vy. One that feels
+        tilts has moment_x, moment_y and tilt_x, tilt_y, tilt_rate_x, tilt_rate_y besides.
     disks : tuple of Disk
     tilt_springs : tuple of TiltSpring
         Springs against the tilt of nodes, besides what acts at the stations.
@@ -87,11 +90,23 @@ class ShaftRotor(FlexibleRotor):
         The element: `FourthOrderBeam()`, or `ClassicalBeam()` as published rotors were computed with.
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
+    axial : bool
+        Whether it also moves and stretches along z: every station has z, vz and force_z then. Housings do
+        not; gravity has no part along z. Couplings need an `axial_stiffness`.
+    torsional : bool
+        Whether it also twists, besides the rotation that the speed says: every station has twist, twist_rate
+        and torque then. Couplings need a `twist_stiffness`.
 
     Raises
     ------
     InputError
         If an argument breaks its rule; of a part that is on no node, the message names the node.
+
+    Notes
+    -----
+    Along the axis and about it a straight shaft does not feel its bending and its rotation: what joins them
+    are the bearings. Internal damping and hysteresis of the rotating shaft differ there: the first is plain
+    damping, the second is left out.
 
     Examples
     --------
@@ -118,6 +133,8 @@ class ShaftRotor(FlexibleRotor):
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     beam: Beam = field(default_factory=FourthOrderBeam)
     initial: tuple[float, ...] = ()
+    axial: bool = False
+    torsional: bool = False
 
     def __post_init__(self) -> None:
         if all(isinstance(element, Coupling) for element in self.elements):
@@ -135,8 +152,7 @@ class ShaftRotor(FlexibleRotor):
     @property
     def mass(self) -> float:
         """Mass of shaft and disks, without the housings [kg]."""
-        size = len(self.assembly.coordinates)
-        shift = np.zeros(2 * size)
+        shift = np.zeros(len(self.assembly.weight))
         shift[0 : 2 * (len(self.elements) + 1) : 2] = 1.0
         return float(shift @ (self.assembly.mass @ shift))
 
@@ -149,8 +165,32 @@ class ShaftRotor(FlexibleRotor):
         """Return the matrices of the rotor.
 
         Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
-        displacement of each support.
+        displacement of each support. Along the axis and about it: those of the nodes and inside the elements.
         """
+        structure = self._planar()
+        if self.axial:
+            structure = self._extended(structure, "z", "m", axial_chain(self.elements, self.disks))
+        if self.torsional:
+            structure = self._extended(structure, "twist", "rad", torsional_chain(self.elements, self.disks))
+        return structure
+
+    def _extended(self, structure: Structure, name: str, unit: str, chain: Chain) -> Structure:
+        """Return a structure with the coordinates of a chain beside those that it has."""
+        nominal = NOMINAL_LENGTH / (1.0 if unit == "m" else float(self.positions[-1]))
+        rows = np.zeros((len(self.stations), chain.mass.shape[0]))
+        rows[range(len(rows)), [station.node for station in self.stations]] = 1.0
+        by_stiffness = self.stiffness_damping + self.internal_damping
+        return extended(
+            structure,
+            chain_coordinates(self.elements, name, unit, nominal),
+            mass=chain.mass,
+            damping=self.mass_damping * chain.mass + by_stiffness * chain.stiffness + chain.damping,
+            stiffness=chain.stiffness,
+            rows={name: rows},
+        )
+
+    def _planar(self) -> Structure:
+        """Return the matrices in both planes."""
         elements, stations = self.elements, self.stations
         coordinates = [
             *_node_coordinates(elements),
@@ -425,14 +465,14 @@ class ShaftModel:
     def nodal(self, shape: np.ndarray) -> np.ndarray:
         """Return a shape (N,) at the nodes of the file and the supports, both planes."""
         if isinstance(self.rotor, ReducedRotor):
-            shape = both_planes(self.rotor.basis) @ shape
+            shape = self.rotor.transformation @ shape
         return np.asarray(shape[self._file_places])
 
     def seen(self, nodal: np.ndarray) -> np.ndarray:
         """Return what a shape at the nodes of the file, as a load, is in the coordinates of this model."""
         load = np.zeros(len(self.mesh.structure.mass), dtype=nodal.dtype)
         load[self._file_places] = nodal
-        return both_planes(self.rotor.basis).T @ load if isinstance(self.rotor, ReducedRotor) else load
+        return self.rotor.transformation.T @ load if isinstance(self.rotor, ReducedRotor) else load
 
     @cached_property
     def _file_places(self) -> Array:
@@ -444,7 +484,7 @@ class ShaftModel:
     def lifted(self, shapes: np.ndarray) -> np.ndarray:
         """Return shapes (N, ...) of this model in the coordinates of `finer`; inside its elements 0."""
         if isinstance(self.rotor, ReducedRotor):
-            shapes = both_planes(self.rotor.basis) @ shapes
+            shapes = self.rotor.transformation @ shapes
         here, there = shared_places(self.mesh, self.finer)
         fine = np.zeros((len(self.finer.structure.mass), *shapes.shape[1:]), dtype=shapes.dtype)
         fine[there] = shapes[here]

@@ -2,23 +2,25 @@
 
     M q'' + (C + w G) q' + (K + w H) q = T' f + weight + unbalance(t)
 
-with the angular speed w. The first half of q are coordinates of the x-z plane, the second half those of the
-y-z plane. G is the gyroscopic effect, H rotating damping. T gives the displacement of journals from housings.
+with the angular speed w. q has the coordinates of the x-z plane, as many of the y-z plane, and others, as
+along the shaft and about it. G is the gyroscopic effect, H rotating damping. T gives the displacement of
+journals from housings.
 
 The torque that drives the shaft is taken to follow the tilt of each cross section, as it does where the shaft
-itself transmits it; an angular acceleration then has no moment of its own besides that on the unbalance.
+itself transmits it, and to accelerate each section as the speed says; an angular acceleration then has no
+moment of its own besides that on the unbalance.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.errors import InputError, keep_pair, require_finite, require_kind, require_number
 from ..core.model import Array, Dynamic, Linearization, breakpoints
@@ -44,7 +46,7 @@ QUARTER_TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 Coordinate = tuple[str, str, float]
-"""A coordinate of one plane: its name with {} for x or y, unit (m or rad) and nominal size."""
+"""A coordinate: its name, of one of a plane with {} for x or y, unit (m or rad) and nominal size."""
 
 
 Readout = tuple[Signal, Array]
@@ -52,7 +54,7 @@ Readout = tuple[Signal, Array]
 
 
 class Structure(NamedTuple):
-    """Matrices of a flexible rotor with N coordinates, N / 2 in each plane.
+    """Matrices of a flexible rotor with N coordinates: those of the x-z plane, of the y-z plane, and others.
 
     Attributes
     ----------
@@ -64,15 +66,20 @@ class Structure(NamedTuple):
     weight : ndarray, shape (N,) [N]
     unbalance : ndarray, shape (N, 2)
         Force per pair (w^2 cos p + a sin p, w^2 sin p - a cos p), angle p and its second derivative a.
-    coordinates : tuple of Coordinate, length N / 2
+    coordinates : tuple of Coordinate, length n
+        Of one plane.
     readouts : tuple of Readout
     supports : tuple of int, places of the housings among the coordinates of a plane
     housings : ndarray, shape (2 n_stations, N), or None
         Displacement of each housing, x and y in turn; None if all are rigid.
-    hysteresis : ndarray, shape (N / 2, N / 2), or None
+    hysteresis : ndarray, shape (n, n), or None
         Loss factor times stiffness of the rotating shaft in one plane [N/m].
     tilts : ndarray, shape (2 n_stations, N), or None
         Of the shaft about +x, +y, at stations that feel it.
+    others : tuple of Coordinate, length N - 2 n
+        Beyond both planes; their names have no {}.
+    axial, twist : ndarray, shape (n_stations, N), or None
+        Motion of the shaft along +z, and about it besides the rotation, at each station; None if it has none.
     """
 
     mass: Array
@@ -90,6 +97,9 @@ class Structure(NamedTuple):
     housings: Array | None = None
     hysteresis: Array | None = None
     tilts: Array | None = None
+    others: tuple[Coordinate, ...] = ()
+    axial: Array | None = None
+    twist: Array | None = None
 
 
 def dense(structure: Structure) -> Structure:
@@ -138,28 +148,42 @@ class FlexibleRotor(Turning):
         return dense(self.assembly)
 
     @cached_property
-    def remembered(self) -> dict[int, Any]:
+    def remembered(self) -> dict[Any, Any]:
         """What analyses have worked out of the rotor, by their own keys."""
         return {}
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y of each station: on the journal, and the opposite on its housing."""
-        weight = float(np.abs(self.assembly.weight).sum()) or STANDARD_GRAVITY
+        """Signals force_x, force_y of each station: on the journal, and the opposite on its housing.
+
+        Forces and moments of further freedoms follow, station by station.
+        """
+        s = self.assembly
+        weight = float(np.abs(s.weight).sum()) or STANDARD_GRAVITY
         return tuple(
-            prefixed(name, signal) for name in self.assembly.stations for signal in force_outputs(weight)
+            prefixed(name, signal)
+            for name, freedoms in in_order(s)
+            for signal in force_outputs(weight, freedoms, _arm(s))
         )
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy of each station, journal less housing; further readouts; speed."""
-        *motion, speed = journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
-        journals = [prefixed(name, signal) for name in self.assembly.stations for signal in motion]
-        return (*journals, *(signal for signal, _ in self.assembly.readouts), speed)
+        """Signals x, y, vx, vy of each station, journal less housing; further readouts; speed.
+
+        Places and rates of further freedoms come before the readouts, station by station.
+        """
+        s = self.assembly
+        places = [
+            prefixed(name, signal)
+            for name, freedoms in in_order(s)
+            for signal in journal_inputs(NOMINAL_LENGTH, self.nominal_speed, freedoms, _arm(s))[:-1]
+        ]
+        speed = journal_inputs(NOMINAL_LENGTH, self.nominal_speed)[-1]
+        return (*places, *(signal for signal, _ in s.readouts), speed)
 
     @cached_property
     def states(self) -> tuple[Signal, ...]:
-        """The coordinates of the x-z plane, those of the y-z plane, and their rates in the same order."""
+        """The coordinates of the x-z plane, those of the y-z plane, others, and their rates in this order."""
         kinds: tuple[tuple[str, str, float, str], ...] = (
             ("", "", 1.0, "displacement"),
             ("v", "/s", self.nominal_speed, "rate of the displacement"),
@@ -168,8 +192,8 @@ class FlexibleRotor(Turning):
             *(
                 (head + name.format(axis), unit + per, nominal * scale, text)
                 for head, per, scale, text in kinds
-                for axis in "xy"
-                for name, unit, nominal in self.assembly.coordinates
+                for axis, coordinates in zip(("x", "y", ""), _by_plane(self.assembly), strict=True)
+                for name, unit, nominal in coordinates
             )
         )
 
@@ -208,6 +232,24 @@ class FlexibleRotor(Turning):
         return solved_equations(s)
 
 
+class MatrixRotor(FlexibleRotor):
+    """A rotor of given matrices, with speed and gravity of another.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+    structure : Structure
+    """
+
+    def __init__(self, rotor: FlexibleRotor, structure: Structure) -> None:
+        self.speed, self.gravity, self.initial = rotor.speed, rotor.gravity, ()
+        self._structure = structure
+
+    def assembled(self) -> Structure:
+        """Return the matrices."""
+        return self._structure
+
+
 def require_flexible(rotor: object) -> None:
     """Raise InputError unless `rotor` has the matrices of a flexible rotor."""
     require_kind("rotor", rotor, FlexibleRotor, "a flexible rotor such as a ShaftRotor")
@@ -228,7 +270,7 @@ def solved_equations(s: Structure) -> Operators:
     return Operators(
         steady=steady,
         spin=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
-        push=accelerations(s.journals.T),
+        push=accelerations(force_rows(s).T),
         weight=accelerations(s.weight),
         unbalance=accelerations(s.unbalance),
         sense=output_rows(s),
@@ -237,12 +279,15 @@ def solved_equations(s: Structure) -> Operators:
 
 def output_rows(structure: Structure) -> Array:
     """Return the rows that make the outputs but the speed out of (q, q'), shape (n_outputs - 1, 2 N)."""
-    n = len(structure.weight)
-    rows = []
-    for pair in np.split(structure.journals, len(structure.stations)) if structure.stations else ():
-        rows += [np.hstack([pair, np.zeros((2, n))]), np.hstack([np.zeros((2, n)), pair])]
-    rows += [row[None] for _, row in structure.readouts]
-    return np.concatenate(rows) if rows else np.zeros((0, 2 * n))
+    places = [both_planes(freedom_rows(structure, *one)) for one in in_order(structure)]
+    readouts = [row[None] for _, row in structure.readouts]
+    return np.concatenate([np.zeros((0, 2 * len(structure.weight))), *places, *readouts])
+
+
+def force_rows(structure: Structure) -> Array:
+    """Return the displacements that the inputs of a rotor act on, in their order, shape (n_inputs, N)."""
+    rows = [freedom_rows(structure, *one) for one in in_order(structure)]
+    return np.concatenate([np.zeros((0, len(structure.weight))), *rows])
 
 
 def check_motion(rotor: FlexibleRotor) -> None:
@@ -282,6 +327,205 @@ def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readou
     return tuple(zip(signals, rows, strict=True))
 
 
+# The freedoms of the stations of a rotor.
+
+
+class _Rows(NamedTuple):
+    """Where the rows of a freedom are: field of a `Structure`, first row and how many there are a station.
+
+    `given_by` is what gives a rotor this freedom.
+    """
+
+    field: str
+    first: int
+    each: int
+    given_by: str
+
+
+_ROWS = {
+    "x": _Rows("journals", 0, 2, ""),
+    "y": _Rows("journals", 1, 2, ""),
+    "z": _Rows("axial", 0, 1, "ShaftRotor(axial=True)"),
+    "tilt_x": _Rows("tilts", 0, 2, "Station(feels_tilt=True)"),
+    "tilt_y": _Rows("tilts", 1, 2, "Station(feels_tilt=True)"),
+    "twist": _Rows("twist", 0, 1, "ShaftRotor(torsional=True)"),
+}
+
+
+def _row(structure: Structure, station: str, freedom: str) -> Array | None:
+    """Return the row of a freedom of a station, shape (N,); None if it has none."""
+    at = _ROWS[freedom]
+    rows = getattr(structure, at.field)
+    found = None if rows is None else rows[at.each * structure.stations.index(station) + at.first]
+    return found if found is not None and (freedom in PLANAR or found.any()) else None
+
+
+def station_freedoms(structure: Structure, station: str) -> tuple[str, ...]:
+    """Return the freedoms of a station of a rotor, x and y first."""
+    return tuple(freedom for freedom in _ROWS if _row(structure, station, freedom) is not None)
+
+
+def freedom_rows(structure: Structure, station: str, freedoms: Sequence[str] = PLANAR) -> Array:
+    """Return the displacements of freedoms of a station in the order given, shape (n, N).
+
+    Those along x and y are of the journal from its housing; all others are of the shaft.
+
+    Raises
+    ------
+    InputError
+        If there is no such station, or it has not all of these freedoms.
+    """
+    if station not in structure.stations:
+        raise InputError(f"station must be one of the rotor's {list(structure.stations)}, got {station!r}")
+    rows = [_row(structure, station, freedom) for freedom in freedoms]
+    for freedom, row in zip(freedoms, rows, strict=True):
+        if row is None:
+            raise InputError(
+                f"station {station!r} must have the freedom {freedom}, got a rotor without: "
+                f"{_ROWS[freedom].given_by} gives it"
+            )
+    return np.array(rows, dtype=float).reshape(len(rows), len(structure.weight))
+
+
+def in_order(structure: Structure) -> list[tuple[str, tuple[str, ...]]]:
+    """Return stations and freedoms as signals have them: x, y of all stations, then the others of each."""
+    every = [(name, station_freedoms(structure, name)) for name in structure.stations]
+    return [(name, own[part]) for part in (slice(2), slice(2, None)) for name, own in every if own[part]]
+
+
+def _arm(structure: Structure) -> float:
+    """Return the length [m] that makes nominal tilts of nominal displacements."""
+    return next((NOMINAL_LENGTH / size for _, unit, size in structure.coordinates if unit == "rad"), 1.0)
+
+
+# Coordinates beyond both planes: beside those of the planes, and held.
+
+
+def _by_plane(structure: Structure) -> tuple[tuple[Coordinate, ...], ...]:
+    return structure.coordinates, structure.coordinates, structure.others
+
+
+def beside(first: Any, *further: Any) -> Any:
+    """Return matrices as the blocks of a diagonal, sparse if the first is; those without rows add nothing."""
+    blocks = [block for block in further if block.shape[0]]
+    if not blocks:
+        return first
+    # Imported when asked for: rotors are light.
+    from scipy import linalg, sparse
+
+    if is_sparse(first):
+        return sparse.csr_array(sparse.block_diag([first, *blocks]))
+    return np.asarray(linalg.block_diag(first, *blocks))
+
+
+def extended(
+    full: Structure,
+    others: Iterable[Coordinate],
+    *,
+    mass: Any,
+    damping: Any,
+    stiffness: Any,
+    rows: Mapping[str, Array],
+) -> Structure:
+    """Return a structure with further coordinates beside those that it has.
+
+    Parameters
+    ----------
+    full : Structure
+    others : iterable of Coordinate, m of them
+    mass, damping, stiffness : ndarray or sparse array, shape (m, m)
+    rows : mapping of str to ndarray, shape (n_stations, m)
+        By the freedom, "z" or "twist", its place at each station.
+    """
+    m, before = mass.shape[0], len(full.weight)
+    none = np.zeros((m, m))
+
+    def wide(part: Array) -> Array:
+        return np.concatenate([part, np.zeros((*part.shape[:-1], m))], axis=-1)
+
+    added = {_ROWS[name].field: np.pad(part, ((0, 0), (before, 0))) for name, part in rows.items()}
+    return _mapped(
+        full,
+        lambda matrix: beside(matrix, none),
+        wide,
+        mass=beside(full.mass, mass),
+        damping=beside(full.damping, damping),
+        stiffness=beside(full.stiffness, stiffness),
+        others=(*full.others, *others),
+        **added,
+    )
+
+
+def _mapped(
+    full: Structure, square: Callable[[Any], Any], row: Callable[[Any], Array], **fields: Any
+) -> Structure:
+    """Return a structure in other coordinates.
+
+    Parameters
+    ----------
+    full : Structure
+    square : callable
+        From a matrix (N, N) to that in the other coordinates.
+    row : callable
+        From rows (..., N) to those over the other coordinates.
+    fields : object
+        Of the result, in place of what these make.
+    """
+    squares = ("mass", "damping", "gyroscopic", "stiffness", "circulation")
+    stations = ("journals", "housings", "tilts", "axial", "twist")
+    made: dict[str, Any] = {name: square(getattr(full, name)) for name in squares if name not in fields}
+    made |= {name: row(rows) for name in stations if (rows := getattr(full, name)) is not None}
+    made["weight"], made["unbalance"] = row(full.weight), row(full.unbalance.T).T
+    made["readouts"] = tuple((s, row(np.reshape(both, (2, -1))).ravel()) for s, both in full.readouts)
+    return full._replace(**made | fields)
+
+
+def without(full: Structure, aside: ArrayLike) -> Structure:
+    """Return a structure some of whose further coordinates do not move; `aside` tells which, shape (m,)."""
+    stays = ~np.asarray(aside, dtype=bool)
+    if stays.all():
+        return full
+    kept = np.append(np.ones(2 * len(full.coordinates), dtype=bool), stays)
+
+    others = tuple(full.others[k] for k in np.flatnonzero(stays))
+    return _mapped(full, lambda part: part[kept][:, kept], lambda rows: rows[..., kept], others=others)
+
+
+def hysteresis_matrices(full: Structure) -> tuple[Any, Any]:
+    """Return what is -i times the hysteresis on x + i y, and the hysteresis itself, of all coordinates."""
+    assert full.hysteresis is not None
+    none = np.zeros((len(full.others), len(full.others)))
+    return beside(across_planes(full.hysteresis), none), beside(both_planes(full.hysteresis), none)
+
+
+def in_planes(full: Structure) -> Structure:
+    """Return a structure that moves in its planes only."""
+    return without(full, np.ones(len(full.others)))
+
+
+def untouched(full: Structure, rows: Array) -> NDArray[np.bool_]:
+    """Return which further coordinates neither planes, weight nor bearings move, shape (m,).
+
+    Parameters
+    ----------
+    full : Structure
+    rows : ndarray, shape (n, N)
+        What the bearings feel, as `freedom_rows` returns it.
+    """
+    m = len(full.others)
+    if not m:
+        return np.zeros(0, dtype=bool)
+    # Imported when asked for: rotors are light.
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import connected_components
+
+    matrices = full.mass, full.damping, full.gyroscopic, full.stiffness, full.circulation
+    joined: Any = sum(abs(csr_array(part[-m:])) for part in matrices)
+    _, labels = connected_components(joined[:, -m:], directed=False)
+    moved = joined[:, :-m].sum(axis=1) + np.abs(rows[:, -m:]).sum(axis=0) + np.abs(full.weight[-m:])
+    return ~np.isin(labels, labels[moved > 0.0])
+
+
 # The equations of a rotor that moves in some of its shapes only.
 
 
@@ -292,38 +536,32 @@ DEPENDENT = 1e-6
 def projected(full: Structure, shapes: Array) -> Structure:
     """Return the matrices of a structure that moves in shapes of one plane, the same in both (Galerkin).
 
+    Further coordinates are kept as they are.
+
     Parameters
     ----------
     full : Structure
-        With N coordinates.
-    shapes : ndarray, shape (N / 2, n)
+    shapes : ndarray, shape (n, n_shapes)
+        Over the n coordinates of a plane.
     """
-    basis = both_planes(shapes)
-    twice = both_planes(basis)
-
-    def project(matrix: Any) -> Array:
-        return np.asarray(basis.T @ dense_matrix(matrix @ basis))
-
-    return Structure(
-        mass=project(full.mass),
-        damping=project(full.damping),
-        gyroscopic=project(full.gyroscopic),
-        stiffness=project(full.stiffness),
-        circulation=project(full.circulation),
-        stations=full.stations,
-        journals=full.journals @ basis,
-        weight=basis.T @ full.weight,
-        unbalance=basis.T @ full.unbalance,
+    basis = whole_basis(shapes, len(full.others))
+    return _mapped(
+        full,
+        lambda matrix: np.asarray(basis.T @ dense_matrix(matrix @ basis)),
+        lambda rows: np.asarray(rows @ basis),
         coordinates=tuple((f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(shapes.shape[1])),
-        readouts=tuple((signal, row @ twice) for signal, row in full.readouts),
-        housings=None if full.housings is None else full.housings @ basis,
         hysteresis=None if full.hysteresis is None else shapes.T @ (full.hysteresis @ shapes),
-        tilts=None if full.tilts is None else full.tilts @ basis,
+        supports=(),
     )
 
 
+def whole_basis(shapes: Array, others: int) -> Array:
+    """Return shapes of one plane for both, and further coordinates as they are, shape (N, 2 n + others)."""
+    return np.asarray(beside(both_planes(shapes), np.eye(others)))
+
+
 def mean_plane(matrix: Any) -> Any:
-    """Return the mean of what a matrix is in both planes, shape (N / 2, N / 2)."""
+    """Return the mean of what a matrix of both planes (N, N) is in each, shape (N / 2, N / 2)."""
     n = matrix.shape[0] // 2
     return 0.5 * (matrix[:n, :n] + matrix[n:, n:])
 

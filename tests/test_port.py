@@ -1,0 +1,192 @@
+"""Reactions of a user's own with other freedoms and states go through every analysis as they are."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.linalg import expm
+
+import rotorfilm as rf
+from rotorfilm import (
+    InputError,
+    JournalBearing,
+    Linearization,
+    RigidRotor,
+    ShortFilm,
+    closed_loop,
+    coefficients,
+    equilibrium,
+    mount,
+    rotor_equilibrium,
+    rotor_modes,
+    rotor_system,
+    rotor_threshold,
+    simulate,
+)
+from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
+from rotorfilm.core.signals import force_outputs, journal_inputs, signals_of
+
+SPEED = 300.0
+
+
+@dataclass(frozen=True)
+class ThrustSpring:
+    """A collar between springs and dampers: one axial stiffness, one against tilts."""
+
+    stiffness: tuple = (2e7, 4e4, 4e4)
+    damping: tuple = (3e3, 5.0, 5.0)
+
+    freedoms = ("z", "tilt_x", "tilt_y")
+    inputs = journal_inputs(1e-4, 100.0, ("z", "tilt_x", "tilt_y"), arm=0.1)
+    outputs = force_outputs(1e3, ("z", "tilt_x", "tilt_y"), arm=0.1)
+    states = ()
+
+    def output(self, t, x, u):
+        return -np.multiply(self.stiffness, u[:3]) - np.multiply(self.damping, u[3:6])
+
+    def linearization(self, t, x, u):
+        D = np.hstack([-np.diag(self.stiffness), -np.diag(self.damping), np.zeros((3, 1))])
+        return Linearization(np.zeros((0, 0)), np.zeros((0, 7)), np.zeros((3, 0)), D)
+
+
+STRIP = JournalBearing(radius=0.025, length=0.002, clearance=5e-5, viscosity=0.02, film=ShortFilm())
+
+
+@dataclass(frozen=True)
+class Strips:
+    """A journal bearing by strip theory: short films side by side, each at the place of its own journal."""
+
+    film: JournalBearing = STRIP
+    count: int = 6
+
+    freedoms = ("x", "y", "tilt_x", "tilt_y")
+    inputs = journal_inputs(5e-5, 100.0, ("x", "y", "tilt_x", "tilt_y"), arm=0.01)
+    outputs = force_outputs(100.0, ("x", "y", "tilt_x", "tilt_y"), arm=0.01)
+    states = ()
+    clearance = 5e-5
+
+    def _moves(self):
+        for z in self.film.length * (np.arange(self.count) - 0.5 * (self.count - 1)):
+            yield np.array([[1.0, 0.0, 0.0, z], [0.0, 1.0, -z, 0.0]])
+
+    def output(self, t, x, u):
+        u = np.asarray(u)
+        parts = (move.T @ self.film.force(move @ u[:4], move @ u[4:8], u[8]) for move in self._moves())
+        return sum(parts)
+
+    def linearization(self, t, x, u):
+        u, D = np.asarray(u), np.zeros((4, 9))
+        for move in self._moves():
+            own = self.film.jacobian(move @ u[:4], move @ u[4:8], u[8])
+            D += move.T @ np.hstack([own[:, :2] @ move, own[:, 2:4] @ move, own[:, 4:]])
+        return Linearization(np.zeros((0, 0)), np.zeros((0, 9)), np.zeros((4, 0)), D)
+
+
+@dataclass(frozen=True)
+class Rubber:
+    """A spring with a Maxwell element along x and along y: two states that follow the shaft."""
+
+    stiffness: float = 5e6
+    maxwell: float = 8e6
+    time: float = 2e-3
+    damping: float = 200.0
+
+    inputs = journal_inputs(1e-4, 100.0)
+    outputs = force_outputs(1e3)
+    states = signals_of(*((f"creep_{a}", "m", 1e-4, f"way of the dashpot along {a}") for a in "xy"))
+    initial_state = np.zeros(2)
+
+    def output(self, t, x, u):
+        q, v, z = np.asarray(u[:2]), np.asarray(u[2:4]), np.asarray(x)
+        return -self.stiffness * q - self.damping * v - self.maxwell * (q - z)
+
+    def derivative(self, t, x, u):
+        return (np.asarray(u[:2]) - np.asarray(x)) / self.time
+
+    def linearization(self, t, x, u):
+        one, none = np.eye(2), np.zeros((2, 1))
+        return Linearization(
+            -one / self.time,
+            np.hstack([one / self.time, 0.0 * one, none]),
+            self.maxwell * one,
+            np.hstack([-(self.stiffness + self.maxwell) * one, -self.damping * one, none]),
+        )
+
+    def stiffness_at(self, s):
+        follow = s * self.time / (1.0 + s * self.time)
+        return self.stiffness + s * self.damping + self.maxwell * follow
+
+
+RUBBER, STRIPS, THRUST = Rubber(), Strips(), ThrustSpring()
+
+
+def test_states_are_eliminated_exactly():
+    at = equilibrium(RUBBER, (0.0, -500.0), SPEED)
+    assert_allclose(at.position, [0.0, -500.0 / RUBBER.stiffness], rtol=1e-12)
+    assert at.residual <= 1e-12
+    for s in (0.0, 1j * SPEED, 40.0 - 900.0j):
+        assert_allclose(dynamic_stiffness(RUBBER, at, s), RUBBER.stiffness_at(s) * np.eye(2), rtol=1e-13)
+    whole = RUBBER.stiffness_at(1j * 777.0)
+    found = coefficients(RUBBER, at.position, SPEED, frequency=777.0)
+    assert_allclose(found.stiffness, whole.real * np.eye(2), rtol=1e-13)
+    assert_allclose(found.damping, whole.imag / 777.0 * np.eye(2), rtol=1e-12)
+    slow = quasi_static_coefficients(RUBBER, at.position, SPEED)
+    assert_allclose(slow.damping, (RUBBER.damping + RUBBER.maxwell * RUBBER.time) * np.eye(2), rtol=1e-12)
+    held = frozen_coefficients(RUBBER, at.position, SPEED)
+    assert_allclose(held.stiffness, (RUBBER.stiffness + RUBBER.maxwell) * np.eye(2), rtol=1e-13)
+    assert_allclose(held.damping, RUBBER.damping * np.eye(2), rtol=1e-13)
+
+
+def test_a_rotor_on_states_of_a_users_own_is_the_joined_system():
+    rotor = RigidRotor(mass=30.0, speed=SPEED)
+    at = equilibrium(RUBBER, rotor.static_load, SPEED)
+    whole = mount(rotor, {"": RUBBER})
+    A = whole.linearization(0.0, np.zeros(6), []).A
+    loop = closed_loop(rotor, RUBBER, at)
+    assert_allclose(np.sort(loop.poles()), np.sort(np.linalg.eigvals(A)), rtol=1e-10)
+    s = 1j * 650.0
+    receptance = np.linalg.inv(rotor.mass * s**2 * np.eye(2) + RUBBER.stiffness_at(s) * np.eye(2))
+    assert_allclose(loop(s)[:2], receptance, rtol=1e-10)
+    rest = np.array([0.0, at.position[1], 0.0, 0.0, 0.0, at.position[1]])
+    start = rest + np.array([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0])
+    run = simulate(rotor, RUBBER, duration=0.02, samples=21, initial_state=start, rtol=1e-11)
+    moved = [expm(A * t) @ (start - rest) + rest for t in run.time]
+    assert_allclose(run["x"], [one[0] for one in moved], atol=1e-9 * 1e-6)
+
+
+def test_modes_and_threshold_go_by_the_states():
+    rotor = rf.JeffcottRotor(mass=20.0, journal_mass=2.0, stiffness=2e7, speed=SPEED, internal_damping=3000.0)
+    at = rotor_equilibrium(rotor, {"": RUBBER}, SPEED)
+    poles = np.linalg.eigvals(mount(rotor, {"": RUBBER}).linearization(0.0, np.zeros(10), []).A)
+    for value in rotor_modes(rotor, {"": RUBBER}, SPEED).eigenvalues:
+        assert np.abs(poles - value).min() < 1e-8 * abs(value)
+    assert_allclose(np.sort(rotor_system(rotor, at).poles()), np.sort(poles), rtol=1e-9)
+    found = rotor_threshold(rotor, {"": RUBBER}, np.linspace(300.0, 6000.0, 30))
+    fast = replace(rotor, speed=found.speed)
+    values = np.linalg.eigvals(mount(fast, {"": RUBBER}).linearization(0.0, np.zeros(10), []).A)
+    assert abs(values.real.max()) < 1e-6 * abs(values).max()
+
+
+def test_strips_have_the_stiffness_of_their_forces():
+    load = (30.0, -120.0, 0.1, -0.2)
+    at = equilibrium(STRIPS, load, SPEED)
+    assert_allclose(STRIPS.output(0.0, [], [*at.position, *np.zeros(4), SPEED]), np.negative(load), rtol=1e-9)
+    K = coefficients(STRIPS, at.position, SPEED).stiffness
+    step = np.array([1e-9, 1e-9, 1e-7, 1e-7])
+    for k, h in enumerate(step):
+        ends = [
+            STRIPS.output(0.0, [], [*(at.position + side * h * np.eye(4)[k]), *np.zeros(4), SPEED])
+            for side in (-1.0, 1.0)
+        ]
+        assert_allclose(K[:, k], (ends[0] - ends[1]) / (2.0 * h), rtol=1e-5, atol=1e-7 * np.abs(K).max())
+
+
+def test_a_reaction_that_does_not_fit_its_station_says_what_is_missing():
+    rotor = RigidRotor(mass=30.0, speed=SPEED)
+    with pytest.raises(InputError, match=r"rotor must have the outputs .*tilt_x"):
+        mount(rotor, {"": STRIPS})
+    with pytest.raises(InputError, match="reaction must react to x and y alone here"):
+        rf.whirl_threshold(STRIPS, (0.0, -100.0), 10.0)
+    with pytest.raises(InputError, match=r"load must have shape \(4,\) for x, y, tilt_x, tilt_y"):
+        equilibrium(STRIPS, (0.0, -100.0), SPEED)
