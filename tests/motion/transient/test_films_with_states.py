@@ -22,9 +22,11 @@ from rotorfilm import (
     Cooling,
     Disk,
     ElasticMaterial,
+    FrequencyDependentReaction,
     InputError,
     JeffcottRotor,
     JournalBearing,
+    LinearBearing,
     LobedBearing,
     Oil,
     RigidRotor,
@@ -52,7 +54,9 @@ from rotorfilm import (
     unbalance_response,
     whirl_threshold,
 )
-from rotorfilm.bearings import PadMapFilm, PadResolution, f4k20_bush
+from rotorfilm.bearings import Body, PadMapFilm, PadResolution, Parallel, Series, f4k20_bush
+from rotorfilm.core.port import has_states, rest_state
+from rotorfilm.core.signals import names
 from rotorfilm.rotors import translations
 
 SPEED = 300.0
@@ -79,6 +83,13 @@ LAW = ContactLaw(
     offset=0.3, span=2.1, exponent=1.5, operating=-1.8, **DAMPED, static_error=0.0, damping_error=0.0,
     film_scale=1e-6, time_scale=1e-4, force_scale=200.0,
 )  # fmt: skip
+SEAL = FrequencyDependentReaction(
+    A=[[-400.0, 150.0, 0.0], [-90.0, -700.0, 40.0], [0.0, 0.0, -2000.0]],
+    B=[[1.0, 0.5], [-0.4, 1.0], [0.3, 0.2]],
+    C=[[2e9, -1e9, 4e8], [1e9, 3e9, 0.0]],
+    D=[[-3e7, 4e6], [-5e6, -2.5e7]],
+    damping=[[3e3, 0.0], [200.0, 4e3]],
+)
 EIGHT = tuple(np.pi / 4.0 * np.arange(8))
 
 FILMS = {
@@ -96,6 +107,17 @@ FILMS = {
         )
     ),
     "worn bush": BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=16, extent=1.4, retardation=2e-4),
+    "frequency-dependent seal": SEAL,
+    "bearing in a support": Series(
+        LinearBearing(stiffness=((3e7, 2e6), (0.0, 5e7)), damping=4e3),
+        Body(3.0),
+        JournalBearing(**SIZE, clearance=1e-4, viscosity=0.02),
+    ),
+    "pads in a support with memory": Series(
+        replace(SEAL, added_mass=[[2.0, 0.0], [0.0, 1.0]]), Body(3.0), LIGHT
+    ),
+    "journal beside a seal": Parallel((JournalBearing(**SIZE, clearance=1e-4, viscosity=0.02), SEAL)),
+    "pads beside a seal": Parallel((LIGHT, replace(SEAL, damping=[[90.0, 0.0], [0.0, 50.0]]))),
 }
 """All kinds of bearings with states."""
 
@@ -164,6 +186,13 @@ def resting(kind, shape, unbalance=0.0, speed=SPEED):
         x[[k for k in down if "tilt" not in rotor.states[k].name]] = IN_CONTACT
     else:
         x[: size // 2] = rest_of(rotor, films, speed)
+        if all(map(has_states, films.values())):
+            at = dict(zip(names(rotor.outputs), rotor.output(0.0, x[:size], ()), strict=True))
+            places = [[at[f"{name}_{axis}" if name else axis] for axis in "xy"] for name in films]
+            states = [
+                rest_state(film, place, speed) for film, place in zip(films.values(), places, strict=True)
+            ]
+            x[size:] = np.concatenate(states)
     return rotor, films, mounted, settled(mounted, x, size if kind in NO_REST else len(x))
 
 
