@@ -35,8 +35,16 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array, Dynamic
-from ..core.port import inertial, require_massless, static_force, static_slopes
+from ..core.port import (
+    freedoms_of,
+    inertial,
+    require_massless,
+    require_reaction,
+    static_force,
+    static_slopes,
+)
 from ..core.results import Trajectory
+from ..core.signals import PLANAR
 from ..native import Status
 from ..native.film_kernels import OilDamperKernel
 from ..native.library import functions, loops
@@ -365,6 +373,8 @@ def take_apart(mounted: MountedRotor) -> Parts:
             f"bearings must have no states of their own here, got some at the stations {moving}: "
             "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
         )
+    for name in names:
+        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=True)
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
@@ -603,11 +613,13 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
-    return _is_linear(rotor) and not any(film.states or inertial(film) is not None for film in every)
+    massless = all(not film.states and inertial(film) is None for film in every)
+    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
 
 
 def _is_compiled(bearing: Any) -> bool:
-    return inertial(bearing) is None and kernel_call(bearing) is not None
+    planar = freedoms_of(bearing) == PLANAR
+    return planar and inertial(bearing) is None and kernel_call(bearing) is not None
 
 
 def _is_linear(rotor: Dynamic) -> bool:

@@ -123,8 +123,8 @@ def require_reaction(
         raise InputError(f"{name} must be a Reaction such as a JournalBearing, got {brief(value)}")
     if planar and freedoms_of(value) != PLANAR:
         raise InputError(
-            f"{name} must react to x and y alone here, got one of {', '.join(freedoms_of(value))}: "
-            "a rotor with such stations takes it"
+            f"{name} must react to x and y alone here, got one of {', '.join(freedoms_of(value))}: simulate, "
+            "rotor_modes, unbalance_response and rotor_system take it on a rotor with such stations"
         )
     if not heavy:
         require_massless(name, value)
