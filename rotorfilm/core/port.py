@@ -701,6 +701,36 @@ class StatesStiffness:
         return values[np.argsort(-values.real)]
 
 
+@dataclass(frozen=True)
+class InertialStiffness:
+    """K(s) + s^2 mass of a reaction that adds a mass, as a `DynamicStiffness`.
+
+    Parameters
+    ----------
+    motion : DynamicStiffness
+        Without that mass.
+    mass : ndarray, shape (n, n) [kg]
+    """
+
+    motion: Any
+    mass: Array
+
+    @property
+    def at(self) -> Linearization:
+        """The states of the reaction, if it tells them."""
+        known: Linearization = self.motion.at
+        return known
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) + s^2 mass [N/m] and its slope [N s/m]; see `DynamicStiffness`."""
+        K, slope = self.motion(s)
+        return K + s**2 * self.mass, slope + 2.0 * s * self.mass
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) + s^2 mass [N/m] alone."""
+        return np.asarray(self.motion.stiffness(s) + s**2 * self.mass)
+
+
 def has_own_stiffness(reaction: object) -> bool:
     """Return whether a reaction tells K(s) itself and has no states to tell it, as one that conserves oil.
 
@@ -730,8 +760,12 @@ def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: floa
 
     A film that warms keeps the temperature of the rest.
     """
-    at = rest_linearization(settled(reaction, position, speed), position, speed)
-    return StatesStiffness(at).exponents(mass)
+    film = settled(reaction, position, speed)
+    at, added = (
+        rest_linearization(film, position, speed),
+        mass_of(film, position, np.zeros_like(position), speed),
+    )
+    return StatesStiffness(at).exponents(mass * np.eye(len(added)) + added if added.any() else mass)
 
 
 def coefficients_of(
