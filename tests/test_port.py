@@ -190,3 +190,110 @@ def test_a_reaction_that_does_not_fit_its_station_says_what_is_missing():
         rf.whirl_threshold(STRIPS, (0.0, -100.0), 10.0)
     with pytest.raises(InputError, match=r"load must have shape \(4,\) for x, y, tilt_x, tilt_y"):
         equilibrium(STRIPS, (0.0, -100.0), SPEED)
+
+
+STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7850.0)
+
+
+def shaft(**changes):
+    """Return a shaft on two tilting stations and one in the middle, which moves along its axis too."""
+    piece = rf.ShaftElement(length=0.6, outer_diameter=0.04, material=STEEL)
+    given = {
+        "elements": piece.split(4),
+        "speed": SPEED,
+        "stations": (
+            rf.Station(node=0, name="left", feels_tilt=True),
+            rf.Station(node=4, name="right", feels_tilt=True),
+            rf.Station(node=2, name="thrust", feels_tilt=True),
+        ),
+        "disks": (rf.Disk(node=2, mass=8.0, diametral_inertia=0.05, polar_inertia=0.09),),
+        "internal_damping": 2e-6,
+        "axial": True,
+    }
+    return rf.ShaftRotor(**{**given, **changes})
+
+
+BEARINGS = {"left": STRIPS, "right": STRIPS, "thrust": THRUST}
+
+
+def joined(rotor, bearings):
+    """Return where a rotor rests as a state of the mounted system, and the matrix of small motion there."""
+    whole = mount(rotor, bearings)
+    at = rotor_equilibrium(rotor, bearings, SPEED)
+    x = np.concatenate([at.displacement, np.zeros_like(at.displacement)])
+    u = np.zeros(len(whole.inputs))
+    assert np.abs(whole.derivative(0.0, x, u)).max() < 1e-6
+    return at, x, whole.linearization(0.0, x, u)
+
+
+def test_a_shaft_with_five_freedoms_is_one_system_in_all_analyses():
+    rotor = shaft()
+    at, rest, (A, B, C, _) = joined(rotor, BEARINGS)
+    poles = np.linalg.eigvals(A)
+    found = rotor_modes(rotor, BEARINGS, SPEED).eigenvalues
+    assert len(found) >= 10
+    for value in found:
+        assert np.abs(poles - value).min() < 1e-8 * abs(value) + 1e-6
+    system = rotor_system(rotor, at)
+    free, s = [signal.name for signal in mount(rotor, BEARINGS).inputs], 1j * 450.0
+    assert free == ["thrust_force_x", "thrust_force_y", "left_force_z", "right_force_z"]
+    seen = system.output_labels.index("thrust_z")
+    rows = [signal.name for signal in rotor.outputs].index("thrust_z")
+    receptance = C[rows] @ np.linalg.solve(s * np.eye(len(A)) - A, B)
+    for k, name in enumerate(free):
+        assert_allclose(
+            system(s)[seen, system.input_labels.index(name)], receptance[k], rtol=1e-8, atol=1e-20
+        )
+
+
+def test_small_motion_of_a_shaft_over_time_is_that_of_its_matrix():
+    rotor = shaft(
+        elements=rf.ShaftElement(length=0.6, outer_diameter=0.04, material=STEEL).split(2),
+        stations=(
+            rf.Station(node=0, name="left", feels_tilt=True),
+            rf.Station(node=2, name="right", feels_tilt=True),
+            rf.Station(node=1, name="thrust", feels_tilt=True),
+        ),
+        disks=(rf.Disk(node=1, mass=8.0, diametral_inertia=0.05, polar_inertia=0.09),),
+    )
+    _, rest, (A, _, C, _) = joined(rotor, BEARINGS)
+    kick = np.zeros_like(rest)
+    kick[[signal.name for signal in rotor.states].index("vz_1")] = 1e-6
+    run = simulate(rotor, BEARINGS, duration=2e-3, samples=5, initial_state=rest + kick, rtol=1e-10)
+    moved = np.array([expm(A * t) @ kick for t in run.time]).T
+    labels = [signal.name for signal in rotor.outputs]
+    wanted = (C @ moved)[labels.index("thrust_z")]
+    assert_allclose(run["thrust_z"], wanted, atol=1e-9 * np.abs(wanted).max())
+    assert {"thrust_vz", "left_moment_y", "right_force_x"} <= set(run.signals)
+
+
+def test_a_thrust_bearing_on_a_gyroscopic_shaft_is_the_hand_calculation():
+    """A rigid disk on a collar: z swings alone, and tilts precess by I s^2 -+ i G s + k + c s = 0."""
+    inertia, gyroscopic, m = 0.08, 0.14 * SPEED, 12.0
+    rotor = rf.RigidShaft(
+        mass=m,
+        diametral_inertia=inertia,
+        polar_inertia=0.14,
+        stations=(("", 0.0),),
+        speed=SPEED,
+        gravity=(0.0, 0.0),
+        axial=True,
+        feels_tilt=True,
+    )
+    collar = rf.Parallel((THRUST, rf.LinearBearing(stiffness=1e7, damping=100.0)))
+    A = mount(rotor, {"": collar}).linearization(0.0, np.zeros(10), []).A
+    k, c = THRUST.stiffness, THRUST.damping
+    wanted = [
+        *np.roots([m, c[0], k[0]]),
+        *np.roots([inertia, c[1] - 1j * gyroscopic, k[1]]),
+        *np.roots([inertia, c[1] + 1j * gyroscopic, k[1]]),
+        *np.roots([m, 100.0, 1e7]),
+        *np.roots([m, 100.0, 1e7]),
+    ]
+    poles = np.linalg.eigvals(A)
+    for value in wanted:
+        assert np.abs(poles - value).min() < 1e-9 * abs(value)
+    values = rotor_modes(rotor, {"": collar}, SPEED).eigenvalues
+    for value in values:
+        assert min(abs(value - one) for one in wanted) < 1e-8 * abs(value)
+    assert len(values) == 5

@@ -22,7 +22,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, require_reaction, require_turning
-from ..core.results import Coefficients, Equilibrium, added_mass
+from ..core.results import Coefficients, Equilibrium, InertialCoefficients, added_mass
 from ..core.signals import force_names, indices, names
 from ..rotors import FlexibleRotor, require_flexible, translations
 from ..rotors.mounted import Mount, join
@@ -553,11 +553,16 @@ def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, li
 
 def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, Coefficients]:
     """Return stiffness and damping of films whose states are held."""
-    held = {}
+    held: dict[str, Coefficients] = {}
     for name, film in films.items():
         stiffness, damping = np.hsplit(-film.D, 2)
         place, freedoms = at.coefficients[name].position, freedoms_of(at.coefficients[name])
-        held[name] = Coefficients(
-            stiffness=stiffness, damping=damping, position=place, speed=at.speed, freedoms=freedoms
+        held[name] = InertialCoefficients(
+            stiffness=stiffness,
+            damping=damping,
+            position=place,
+            speed=at.speed,
+            freedoms=freedoms,
+            mass=getattr(remembering(at)[name].dynamic_stiffness, "mass", np.zeros_like(stiffness)),
         )
     return held

@@ -22,6 +22,7 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
     Complex,
+    InertialStiffness,
     Reaction,
     coefficients_of,
     drifts,
@@ -52,7 +53,7 @@ def coefficients(
 ) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 
-    Of a film with inertia also the added mass, as `InertialCoefficients`.
+    Of a film with inertia also the added mass, as `InertialCoefficients`; with states too, K contains it.
 
     Parameters
     ----------
@@ -100,6 +101,8 @@ def film_coefficients(
     if has_states(reaction) or (frequency is not None and drifts(reaction)):
         film = settled(reaction, position, speed) if has_states(reaction) else in_time(reaction)
         motion = small_motion(film, position, speed)
+        if inertial(film) is not None:
+            motion = InertialStiffness(motion, mass_of(film, position, np.zeros_like(position), speed))
         return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
     return _held(settled(reaction, position, speed), position, speed)
 

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.assemblies import ParallelReaction, Sprung
+from ..bearings.assemblies import Parallel, Sprung
 from ..bearings.damper import PorousDamper, SqueezeFilmDamper
 from ..bearings.films.law import BoundKernel
 from ..bearings.linear import LinearBearing
@@ -35,7 +35,14 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array, Dynamic
-from ..core.port import freedoms_of, inertial, require_massless, require_reaction
+from ..core.port import (
+    freedoms_of,
+    inertial,
+    require_massless,
+    require_reaction,
+    static_force,
+    static_slopes,
+)
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..native import Status
@@ -71,7 +78,7 @@ from .modal_reduction import Condensed, models
 #
 # with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it
 # along, `LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, `RubRing` and
-# the sum of `ParallelReaction` in native/loops/rub.h, and any other reaction is called back in
+# the sum of `Parallel` in native/loops/rub.h, and any other reaction is called back in
 # Python: slower, with the same result.
 
 
@@ -159,8 +166,10 @@ def kernel_call(reaction: Any) -> FilmCall | None:
         return None if film is None else film.beside(0.0, still=True)
     if type(reaction) is Sprung:
         inner = kernel_call(reaction.reaction)
+        if isinstance(reaction.stiffness, tuple):
+            return _summed([inner, kernel_call(LinearBearing(stiffness=reaction.matrix))])
         return None if inner is None else inner.beside(reaction.stiffness, still=False)
-    if type(reaction) is ParallelReaction:
+    if type(reaction) is Parallel:
         return _summed([kernel_call(one) for one in reaction.reactions])
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
@@ -205,9 +214,9 @@ def _called_back(reaction: Any) -> FilmCall:
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
         position, velocity = np.array(state[:2]), np.array(state[2:4])
         try:
-            for i, value in enumerate(np.asarray(reaction.force(position, velocity, state[4])).tolist()):
+            for i, value in enumerate(static_force(reaction, position, velocity, state[4]).tolist()):
                 force[i] = value
-            slopes = np.asarray(reaction.jacobian(position, velocity, state[4]))[:, :5]
+            slopes = static_slopes(reaction, position, velocity, state[4])[:, :5]
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:

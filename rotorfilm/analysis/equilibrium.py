@@ -475,7 +475,7 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
     x, y = distance * math.cos(phi), distance * math.sin(phi)
     try:
         fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except (UndefinedDerivativeError, FilmContactError, ConvergenceError):
+    except (UndefinedDerivativeError, FilmContactError, ConvergenceError, EquilibriumError):
         return StaticPoint(s, phi, steps)
     size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:

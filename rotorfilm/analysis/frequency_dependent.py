@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,8 +13,8 @@ from scipy.optimize import brentq
 
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, DynamicStiffness, has_states
-from ..core.results import FrequencyDependentCoefficients
+from ..core.port import Bearings, DynamicStiffness, InertialStiffness, freedoms_of, has_states
+from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import all_rows, models, usual_frequency
@@ -67,16 +68,18 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     values : ndarray [1/s]
         Exponents next to which the phase turns fast.
     """
-    system, films = second_order(structure, at), remembering(at)
-    rows = all_rows(structure, films)
+    films = {name: _without_mass(film) for name, film in remembering(at).items()}
+    still = {name: one for name, (one, _) in films.items()}
+    system = second_order(structure, replace(at, coefficients={**at.coefficients, **still}))
+    rows = all_rows(structure, still)
     mass, damping, stiffness = (np.asarray(part) for part in system)
 
     def ratio(nu: float) -> complex:
         change = np.zeros((len(rows), len(rows)), dtype=complex)
         first = 0
-        for film in films.values():
+        for film, motion in films.values():
             own = slice(first, first + len(film.stiffness))
-            K = film.dynamic_stiffness.stiffness(1j * nu)
+            K = motion.stiffness(1j * nu)
             change[own, own] = K - film.stiffness - 1j * nu * film.damping
             first = own.stop
         receptance = rows @ np.linalg.solve(stiffness - nu**2 * mass + 1j * nu * damping, rows.T)
@@ -85,6 +88,22 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     reference = np.linalg.eigvals(system.state_matrix())
     frequencies = _frequencies(reference, values, abs(at.speed))
     return growing_count(ratio, frequencies, int(np.sum(reference.real > 0.0)))
+
+
+def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, DynamicStiffness]:
+    """Return K and C of one frequency, and K(s), with an added mass on its own: it would grow with s^2."""
+    motion = film.dynamic_stiffness
+    if not isinstance(motion, InertialStiffness):
+        return film, motion
+    heavy = InertialCoefficients(
+        stiffness=film.stiffness + film.frequency**2 * motion.mass,
+        damping=film.damping,
+        position=film.position,
+        speed=film.speed,
+        freedoms=freedoms_of(film),
+        mass=motion.mass,
+    )
+    return heavy, motion.motion
 
 
 def require_all_growing(

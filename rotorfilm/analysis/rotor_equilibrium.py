@@ -388,6 +388,7 @@ class RestEquations:
             except np.linalg.LinAlgError:
                 raise self.free() from None
             share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])
+            share = self._without_contact(p, step[n:], share)
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
@@ -433,6 +434,16 @@ class RestEquations:
                 break
             low, high = (low, share) if left < 0.0 else (share, high)
             share = 0.5 * (low + high)
+        return share
+
+    def _without_contact(self, p: Array, step: Array, share: float) -> float:
+        """Return the part of a step after which no tilted journal touches, which its center does not tell."""
+        for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
+            for _ in range(_HALVINGS if len(at) > 2 else 0):
+                with suppress(FilmContactError):
+                    force_at(bearing, at + share * move, self.speed)
+                    break
+                share *= 0.5
         return share
 
     def _within(self, p: Array, step: Array) -> float:

@@ -13,7 +13,12 @@ from scipy.linalg import block_diag, matrix_balance
 from ..core.errors import ConvergenceError
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of
-from ..core.results import Coefficients, FrequencyDependentCoefficients, added_mass
+from ..core.results import (
+    Coefficients,
+    FrequencyDependentCoefficients,
+    InertialCoefficients,
+    added_mass,
+)
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, force_rows, freedom_rows, hysteresis_matrices, in_order, is_sparse
 from .modal_reduction import MARGIN, Condensed, all_rows, lu_solver, models, usual_frequency
@@ -103,6 +108,47 @@ def remembering(at: RotorEquilibrium) -> dict[str, FrequencyDependentCoefficient
     return {
         n: film for n, film in at.coefficients.items() if isinstance(film, FrequencyDependentCoefficients)
     }
+
+
+LIGHT = 0.3
+"""Damping ratio up to which whirl of the states of films counts as motion of the rotor."""
+
+
+def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarray, np.ndarray]:
+    """Return whirl of a rotor and the states of its films as one linear system, where these are known.
+
+    Returns
+    -------
+    values : ndarray, shape (m,) [1/s]
+        Lightly damped ones, one of each pair.
+    shapes : ndarray, shape (N, m)
+        Of the coordinates of the rotor.
+    """
+    films = {n: film for n, film in remembering(at).items() if hasattr(film.dynamic_stiffness, "at")}
+    held, columns, felt, own = {}, [], [], []
+    for name, film in films.items():
+        A, B, C, D = film.dynamic_stiffness.at
+        n, rows = len(C), freedom_rows(structure, name, freedoms_of(film))
+        mass = getattr(film.dynamic_stiffness, "mass", np.zeros((n, n)))
+        parts = {
+            "stiffness": -D[:, :n],
+            "damping": -D[:, n : 2 * n],
+            "mass": mass,
+            "freedoms": freedoms_of(film),
+        }
+        held[name] = InertialCoefficients(**parts, position=film.position, speed=at.speed)
+        columns.append(rows.T @ C)
+        felt.append(np.hstack([B[:, :n] @ rows, B[:, n : 2 * n] @ rows]))
+        own.append(A)
+    system = second_order(structure, replace(at, coefficients={**at.coefficients, **held}))
+    size = len(system.mass)
+    whole = block_diag(system.state_matrix(), *own)
+    if films:
+        whole[size : 2 * size, 2 * size :] = np.linalg.solve(system.mass, np.hstack(columns))
+        whole[2 * size :, : 2 * size] = np.vstack(felt)
+    values, vectors = np.linalg.eig(whole)
+    light = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
+    return values[light].astype(complex), vectors[:size, light].astype(complex)
 
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:

@@ -37,6 +37,7 @@ from .modal_reduction import (
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
     FullRotorModel,
+    joined_whirls,
     remembering,
     rest_near,
     roundoff,
@@ -276,10 +277,16 @@ def _remembered(
     known_to: float,
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> Part:
-    """Return the motions on films that remember next to those with K and C of one frequency."""
+    """Return the motions on films that remember next to those with K and C of one frequency.
+
+    Whirl in which the states of a film take part as much as the shaft, as that of a body between two
+    reactions, is next to none of these, but known where the states are.
+    """
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
-    for start, shape, rounding in zip(starts, shapes.T, rounded, strict=True):
+    own, ways = joined_whirls(model.structure, at)
+    given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
+    for start, shape, rounding in given:
         one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         if one is None or any(abs(one[0] - other) <= _SAME * abs(other) for other, *_ in found):
             continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -453,10 +454,14 @@ class Coupled:
 
     def _slopes(self, station: Mount, t: float, x: Array, sensed: Array) -> Linearization:
         at = sensed[station.motion]
-        try:
+        with suppress(UndefinedDerivativeError):
             return station.slopes(t, x, at)
-        except UndefinedDerivativeError:
-            return station.slopes(t, x, self._nudged(station, t, x, at))
+        at = self._nudged(station, t, x, at)
+        with suppress(UndefinedDerivativeError):
+            return station.slopes(t, x, at)
+        moved = x.copy()
+        moved[station.inner] += NUDGE * np.array([signal.nominal for signal in station.reaction.states])
+        return station.slopes(t, moved, at)
 
     def _nudged(self, station: Mount, t: float, x: Array, at: Array) -> Array:
         """Return the journal state with a trace of the velocity that it is about to have.

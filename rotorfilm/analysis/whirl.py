@@ -26,6 +26,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
+    InertialStiffness,
     Reaction,
     clearance_of,
     coefficients_of,
@@ -371,12 +372,13 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
     (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
     """
-    if isinstance(coefficients, FrequencyDependentCoefficients):
-        return _counted(coefficients)
-    if isinstance(coefficients, InertialCoefficients):
+    told = getattr(coefficients, "dynamic_stiffness", None)
+    if isinstance(coefficients, InertialCoefficients) or isinstance(told, InertialStiffness):
         raise InputError(
             f"coefficients must have no added mass, got {coefficients!r}: density 0 leaves it out"
         )
+    if isinstance(coefficients, FrequencyDependentCoefficients):
+        return _counted(coefficients)
     reason = _why_no_border(coefficients)
     if reason:
         return CriticalMass(**NO_MASS, reason=reason)

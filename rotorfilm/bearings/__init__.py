@@ -11,7 +11,7 @@ if TYPE_CHECKING:
         ReducedCoefficients as ReducedCoefficients,
     )
     from ..core.sources import show
-    from .assemblies import ParallelReaction as ParallelReaction, Sprung as Sprung
+    from .assemblies import Body as Body, Parallel as Parallel, Series as Series, Sprung as Sprung
     from .bush import *
     from .contact import *
     from .damper import *
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .films.law import FilmLaw as FilmLaw, FilmOptions, gap_shear, options, static_rate
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable
+    from .frequency_dependent import FrequencyDependentReaction as FrequencyDependentReaction
     from .journal import *
     from .linear import LinearBearing as LinearBearing, TabulatedBearing as TabulatedBearing
     from .oil import Cooling as Cooling, Oil as Oil

@@ -111,9 +111,7 @@ class TabulatedBearing(LinearReaction):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "freedoms", checked_freedoms(self.freedoms))
-        speeds = require_finite("speeds", self.speeds)
-        if speeds.ndim != 1 or not speeds.size or np.any(np.diff(speeds) <= 0.0):
-            raise InputError(f"speeds must be a list of rising numbers, got {self.speeds!r}")
+        speeds = require_rising("speeds", self.speeds)
         for name in ("stiffness", "damping"):
             table = require_finite(name, getattr(self, name))
             wanted = (len(speeds), len(self.freedoms), len(self.freedoms))
@@ -187,17 +185,32 @@ class TabulatedBearing(LinearReaction):
 
     def _at(self, speed: ArrayLike, derivative: int) -> tuple[Array, Array]:
         """Return K and C, or their derivatives by speed, shape (..., n, n)."""
-        omega, known = require_finite("speed", speed), np.asarray(self.speeds)
-        if np.any(omega < known[0]) or np.any(omega > known[-1]):
-            raise InputError(
-                f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {speed!r}"
-            )
+        known = np.asarray(self.speeds)
+        omega = within_table(speed, known)
         if len(known) == 1:
             size = *omega.shape, len(self.freedoms), len(self.freedoms)
             stiffness, damping = (np.broadcast_to(t[0], size) for t in self._tables)
             return (0.0 * stiffness, 0.0 * damping) if derivative else (stiffness, damping)
         stiffness, damping = (curve(omega, nu=derivative) for curve in self._curves)
         return stiffness, damping
+
+
+def require_rising(name: str, values: ArrayLike, least: int = 1) -> Array:
+    """Return rising numbers, `least` of them at least, as an array; raise InputError otherwise."""
+    array = require_finite(name, values)
+    if array.ndim != 1 or array.size < least or np.any(np.diff(array) <= 0.0):
+        raise InputError(f"{name} must be a list of rising numbers, got {values!r}")
+    return array
+
+
+def within_table(speed: ArrayLike, known: Array) -> Array:
+    """Return speeds as an array; raise InputError where one is beyond those of a table [rad/s]."""
+    omega = require_finite("speed", speed)
+    if np.any(omega < known[0]) or np.any(omega > known[-1]):
+        raise InputError(
+            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {speed!r}"
+        )
+    return omega
 
 
 # A bearing with constant stiffness and damping.

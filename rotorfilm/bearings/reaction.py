@@ -19,7 +19,15 @@ from ..core.errors import (
 )
 from ..core.model import Array, Linearization, static_linearization
 from ..core.port import Force, Tangent, force_of, freedoms_of
-from ..core.signals import MASS_OUTPUTS, PLANAR, Signal, force_outputs, journal_inputs, place_names
+from ..core.signals import (
+    MASS_OUTPUTS,
+    PLANAR,
+    Signal,
+    force_outputs,
+    journal_inputs,
+    place_names,
+    signals_of,
+)
 
 NOMINAL_SPEED = 100.0
 """Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
@@ -294,7 +302,19 @@ class KernelReaction(StaticReaction):
 # The Model of a static reaction that may have an added mass: forces, and then the mass.
 
 
-_ROWS, _COLUMNS = [0, 0, 1], [0, 1, 1]
+def mass_outputs(reaction: Any) -> tuple[Signal, ...]:
+    """Return the signals of the added mass of a planar reaction; none without inertia."""
+    if not reaction.has_inertia or freedoms_of(reaction) != PLANAR:
+        return ()
+    nominal = abs(float(reaction.mass(np.zeros(2), np.array([1.0, 0.0]), 0.0)[0, 0])) or 1.0
+    text = "added mass of the film, whose force on the journal is minus this times the acceleration"
+    return signals_of(*((name, "kg", nominal, text) for name in MASS_OUTPUTS))
+
+
+def mass_entries(reaction: Any, matrix: Array) -> Array:
+    """Return what `mass_outputs` tell of the added mass, or of its slopes."""
+    told = reaction.has_inertia and freedoms_of(reaction) == PLANAR
+    return np.asarray(matrix[[0, 0, 1], [0, 1, 1]] if told else matrix[:0, 0])
 
 
 class InertialModel(StaticReaction):
@@ -303,15 +323,7 @@ class InertialModel(StaticReaction):
     @property
     def outputs(self: Any) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal without that of its acceleration; the mass."""
-        forces = force_outputs(self.nominal_force)
-        if not self.has_inertia:
-            return forces
-        nominal = float(self.mass(np.zeros(2), np.array([1.0, 0.0]), 0.0)[0, 0])
-        text = "added mass of the film, whose force on the journal is minus this times the acceleration"
-        return (
-            *forces,
-            *(Signal(name=name, unit="kg", nominal=nominal, description=text) for name in MASS_OUTPUTS),
-        )
+        return (*super().outputs, *mass_outputs(self))
 
     def force_along(
         self: Any, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
@@ -335,14 +347,14 @@ class InertialModel(StaticReaction):
         force = self.force(*state)
         if not self.has_inertia:
             return force
-        return np.concatenate([force, self.mass(*state)[_ROWS, _COLUMNS]])
+        return np.concatenate([force, mass_entries(self, self.mass(*state))])
 
     def linearization(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D."""
         state = state_of(self, u)
         D = self.jacobian(*state)
         if self.has_inertia:
-            D = np.vstack([D, self.mass_slopes(*state)[_ROWS, _COLUMNS]])
+            D = np.vstack([D, mass_entries(self, self.mass_slopes(*state))])
         return static_linearization(D)
 
 

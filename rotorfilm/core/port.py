@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import (
     EquilibriumError,
+    FilmContactError,
     InputError,
     brief,
     require_finite,
@@ -47,6 +48,7 @@ class Reaction(Model, Protocol):
     - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
     - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest;
+    - `has_states`, whether its states rest with the shaft, where having `force` does not tell;
     - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
     - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
@@ -159,11 +161,11 @@ def require_place(reaction: object, position: ArrayLike, name: str = "position")
     return place
 
 
-def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: float) -> Array:
-    """Return the input of a reaction, shape (2 n + 1,), from places (n,), rates (n,) or none, and speed."""
+def input_of(position: ArrayLike, velocity: ArrayLike | None, speed: ArrayLike) -> Array:
+    """Return the input of a reaction, shape (2 n + 1, ...), from places, rates or none, and the speed."""
     place = np.asarray(position, dtype=float)
     rate = np.zeros_like(place) if velocity is None else np.asarray(velocity, dtype=float)
-    return np.concatenate([place, rate, [speed]])
+    return np.concatenate([place, rate, np.broadcast_to(speed, (1, *place.shape[1:]))])
 
 
 # The force for plain numbers, for loops that go state by state.
@@ -212,23 +214,28 @@ def tangent_of(reaction: Any) -> Tangent:
     return tangent
 
 
-def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: Any) -> Array:
-    """Return force and moment of a reaction without states on the shaft, shape (n,) [N], [N m]."""
+def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    """Return force and moment of a reaction without states on the shaft, shape (n, ...) [N], [N m]."""
     law = getattr(reaction, "force", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
-    found = reaction.output(0.0, np.zeros(0), input_of(position, velocity, speed))
-    return np.asarray(found)[: len(freedoms_of(reaction))]
+    n = len(freedoms_of(reaction))
+    return _each(lambda u: reaction.output(0.0, np.zeros(0), u)[:n], input_of(position, velocity, speed))
 
 
-def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: Any) -> Array:
-    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1)."""
+def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1, ...)."""
     law = getattr(reaction, "jacobian", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
     n = len(freedoms_of(reaction))
-    found = reaction.linearization(0.0, np.zeros(0), input_of(position, velocity, speed))
-    return np.asarray(found.D)[:n, : 2 * n + 1]
+    at = input_of(position, velocity, speed)
+    return _each(lambda u: reaction.linearization(0.0, np.zeros(0), u).D[:n, : 2 * n + 1], at)
+
+
+def _each(law: Callable[[Array], Array], inputs: Array) -> Array:
+    """Return what a law has for one input (2 n + 1,), or for each of a batch."""
+    return np.asarray(law(inputs) if inputs.ndim == 1 else np.apply_along_axis(law, 0, inputs))
 
 
 def largest_eccentricity_ratio(reaction: object) -> float:
@@ -458,8 +465,12 @@ def has_states(reaction: Any) -> bool:
 
     Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
     """
-    return hasattr(reaction, "at_rest") or (
-        not hasattr(reaction, "force") and bool(getattr(reaction, "states", ()))
+    told = getattr(reaction, "has_states", None)
+    return (
+        told
+        if told is not None
+        else hasattr(reaction, "at_rest")
+        or (not hasattr(reaction, "force") and bool(getattr(reaction, "states", ())))
     )
 
 
@@ -498,30 +509,62 @@ def rest_state(reaction: Any, position: ArrayLike, speed: float) -> Array:
         return np.asarray(own(position, speed))
     if not reaction.states:
         return np.zeros(0)
-    u, x = input_of(position, None, speed), np.array(reaction.initial_state, dtype=float)
-    nominal = np.array([signal.nominal for signal in reaction.states])
-    rate = np.asarray(reaction.derivative(0.0, x, u))
+    u = input_of(position, None, speed)
+    found = newton_root(
+        lambda x: np.asarray(reaction.derivative(0.0, x, u)),
+        lambda x: np.asarray(reaction.linearization(0.0, x, u).A),
+        np.array(reaction.initial_state, dtype=float),
+        np.array([signal.nominal for signal in reaction.states]),
+    )
+    if found is None:
+        raise no_rest(reaction, position, speed)
+    return found
+
+
+def no_rest(reaction: Any, position: ArrayLike, speed: float) -> EquilibriumError:
+    """Return what to raise where no states were found that rest with the shaft at a place."""
+    return EquilibriumError(
+        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
+        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
+    )
+
+
+def newton_root(
+    law: Callable[[Array], Array], slopes: Callable[[Array], Array], start: Array, nominal: Array
+) -> Array | None:
+    """Return where a law (m,) of x (m,) vanishes, by Newton's method with halved steps; None if nowhere.
+
+    A trial at which the journal would touch its wall counts as one that is too far.
+
+    Parameters
+    ----------
+    law, slopes : callable
+        Its value and its derivatives (m, m).
+    start, nominal : ndarray, shape (m,)
+        Where to begin, and typical sizes of x and of its rates.
+    """
+    x, rate = start, law(start)
     for _ in range(_STEPS):
-        A = np.asarray(reaction.linearization(0.0, x, u).A)
+        A = slopes(x)
         if np.linalg.cond(A * nominal / nominal[:, None]) > 1e14:
-            break
+            return None
         step = -np.linalg.solve(A, rate)
         if np.abs(step / nominal).max() <= _SETTLED * max(1.0, np.abs(x / nominal).max()):
-            return x + step
+            return np.asarray(x + step)
         for halving in range(_HALVINGS):
             trial = x + 0.5**halving * step
-            moved = np.asarray(reaction.derivative(0.0, trial, u))
+            try:
+                moved = law(trial)
+            except FilmContactError:
+                continue
             if np.abs(moved / nominal).max() < np.abs(rate / nominal).max() or not moved.any():
                 x, rate = trial, moved
                 break
         else:
-            break
+            return None
         if not rate.any():
             return x
-    raise EquilibriumError(
-        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
-        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
-    )
+    return None
 
 
 def rest_linearization(reaction: Any, position: ArrayLike, speed: float) -> Linearization:
@@ -573,6 +616,10 @@ class QuasiStatic:
     def minimum_film(self, position: Array) -> Array:
         """Return the least film of the reaction [m]."""
         return minimum_film(self.reaction, position)
+
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff may leave of the force of the reaction [N]."""
+        return force_noise(self.reaction, speed)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return the force on a shaft at rest, shape (n,); the velocity is not used."""
@@ -654,6 +701,36 @@ class StatesStiffness:
         return values[np.argsort(-values.real)]
 
 
+@dataclass(frozen=True)
+class InertialStiffness:
+    """K(s) + s^2 mass of a reaction that adds a mass, as a `DynamicStiffness`.
+
+    Parameters
+    ----------
+    motion : DynamicStiffness
+        Without that mass.
+    mass : ndarray, shape (n, n) [kg]
+    """
+
+    motion: Any
+    mass: Array
+
+    @property
+    def at(self) -> Linearization:
+        """The states of the reaction, if it tells them."""
+        known: Linearization = self.motion.at
+        return known
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) + s^2 mass [N/m] and its slope [N s/m]; see `DynamicStiffness`."""
+        K, slope = self.motion(s)
+        return K + s**2 * self.mass, slope + 2.0 * s * self.mass
+
+    def stiffness(self, s: complex) -> Complex:
+        """Return K(s) + s^2 mass [N/m] alone."""
+        return np.asarray(self.motion.stiffness(s) + s**2 * self.mass)
+
+
 def has_own_stiffness(reaction: object) -> bool:
     """Return whether a reaction tells K(s) itself and has no states to tell it, as one that conserves oil.
 
@@ -683,8 +760,12 @@ def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: floa
 
     A film that warms keeps the temperature of the rest.
     """
-    at = rest_linearization(settled(reaction, position, speed), position, speed)
-    return StatesStiffness(at).exponents(mass)
+    film = settled(reaction, position, speed)
+    at, added = (
+        rest_linearization(film, position, speed),
+        mass_of(film, position, np.zeros_like(position), speed),
+    )
+    return StatesStiffness(at).exponents(mass * np.eye(len(added)) + added if added.any() else mass)
 
 
 def coefficients_of(

@@ -549,8 +549,8 @@ def switch_references(variables: Sequence[Variable]) -> list[int]:
 # journal on both sides, so all members are signals, which are equal in connected terminals.
 
 
-MOTION = tuple(place_names(FREEDOMS))
-FORCES = tuple(force_names(FREEDOMS))
+MOTION = tuple(place_names(list(FREEDOMS)))
+FORCES = tuple(force_names(list(FREEDOMS)))
 MEMBERS = (*MOTION, "speed", *FORCES)
 """Signals of a journal, whichever of its freedoms a model has."""
 

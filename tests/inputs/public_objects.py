@@ -102,9 +102,7 @@ MADE = [
     rf.Measurements(speed=[100.0, 200.0], load=[0.0, -500.0], values={"x": [4e-5, 5e-5]}),
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),
-    rf.LinearBearing(
-        stiffness=(2e8, 5e4, 5e4), damping=(1e4, 1.0, 1.0), freedoms=("z", "tilt_x", "tilt_y")
-    ),
+    rf.LinearBearing(stiffness=(2e8, 5e4, 5e4), damping=(1e4, 1.0, 1.0), freedoms=("z", "tilt_x", "tilt_y")),
     rf.TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
     rf.EndSeal(leakage=1e-10, uncertainty=0.3),
     rf.bearings.FilmSegment(length=0.02, clearance=1e-4),

@@ -125,7 +125,7 @@ def test_dry_backward_whirl_rolls():
         return [inward / 100.0, normal * ring.friction_coefficient * share + 20.0 * along]
 
     e, creep = fsolve(balance, [1.01, 0.1], xtol=1e-14) * [GAP, 1e-3]
-    both = rf.ParallelReaction((support, ring))
+    both = rf.Parallel((support, ring))
     start = {"speed": speed, "position": (1.01 * GAP, 0.0), "velocity": (0.0, -0.15)}
     run = rf.simulate(rotor(**start), both, duration=1.0, times=np.linspace(0.99, 1.0, 5), rtol=1e-9)
     whirl = (run["x"] * run["vy"] - run["y"] * run["vx"]) / (run["x"] ** 2 + run["y"] ** 2)
@@ -140,7 +140,7 @@ SPRING = rf.LinearBearing(stiffness=1e6, damping=500.0)
 
 def test_a_rigid_rotor_against_an_own_integration():
     whole = rotor(speed=300.0, unbalance=2e-3)
-    run = rf.simulate(whole, rf.ParallelReaction((SPRING, OFF_CENTER)), duration=0.02, samples=41, rtol=1e-10)
+    run = rf.simulate(whole, rf.Parallel((SPRING, OFF_CENTER)), duration=0.02, samples=41, rtol=1e-10)
     assert "rejected" in run.work  # compiled
 
     def rates(t, x):
@@ -202,7 +202,7 @@ def test_derivatives_of_the_ring_in_python_and_compiled():
     from rotorfilm.analysis.compiled_rotor import kernel_call
     from rotorfilm.native import loops
 
-    both = rf.ParallelReaction((ring, rf.LinearBearing(stiffness=1e6, damping=30.0)))
+    both = rf.Parallel((ring, rf.LinearBearing(stiffness=1e6, damping=30.0)))
     for reaction, name in ((ring, "rf_rub_at"), (both, "rf_both_at")):
         call = kernel_call(reaction)
         force, slopes = np.empty(2), np.empty((2, 5))
@@ -238,7 +238,7 @@ def test_as_an_fmu(kind, tmp_path):
         radius=0.05, length=0.02, clearance=3e-4, pressure_drop=1e6, viscosity=1e-3, density=1000.0
     )
     ring = dataclasses.replace(RING, friction_coefficient=0.1)
-    model = {"ring": ring, "both": rf.ParallelReaction((seal, ring)), "seal": seal}[kind]
+    model = {"ring": ring, "both": rf.Parallel((seal, ring)), "seal": seal}[kind]
     path = rf.export_fmu(model, tmp_path / "m.fmu", component="m", backend="python")
     start = {"x": 2.1e-4, "y": 1e-5, "vx": 0.02, "vy": -0.01, "speed": 200.0}
     names = [f"m.{signal.name}" for signal in model.outputs]
@@ -250,15 +250,15 @@ def test_as_an_fmu(kind, tmp_path):
 
 def test_parallel_reactions_add_up():
     film = rf.JournalBearing(radius=0.05, length=0.02, clearance=3e-4, viscosity=0.02)
-    both, q, v = rf.ParallelReaction((film, RING)), np.array([2.5e-4, 0.0]), np.array([0.0, 0.01])
+    both, q, v = rf.Parallel((film, RING)), np.array([2.5e-4, 0.0]), np.array([0.0, 0.01])
     assert both.clearance == film.clearance
     assert_allclose(both.force(q, v, 50.0), film.force(q, v, 50.0) + RING.force(q, v, 50.0))
     with pytest.raises(rf.FilmContactError):
         both.force([3.1e-4, 0.0], v, 50.0)
     with pytest.raises(rf.InputError, match="reactions must be two at least, got 1"):
-        rf.ParallelReaction((film,))
+        rf.Parallel((film,))
     with pytest.raises(rf.InputError, match=r"reactions\[1\] must be a Reaction"):
-        rf.ParallelReaction((film, 3.0))
+        rf.Parallel((film, 3.0))
 
 
 def test_where_one_of_two_touches_its_wall_nothing_is_added():
@@ -266,7 +266,7 @@ def test_where_one_of_two_touches_its_wall_nothing_is_added():
     from rotorfilm.native import Status, loops
 
     film = rf.JournalBearing(radius=0.05, length=0.02, clearance=3e-4, viscosity=0.02)
-    call = kernel_call(rf.ParallelReaction((RING, film)))
+    call = kernel_call(rf.Parallel((RING, film)))
     state, force, slopes = np.array([3.1e-4, 0.0, 0.0, 0.01, 50.0]), np.empty(2), np.empty((2, 5))
     status = loops()["rf_both_at"](call.data, state.ctypes.data, force.ctypes.data, slopes.ctypes.data)
     assert status == Status.AT_WALL

@@ -22,7 +22,7 @@ FILMS = {
     "counted": counted_calls(DAMPER),
     "seal": SEAL,
     "sprung seal": rf.Sprung(reaction=SEAL, stiffness=1e6),
-    "damper and seal": rf.ParallelReaction((DAMPER, SEAL)),
+    "damper and seal": rf.Parallel((DAMPER, SEAL)),
 }
 
 
