@@ -21,6 +21,7 @@ from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.results import write_csv
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
+from ..native.spec import NativeSpec, linear_kernel
 from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state, without_overflow
 
 NOMINAL_LENGTH = 1e-4
@@ -286,3 +287,9 @@ class LinearBearing(LinearReaction):
         return np.broadcast_to(
             constant.reshape(n, 2 * n + 1, *(1,) * len(batch)), (n, 2 * n + 1, *batch)
         ).copy()
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of a linear model; None for a subclass, which may differ."""
+        if type(self) is not LinearBearing:
+            return None
+        return linear_kernel(self.linearization(0.0, (), np.zeros(2 * len(self.freedoms) + 1)))
