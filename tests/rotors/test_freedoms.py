@@ -154,6 +154,22 @@ def test_a_spring_along_the_axis_holds_it():
     assert np.abs(poles - root).min() < 1e-9 * abs(root)
 
 
+def test_motion_without_a_stiffness_has_no_critical_speed():
+    undamped = LinearBearing(stiffness=np.diag([1e7, 1e7]), damping=np.zeros((2, 2)))
+    body = RigidShaft(
+        mass=7.0,
+        diametral_inertia=0.3,
+        polar_inertia=0.1,
+        stations=(("left", -0.3), ("right", 0.3)),
+        speed=SPEED,
+        axial=True,
+    )
+    found = rf.critical_speeds(body, {"left": undamped, "right": undamped}, np.linspace(0.0, 4000.0, 6))
+    # Of translation; of tilt forward and backward, whose inertia is less and more by the polar one.
+    squares = [2e7 / 7.0, 2e7 / 7.0, 2.0 * 0.3**2 * 1e7 / 0.4, 2.0 * 0.3**2 * 1e7 / 0.2]
+    assert_allclose([one.speed for one in found], np.sqrt(squares), rtol=1e-9)
+
+
 def test_signals_of_further_freedoms_follow_the_planar_ones(steel):
     rotor, planar = shaft(steel, 2, **BEYOND), shaft(steel, 2)
     further = ["z", "tilt_x", "tilt_y", "twist", "vz", "tilt_rate_x", "tilt_rate_y", "twist_rate"]
