@@ -23,6 +23,7 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
+from rotorfilm.core.port import force_along
 
 from .port_toys import Rubber, Strips, ThrustSpring
 
@@ -47,6 +48,53 @@ def test_states_are_eliminated_exactly():
     held = frozen_coefficients(RUBBER, at.position, SPEED)
     assert_allclose(held.stiffness, (RUBBER.stiffness + RUBBER.maxwell) * np.eye(2), rtol=1e-13)
     assert_allclose(held.damping, RUBBER.damping * np.eye(2), rtol=1e-13)
+
+
+class Wary(Rubber):
+    """One that keeps what it is asked to warn of."""
+
+    def __init__(self, asked):
+        vars(self)["asked"] = asked
+
+    def warn_of_load(self, load):
+        self.asked.append(("load", *load))
+
+    def warn_of_flow(self, speed, *temperatures):
+        self.asked.append(("flow", speed))
+
+
+@pytest.mark.parametrize("is_film", [False, True])
+def test_a_reaction_or_its_bearing_is_asked_to_warn(is_film):
+    asked = []
+    reaction = Rubber() if is_film else Wary(asked)
+    if is_film:
+        vars(reaction)["bearing"] = Wary(asked)
+    at = equilibrium(reaction, (0.0, -500.0), SPEED)
+    assert asked == [("load", 0.0, -500.0), ("flow", SPEED)]
+    coefficients(reaction, at.position, SPEED)
+    assert asked[2:] == [("flow", SPEED)]
+
+
+class Submerged:
+    """A journal in a wide bath, which adds a mass and damps."""
+
+    has_inertia = True
+
+    def force(self, position, velocity, speed):
+        return -200.0 * np.asarray(velocity)
+
+    def mass(self, position, velocity, speed):
+        return np.einsum("ij,...->ij...", [[3.0, 0.5], [0.5, 4.0]], 1.0 + np.asarray(position)[0])
+
+
+@pytest.mark.closed_form
+def test_force_along_a_motion_has_that_of_the_added_mass():
+    q, v, a = np.random.default_rng(0).uniform(-1.0, 1.0, (3, 2, 5))
+    along = force_along(Submerged(), q, v, a, SPEED)
+    grown = 1.0 + q[0]
+    expected = [grown * (3.0 * a[0] + 0.5 * a[1]), grown * (0.5 * a[0] + 4.0 * a[1])]
+    assert_allclose(along, -200.0 * v - np.array(expected), rtol=1e-13)
+    assert_allclose(force_along(rf.LinearBearing(stiffness=2.0), q, v, a, SPEED), -2.0 * q, rtol=1e-13)
 
 
 def test_a_rotor_on_states_of_a_users_own_is_the_joined_system():

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from numbers import Number
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.oil.oil import warn_of_flow
 from ..core.errors import (
     InputError,
     brief,
@@ -38,13 +37,12 @@ from ..core.port import (
     settled,
     small_motion,
     static_slopes,
+    warn_of_flow,
 )
 from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients
+from ..core.sources import offered
 from .equilibrium import equilibrium
-
-if TYPE_CHECKING:
-    from ..bearings.linear import TabulatedBearing
 
 
 @arguments
@@ -198,8 +196,8 @@ def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Comple
 
 
 @arguments
-def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> TabulatedBearing:
-    """Return K and C of a film at its equilibria under a load, over speed.
+def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> Any:
+    """Return K and C of a film at its equilibria under a load, over speed, as a `TabulatedBearing`.
 
     Parameters
     ----------
@@ -221,11 +219,8 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
-    # Imported here: interpolation takes scipy, which coefficients do not need.
-    from ..bearings.linear import TabulatedBearing
-
     points = [film_coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
-    return TabulatedBearing(
+    return offered("TabulatedBearing")(
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),
         damping=np.array([point.damping for point in points]),

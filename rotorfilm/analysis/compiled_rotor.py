@@ -11,21 +11,13 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 
 from __future__ import annotations
 
-import ctypes
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p
-from functools import cache
+from collections.abc import Iterable, Iterator
+from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.assemblies import Parallel, Sprung
-from ..bearings.damper import PorousDamper, SqueezeFilmDamper
-from ..bearings.films.law import BoundKernel
-from ..bearings.linear import LinearBearing
-from ..bearings.reaction import FilmReaction
-from ..bearings.rub import RubRing
 from ..core.errors import (
     ConvergenceError,
     FilmContactError,
@@ -36,6 +28,7 @@ from ..core.errors import (
 )
 from ..core.model import Array, Dynamic
 from ..core.port import (
+    compiled_force,
     freedoms_of,
     inertial,
     require_massless,
@@ -46,8 +39,8 @@ from ..core.port import (
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..native import Status
-from ..native.film_kernels import OilDamperKernel
-from ..native.library import functions, loops
+from ..native.film_call import MASSLESS, FilmCall
+from ..native.library import loops
 from ..native.structs import structure
 from ..rotors import (
     BaseExcitedRotor,
@@ -69,51 +62,11 @@ from ..rotors.structure import (
 )
 from .modal_reduction import Condensed, models
 
-# The force of a bearing as a compiled function behind an address, for loops that must not enter
-# Python.
-#
-# Every such function is that of the C library (native/films/journal_kernel.h),
-#
-# int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
-#
-# with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it
-# along, `LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, `RubRing` and
-# the sum of `Parallel` in native/loops/rub.h, and any other reaction is called back in
-# Python: slower, with the same result.
+# Forces behind addresses (`native.film_call`): a reaction without a compiled one is called back in Python,
+# slower, with the same result.
 
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
-
-
-class FilmCall(NamedTuple):
-    """Where the compiled force of a bearing is.
-
-    Attributes
-    ----------
-    address : int
-        Of the function.
-    data : int
-        Its first argument.
-    owner : object
-        What must live as long as both.
-    beyond : str
-        How the force goes on beyond the map of its film; empty where it has none.
-    raised : list of BaseException
-        What a force in Python raised besides errors of this package, until `raise_foreign`.
-    """
-
-    address: int
-    data: int
-    owner: Any
-    beyond: str = ""
-    raised: Sequence[BaseException] = ()
-
-    def beside(self, stiffness: float, *, still: bool) -> FilmCall:
-        """Return this force beside equal springs [N/m], of a journal that does not spin where it is still."""
-        both = structure("rf_sprung")(self.address, self.data, stiffness, still)
-        return self._replace(
-            address=_address("rf_sprung_at"), data=ctypes.addressof(both), owner=(both, self.owner)
-        )
 
 
 def raise_foreign(calls: Iterable[FilmCall]) -> None:
@@ -132,14 +85,11 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
 def film_call(reaction: Any) -> FilmCall:
     """Return the compiled force of a reaction without states, one that calls back where it has none."""
     require_massless("reaction", reaction)
-    return kernel_call(reaction) or _called_back(reaction)
+    return compiled_force(reaction) or _called_back(reaction)
 
 
-def call_with_added_mass(reaction: Any) -> tuple[FilmCall, tuple[int, int]]:
-    """Return the compiled force of a reaction without states, and where the mass that it adds is.
-
-    That is the address of an rf_mass_response of native/films/film.h, and of its first argument; zeros where
-    it adds none.
+def call_with_added_mass(reaction: Any) -> FilmCall:
+    """Return the compiled force of a reaction without states, with the mass that it adds.
 
     Raises
     ------
@@ -147,65 +97,13 @@ def call_with_added_mass(reaction: Any) -> tuple[FilmCall, tuple[int, int]]:
         If it adds a mass that is not compiled.
     """
     if inertial(reaction) is None:
-        return film_call(reaction), (0, 0)
-    film, inner = kernel_call(reaction), reaction.reaction if isinstance(reaction, Sprung) else reaction
-    bound = inner.film_in_c if isinstance(inner, SqueezeFilmDamper) else None
-    if film is None or not isinstance(bound, BoundKernel) or not isinstance(bound.kernel, OilDamperKernel):
+        return film_call(reaction)
+    call: FilmCall | None = compiled_force(reaction)
+    if call is None or call.mass == MASSLESS:
         raise InputError(
             f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
         )
-    return film, (bound.kernel.mass_address, ctypes.addressof(bound.kernel.struct))
-
-
-def kernel_call(reaction: Any) -> FilmCall | None:
-    """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
-    if isinstance(reaction, FilmReaction):
-        return _bound(reaction.film_in_c)
-    if type(reaction) is SqueezeFilmDamper or type(reaction) is PorousDamper:
-        film = _bound(reaction.film_in_c)
-        return None if film is None else film.beside(0.0, still=True)
-    if type(reaction) is Sprung:
-        inner = kernel_call(reaction.reaction)
-        if isinstance(reaction.stiffness, tuple):
-            return _summed([inner, kernel_call(LinearBearing(stiffness=reaction.matrix))])
-        return None if inner is None else inner.beside(reaction.stiffness, still=False)
-    if type(reaction) is Parallel:
-        return _summed([kernel_call(one) for one in reaction.reactions])
-    if type(reaction) is LinearBearing:
-        values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
-        return FilmCall(address=_address("rf_springs_at"), data=values.ctypes.data, owner=values)
-    if type(reaction) is RubRing:
-        values = reaction.numbers
-        return FilmCall(address=_address("rf_rub_at"), data=values.ctypes.data, owner=values)
-    return None
-
-
-def _summed(calls: Sequence[FilmCall | None]) -> FilmCall | None:
-    """Return the sum of forces on one journal; None where one of them has no kernel."""
-    total: FilmCall | None = calls[0]
-    for call in calls[1:]:
-        if total is None or call is None:
-            return None
-        both = structure("rf_both")(total.address, total.data, call.address, call.data)
-        total = FilmCall(
-            address=_address("rf_both_at"),
-            data=ctypes.addressof(both),
-            owner=(both, total, call),
-            beyond=total.beyond or call.beyond,
-        )
-    return total
-
-
-def _bound(film: object) -> FilmCall | None:
-    if not isinstance(film, BoundKernel):
-        return None
-    data = ctypes.addressof(film.kernel.struct)
-    return FilmCall(address=_address(film.kernel.function), data=data, owner=film, beyond=film.beyond)
-
-
-@cache
-def _address(name: str) -> int:
-    return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
+    return call
 
 
 def _called_back(reaction: Any) -> FilmCall:
@@ -232,7 +130,7 @@ def _called_back(reaction: Any) -> FilmCall:
 
     function = _CALLBACK(answer)
     return FilmCall(
-        address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
+        address=cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
     )
 
 
@@ -619,7 +517,7 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
 
 def _is_compiled(bearing: Any) -> bool:
     planar = freedoms_of(bearing) == PLANAR
-    return planar and inertial(bearing) is None and kernel_call(bearing) is not None
+    return planar and inertial(bearing) is None and compiled_force(bearing) is not None
 
 
 def _is_linear(rotor: Dynamic) -> bool:

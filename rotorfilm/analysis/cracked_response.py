@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..bearings.linear import LinearBearing
-from ..core.errors import InputError, require_count, require_kind
+from ..core.errors import InputError, brief, require_count, require_kind
 from ..core.inputs import arguments
 from ..core.model import Array, Dynamic
+from ..core.port import is_constant
 from ..core.readable import Readable
 from ..core.signals import names
 from ..rotors import CrackedRotor, MountedRotor
@@ -103,7 +103,8 @@ def _cracked(mounted: MountedRotor) -> CrackedRotor:
             f"mounted must have a bearing in every station, got none for {names(mounted.inputs)}"
         )
     for station, bearing in mounted.all_bearings.items():
-        require_kind(f"bearing of station {station!r}", bearing, LinearBearing, "a LinearBearing")
+        if not is_constant(bearing):
+            raise InputError(f"bearing of station {station!r} must be a LinearBearing, got {brief(bearing)}")
     if len(set(rotor.profile.speeds)) != 1 or rotor.profile.speeds[0] == 0.0:
         raise InputError(f"speed must be constant and not zero, got {rotor.rotor.speed!r}")
     return rotor

@@ -10,10 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.reaction import InertialModel
 from ..core.errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ..core.model import Array
-from ..core.port import has_wall, inertial
+from ..core.port import force_along, has_wall, inertial
 from ..native import Status
 from ..native.library import loops
 from ..native.structs import structure
@@ -59,14 +58,14 @@ def march(
     ConvergenceError
         If Newton's method does not end, or the film force is not finite.
     """
-    call, heavy = call_with_added_mass(reaction)
+    call = call_with_added_mass(reaction)
     pulls = np.array([pull(n * step) for n in range(count + 1)])
     pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
     motion = np.zeros((count + 1, 4))
     motion[0, :2] = rest
     wall = (FAR if has_wall(reaction) else 1.0) * reaction.clearance
     rotor = structure("rf_shaken")(call.address, call.data, mass, speed, wall, step)
-    rotor.heavy, rotor.loaded = heavy
+    rotor.heavy, rotor.loaded = call.mass
     status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)
     raise_foreign([call])
     if rotor.left_map:
@@ -213,17 +212,11 @@ class ExcitedRotor(NamedTuple):
             parts = (np.repeat(part[:, :, None], count, axis=2) for part in film[1:])
             return RestTangent(force - film.mass @ a, *parts)
         speeds = np.full(count, self.speed)
-        slopes = film.jacobian(q, v, speeds)[:, :4]
-        heavy = inertial(film)
-        if heavy is None or not isinstance(film, InertialModel):
-            return RestTangent(
-                film.force(q, v, speeds), -slopes[:, :2], -slopes[:, 2:], np.zeros((2, 2, count))
-            )
-        by_motion = heavy.mass_slopes(q, v, speeds)[:, :, :4]
-        slopes = slopes - np.einsum("ijk...,j...->ik...", by_motion, a)
-        force = film.force_along(q, v, a, speeds)  # heavy and film are one
-        mass = heavy.mass(q, v, speeds)
-        return RestTangent(force, -slopes[:, :2], -slopes[:, 2:], mass)
+        slopes, mass, heavy = film.jacobian(q, v, speeds)[:, :4], np.zeros((2, 2, count)), inertial(film)
+        if heavy is not None:
+            by_motion, mass = heavy.mass_slopes(q, v, speeds)[:, :, :4], heavy.mass(q, v, speeds)
+            slopes = slopes - np.einsum("ijk...,j...->ik...", by_motion, a)
+        return RestTangent(force_along(film, q, v, a, speeds), -slopes[:, :2], -slopes[:, 2:], mass)
 
     def propagated(self, states: StatesAlong, own: Any | RestTangent, rich: Any) -> tuple[Array, float]:
         """Return how much a richer film moves the journal (2, n) [m], to first order.

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.oil.oil import warn_of_flow, warn_of_pressure
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -46,6 +45,8 @@ from ..core.port import (
     rest_place,
     static_force,
     static_slopes,
+    warn_of_flow,
+    warn_of_load,
 )
 from ..core.readable import Readable
 from ..core.results import Equilibrium
@@ -107,7 +108,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     load = checked_load(load) if freedoms == PLANAR else require_place(reaction, load, "load")
     speed = require_number("speed", speed)
     found = _found(reaction, load, speed)
-    warn_of_pressure(reaction, load)
+    warn_of_load(reaction, load)
     warn_of_flow(reaction, speed, found.temperature)
     return found
 

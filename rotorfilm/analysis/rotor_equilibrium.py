@@ -12,7 +12,6 @@ from typing import Any, cast
 import numpy as np
 from scipy.linalg import block_diag
 
-from ..bearings.linear import LinearBearing
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -29,6 +28,7 @@ from ..core.port import (
     clearance_of,
     freedoms_of,
     inertial,
+    is_constant,
     minimum_film,
     relative_film,
     require_reactions,
@@ -171,7 +171,7 @@ def rest(
 def _is_the_same_at_any_speed(structure: Structure, bearings: Bearings) -> bool:
     """Return whether all bearings are springs and dampers, and no damping that turns presses on them."""
     turning = structure.hysteresis is not None or abs(structure.circulation).max() > 0.0
-    return not turning and all(type(bearing) is LinearBearing for bearing in bearings.values())
+    return not turning and all(map(is_constant, bearings.values()))
 
 
 def _at_speed(at: RotorEquilibrium, speed: float) -> RotorEquilibrium:

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver, Radau
 
-from ..bearings.rub import RubRing
 from ..core.errors import (
     ContactError,
     ConvergenceError,
     FilmContactError,
     InputError,
     UndefinedDerivativeError,
+    brief,
     require_finite,
     require_kind,
     require_positive,
@@ -501,7 +501,7 @@ class RingContacts(Readable):
 
 
 @arguments
-def ring_contacts(run: Trajectory, ring: RubRing, station: str = "") -> RingContacts:
+def ring_contacts(run: Trajectory, ring: Any, station: str = "") -> RingContacts:
     """Return the contacts of a run, to the fourth order of the distance of its samples.
 
     Between two samples the motion is the cubic of their positions and velocities; a contact between two
@@ -521,7 +521,8 @@ def ring_contacts(run: Trajectory, ring: RubRing, station: str = "") -> RingCont
         If the run has no such station or no two samples.
     """
     require_kind("run", run, Trajectory, "a Trajectory")
-    require_kind("ring", ring, RubRing, "a RubRing")
+    if not hasattr(ring, "contact"):
+        raise InputError(f"ring must be a RubRing, got {brief(ring)}")
     prefix = f"{station}_" if station else ""
     if missing := [name for name in MOTION_NAMES if prefix + name not in run.signals]:
         raise InputError(f"run must have the signals {[prefix + name for name in missing]} of the station")
@@ -530,14 +531,14 @@ def ring_contacts(run: Trajectory, ring: RubRing, station: str = "") -> RingCont
     x, y, vx, vy = (run.signals[prefix + name] for name in MOTION_NAMES)
     position, velocity = np.stack([x, y]), np.stack([vx, vy])
     at = ring.contact(position, velocity, run.signals["speed"])
-    edges = _edges(run.time, position, velocity, ring, at.depth)
+    edges = _edges(run.time, position, velocity, lambda q: ring.contact(q, np.zeros(2)).depth, at.depth)
     largest = [float(at.normal_force[(run.time >= a) & (run.time <= b)].max(initial=0.0)) for a, b in edges]
     begin, end = np.array(edges).reshape(-1, 2).T
     return RingContacts(begin=begin, end=end, normal_force=np.array(largest))
 
 
 def _edges(
-    time: Array, position: Array, velocity: Array, ring: RubRing, depth: Array
+    time: Array, position: Array, velocity: Array, law: Callable[[Array], Array], depth: Array
 ) -> list[tuple[float, float]]:
     """Return begin and end of every contact."""
     # Imported here: most runs want none.
@@ -545,14 +546,9 @@ def _edges(
     from scipy.optimize import brentq
 
     path = CubicHermiteSpline(time, position.T, velocity.T)
-    center = np.array(ring.ring_center)
-
-    def inside(t: float) -> float:
-        return float(np.hypot(*(path(t) - center))) - ring.gap
-
     touching = depth > 0.0
     turns = [
-        float(brentq(inside, a, b, xtol=1e-15, rtol=1e-14))
+        float(brentq(lambda t: float(law(path(t))), a, b, xtol=1e-15, rtol=1e-14))
         for k, (a, b) in enumerate(pairwise(time))
         if touching[k] != touching[k + 1]
     ]

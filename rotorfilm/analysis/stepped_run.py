@@ -11,9 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.films.mass_conserving import bdf2
-from ..bearings.films.mass_conserving_steps import MOST_GROWTH
-from ..bearings.formulas import cubic
 from ..core.errors import (
     ContactError,
     ConvergenceError,
@@ -27,6 +24,7 @@ from ..core.model import Array, Dynamic
 from ..core.port import StepTrial, takes_steps
 from ..core.results import Trajectory
 from ..core.signals import JOURNAL_INPUTS, indices, names, units
+from ..core.time_steps import bdf2, cubic
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import highest_speed
 from .compiled_rotor import CONTACT_GAP
@@ -39,6 +37,9 @@ AT_WALL = 1e-3
 
 HALVINGS = 12
 """Times that a step is halved before a run is given up."""
+
+MOST_GROWTH = 2.0
+"""Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
 
 
 def simulate_steps(

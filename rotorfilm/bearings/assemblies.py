@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar, NamedTuple, cast
 
 import numpy as np
@@ -28,6 +28,8 @@ from ..core.port import (
     Tangent,
     carries_load,
     clearance_of,
+    compiled_force,
+    force_along,
     force_noise,
     freedoms_of,
     has_states,
@@ -50,6 +52,7 @@ from ..core.port import (
     static_slopes,
 )
 from ..core.signals import FREEDOMS, PLANAR, Signal, force_names, place_names
+from ..native.film_call import FilmCall
 from ..native.spec import HasKernel, NativeSpec
 from .reaction import InertialModel, broadcast_state, input_vector, mass_entries, mass_outputs
 
@@ -268,6 +271,11 @@ class Parallel(SharedReaction):
 
     def require_film(self, position: Array) -> None:
         """Do nothing: each reaction says itself where it is touched."""
+
+    def compiled(self) -> FilmCall | None:
+        """Return the sum of the forces in the C library; None where one has none, or for a subclass."""
+        calls = [compiled_force(one) for one in self.reactions]
+        return reduce(FilmCall.plus, calls) if type(self) is Parallel and all(calls) else None
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops; states are held where they begin."""
@@ -694,11 +702,18 @@ class Sprung(SharedReaction):
     def force_along(
         self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
     ) -> Array:
-        """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `InertialModel`."""
-        along: Any = getattr(self.reaction, "force_along", None)
-        if along is None:
-            return super().force_along(position, velocity, acceleration, speed)
-        return np.asarray(along(position, velocity, acceleration, speed)) - self._pull(position)
+        """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `core.port`."""
+        return force_along(self.reaction, position, velocity, acceleration, speed) - self._pull(position)
+
+    def compiled(self) -> FilmCall | None:
+        """Return the force in the C library; None where the reaction has none, or for a subclass."""
+        inner: FilmCall | None = compiled_force(self.reaction)
+        if inner is None or type(self) is not Sprung:
+            return None
+        if self.is_isotropic:
+            return inner.beside(cast(float, self.stiffness), still=False)
+        springs = FilmCall.of_numbers("rf_springs_at", np.ravel([self.matrix, np.zeros((2, 2))]))
+        return inner.plus(springs)._replace(mass=inner.mass)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the reaction with these springs; None where it takes none."""

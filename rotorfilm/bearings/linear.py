@@ -21,6 +21,7 @@ from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.results import write_csv
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
+from ..native.film_call import FilmCall
 from ..native.spec import NativeSpec, linear_kernel
 from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state, without_overflow
 
@@ -288,8 +289,19 @@ class LinearBearing(LinearReaction):
             constant.reshape(n, 2 * n + 1, *(1,) * len(batch)), (n, 2 * n + 1, *batch)
         ).copy()
 
+    @property
+    def is_constant(self) -> bool:
+        """Whether stiffness and damping say all; False for a subclass, which may differ."""
+        return type(self) is LinearBearing
+
+    def compiled(self) -> FilmCall | None:
+        """Return the force in the C library; None for other freedoms than x, y, and for a subclass."""
+        numbers = np.ravel([self.stiffness, self.damping])
+        planar = self.is_constant and self.freedoms == PLANAR
+        return FilmCall.of_numbers("rf_springs_at", numbers) if planar else None
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of a linear model; None for a subclass, which may differ."""
-        if type(self) is not LinearBearing:
+        if not self.is_constant:
             return None
         return linear_kernel(self.linearization(0.0, (), np.zeros(2 * len(self.freedoms) + 1)))

@@ -18,7 +18,7 @@ from ..core.errors import (
     require_vector,
 )
 from ..core.model import Array, Linearization, static_linearization
-from ..core.port import Force, Tangent, force_of, freedoms_of
+from ..core.port import Force, Tangent, compiled_force, force_of, freedoms_of
 from ..core.signals import (
     MASS_OUTPUTS,
     PLANAR,
@@ -237,10 +237,9 @@ class FilmReaction(StaticReaction):
         slopes: Array = self.bound_film.jacobian(*broadcast_state(position, velocity, speed))
         return slopes
 
-    @property
-    def film_in_c(self: Any) -> Any:
-        """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
-        return self.bound_film if "bound_film" in vars(type(self)) else None
+    def compiled(self: Any) -> Any:
+        """Return the force in the C library; None without a kernel, and for a subclass, which may differ."""
+        return compiled_force(self.bound_film) if "bound_film" in vars(type(self)) else None
 
     def prepare(self: Any) -> Force:
         """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
@@ -324,22 +323,6 @@ class InertialModel(StaticReaction):
     def outputs(self: Any) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal without that of its acceleration; the mass."""
         return (*super().outputs, *mass_outputs(self))
-
-    def force_along(
-        self: Any, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
-    ) -> Array:
-        """Return the force in a motion, that of the added mass included, shape (2, n) [N].
-
-        Parameters
-        ----------
-        position, velocity, acceleration : ndarray, shape (2, n) [m], [m/s], [m/s2]
-        speed : array_like, shape () or (n,) [rad/s]
-            Angular speed about +z.
-        """
-        force = self.force(position, velocity, speed)
-        if not self.has_inertia:
-            return force
-        return force - np.einsum("ij...,j...->i...", self.mass(position, velocity, speed), acceleration)
 
     def output(self: Any, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force_x, force_y [N], and with inertia the mass [kg], for u = (x, y, vx, vy, speed)."""

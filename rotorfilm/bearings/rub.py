@@ -13,6 +13,7 @@ from ..core.errors import keep_pair, require_each, require_non_negative, require
 from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.signals import Signal, journal_inputs
+from ..native.film_call import FilmCall
 from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, input_vector
 
 
@@ -108,6 +109,10 @@ class RubRing(StaticReaction):
         """The parameters as the C library reads them (rf_rub of rub.h), shape (8,)."""
         contact = (self.friction_coefficient, self.slip_velocity, self.dissipation)
         return np.array([self.gap, self.stiffness, self.radius, *contact, *self.ring_center])
+
+    def compiled(self) -> FilmCall | None:
+        """Return the force in the C library; None for a subclass, which may differ."""
+        return FilmCall.of_numbers("rf_rub_at", self.numbers) if type(self) is RubRing else None
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the depth in gaps, shape (1,): contact begins and ends where it changes sign."""

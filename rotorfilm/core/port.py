@@ -42,6 +42,8 @@ class Reaction(Model, Protocol):
     - `force(position, velocity, speed)` and `jacobian(...)`, the same as `output` and `linearization` for
       batches, shapes (n, ...) and (n, 2 n + 1, ...); of a reaction with states, with these held;
     - `prepare()` and `prepare_tangent()`, force and derivatives as functions of five numbers, for loops;
+    - `compiled()`, the force in the C library with its added mass, a `native.film_call.FilmCall`, or None;
+    - `is_constant`, whether it is springs and dampers, the same at any place, motion and speed;
     - `minimum_film(position)`, where the journal touches elsewhere than on the circle of the clearance;
     - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
     - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
@@ -52,9 +54,13 @@ class Reaction(Model, Protocol):
     - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
     - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
+    - `force_along(position, velocity, acceleration, speed)`, that F where it is more than these tell;
     - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `coldest()`, `balanced()`, `in_time()`,
       where the temperature of the film follows from its heat;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
+    - `warn_of_load(load)` and `warn_of_flow(speed, temperature, hottest)`, which warn where the model of its
+      film ends; a film may have a `bearing` that warns;
+    - `contact(position, velocity, speed)`, depth and normal force where a rotor is rubbed;
     - `carries_load`, False of a reaction that takes no share of the weight, as a seal;
     - `portable()`, an equal object that holds what it would make on first use, for an FMU.
     """
@@ -97,6 +103,12 @@ def freedoms_of(reaction: object) -> tuple[str, ...]:
 def clearance_of(reaction: object) -> float:
     """Return the radius of the circle in which the journal stays [m]; infinite where there is none."""
     return getattr(reaction, "clearance", np.inf)
+
+
+def optional(reaction: object, method: str, *given: Any) -> Any:
+    """Return what an optional method of a reaction returns; None where it has none."""
+    own = getattr(reaction, method, None)
+    return None if own is None else own(*given)
 
 
 def require_reaction(
@@ -212,6 +224,16 @@ def tangent_of(reaction: Any) -> Tangent:
         return force_x, force_y, static_slopes(reaction, position, velocity, speed).ravel().tolist()
 
     return tangent
+
+
+def compiled_force(reaction: Any) -> Any:
+    """Return the force of a planar reaction in the C library, a `FilmCall`; None where it has none there."""
+    return optional(reaction, "compiled")
+
+
+def is_constant(reaction: object) -> bool:
+    """Return whether a reaction is springs and dampers, the same at any place, motion and speed."""
+    return bool(getattr(reaction, "is_constant", False))
 
 
 def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
@@ -332,6 +354,26 @@ def inertial(reaction: Any) -> Any:
     return reaction if getattr(reaction, "has_inertia", False) else None
 
 
+def force_along(
+    reaction: Any, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike
+) -> Array:
+    """Return the force of any reaction in a motion with that of the added mass, shape (n, ...) [N].
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Without states.
+    position, velocity, acceleration : ndarray, shape (n, ...) [m], [m/s], [m/s2]
+    speed : array_like, shape (...) [rad/s]
+    """
+    own, heavy = getattr(reaction, "force_along", None), inertial(reaction)
+    if own is not None:
+        return np.asarray(own(position, velocity, acceleration, speed))
+    force = static_force(reaction, position, velocity, speed)
+    mass = None if heavy is None else heavy.mass(position, velocity, speed)
+    return force if mass is None else force - np.einsum("ij...,j...->i...", mass, acceleration)
+
+
 def mass_of(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
     """Return the added mass of any reaction, shape (n, n) [kg]; zeros where it has none."""
     n = len(freedoms_of(reaction))
@@ -357,11 +399,27 @@ def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) ->
     return heavy.mass(position, velocity, speed), slopes
 
 
+def warn_of_load(reaction: Any, load: Array) -> None:
+    """Let the bearing of a film warn of a load [N], shape (n,), that is too much for its model."""
+    optional(getattr(reaction, "bearing", reaction), "warn_of_load", load)
+
+
+def warn_of_flow(reaction: Any, speed: float, *temperatures: float | None) -> None:
+    """Let the bearing of a film warn where it is not laminar, or its oil beyond the law of its viscosity.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    speed : float [rad/s]
+    *temperatures : float or None [K]
+        Of the oil in the mean, by default that of the bearing, and where it is hottest, by default the mean.
+    """
+    optional(getattr(reaction, "bearing", reaction), "warn_of_flow", speed, *temperatures)
+
+
 def require_range(reaction: object, frequency: float) -> None:
     """Warn, or raise InputError, where the model of any reaction ends, for motion at a frequency [rad/s]."""
-    own = getattr(reaction, "require_range", None)
-    if own is not None:
-        own(abs(frequency))
+    optional(reaction, "require_range", abs(frequency))
 
 
 def require_turning(reaction: Any, rotor: Any) -> None:
@@ -418,14 +476,12 @@ def carries_load(reaction: object) -> bool:
 
 def force_noise(reaction: object, speed: float) -> float:
     """Return what roundoff may leave of the force of any reaction [N]; 0 where it does not say."""
-    noise = getattr(reaction, "force_noise", None)
-    return 0.0 if noise is None else noise(speed)
+    return optional(reaction, "force_noise", speed) or 0.0
 
 
 def rest_place(reaction: object, load: Sequence[float], speed: float) -> Any:
     """Return where a reaction says that a journal rests, shape (n,) [m]; None where it does not say."""
-    place = getattr(reaction, "rest_place", None)
-    return None if place is None else place(load, speed)
+    return optional(reaction, "rest_place", load, speed)
 
 
 def takes_steps(reaction: object) -> bool:

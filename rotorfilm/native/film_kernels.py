@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..core.model import Array
+from .film_call import MASSLESS, address_of
 from .library import functions, loops
 from .structs import structure
 
@@ -258,17 +259,20 @@ class ResponseKernel:
         What that reads.
     film : FilmKernel
         Its film, or that of its first pad.
+    mass_call : tuple of two int
+        Where its added mass is; see `FilmCall`.
     """
 
     function: ClassVar[str]
     film: FilmKernel
+    mass_call: tuple[int, int] = MASSLESS
     _arguments: tuple[Any, ...]
     struct: Any
 
     def __init__(self) -> None:
         self._reference = byref(self.struct)
         self._tangent = {**functions(), **loops()}[self.function]
-        self._address = cast(self._tangent, c_void_p).value
+        self._address = address_of(self.function)
         self._call = functions()["rf_response_call"]
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -457,11 +461,8 @@ class OilDamperKernel(ResponseKernel):
             0,
         )
         super().__init__()
-
-    @property
-    def mass_address(self) -> int:
-        """The address of its rf_mass_response."""
-        return cast(loops()["rf_oil_damper_mass"], c_void_p).value or 0
+        if scales.inertial:
+            self.mass_call = address_of("rf_oil_damper_mass"), addressof(self.struct)
 
     def mass(self, x: float, y: float, vx: float, vy: float) -> tuple[Array, Array]:
         """Return the added mass xx, xy, yy, shape (3,) [kg], and its slopes by x, y, vx, vy, (3, 4)."""

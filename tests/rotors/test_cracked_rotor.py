@@ -244,5 +244,7 @@ def test_what_cracks_refuse():
     with pytest.raises(rf.InputError, match="edge must not exceed a quarter"):
         rf.rotors.GaschHinge(edge=2.0)
     film = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    with pytest.raises(rf.InputError, match="must be a LinearBearing"):
-        rf.cracked_response(rf.mount(cracked(), {"": film}))
+    own = type("Own", (rf.LinearBearing,), {})(stiffness=1e7)  # may have another force
+    for bearing in (film, own):
+        with pytest.raises(rf.InputError, match="must be a LinearBearing"):
+            rf.cracked_response(rf.mount(cracked(), {"": bearing}))

@@ -26,10 +26,10 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization, breakpoints
 from ...core.results import Trajectory
 from ...core.signals import Signal, force_outputs, journal_inputs, signals_of
+from ...core.time_steps import cubic
 from ...native.library import loops
 from ...native.spec import NativeSpec
 from ...native.structs import structure
-from ..formulas import cubic
 from ..reaction import Called
 from .contact_law import MOST_CONTACTS, ContactLaw, contact_spec
 

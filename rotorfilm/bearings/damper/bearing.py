@@ -25,6 +25,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.port import Tangent, tangent_of
 from ...core.signals import MOTION_NAMES
+from ...native.film_call import FilmCall
 from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
@@ -296,6 +297,11 @@ class SqueezeFilmDamper(InertialModel):
         if not isinstance(self.bound_film, MappedSqueezeFilm):
             return None
         return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
+
+    def compiled(self) -> FilmCall | None:
+        """Return the force in the C library, at speed 0 always; None where `native` has no kernel."""
+        film = self.film_in_c if type(self) in KERNELS else None
+        return None if film is None else film.compiled().beside(0.0, still=True)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of this damper in the C library; None if its film has none, or for a subclass."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.model import Array
+from ...core.port import force_along
 from ..assemblies import SharedReaction
 from ..films.geometry import FullFilm
 from .bearing import SqueezeFilmDamper
@@ -64,8 +65,8 @@ class JudgedDamper(SharedReaction):
     def force_along(
         self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
     ) -> Array:
-        """Return the force in a motion with all of the inertia, shape (2, n) [N]; see `InertialModel`."""
-        own = self.damper.force_along(position, velocity, acceleration, speed)
+        """Return the force in a motion with all of the inertia, shape (2, n) [N]; see `core.port`."""
+        own = force_along(self.damper, position, velocity, acceleration, speed)
         return own + self.left_out(position, velocity, acceleration)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:

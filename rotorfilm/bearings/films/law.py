@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
+from ctypes import addressof
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
@@ -30,6 +31,7 @@ from ...core.errors import (
 )
 from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
+from ...native.film_call import FilmCall, address_of
 from ...native.film_kernels import Batch, ResponseKernel
 from ...native.loss_kernels import LossKernel
 from ..reaction import broadcast_state, without_overflow
@@ -474,6 +476,12 @@ class BoundKernel:
         """How the force goes on beyond the map of the film; empty where it has none."""
         film = self.kernel.film
         return continued(film) if film.is_table else ""
+
+    def compiled(self) -> FilmCall:
+        """Return the force for loops in C; see `core.port.Reaction`."""
+        kernel = self.kernel
+        address, data = address_of(kernel.function), addressof(kernel.struct)
+        return FilmCall(address, data, owner=self, beyond=self.beyond, mass=kernel.mass_call)
 
     def require_inside(self, position: Array) -> None:
         """Raise FilmContactError where a journal at a position (2,) [m] touches."""

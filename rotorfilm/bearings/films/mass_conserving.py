@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import ConvergenceError, InputError, warn_user
 from ...core.model import Array
+from ...core.time_steps import bdf2
 from ...native.film_kernels import Status
 from ...native.library import loops
 from ...native.structs import structure
@@ -427,11 +428,6 @@ def step_storage(dt: float, now: Array, before: Array | None = None, ratio: floa
         return 1.0 / dt, now / dt
     newest, last, older = bdf2(ratio)
     return newest / dt, -(last * now + older * before) / dt
-
-
-def bdf2(ratio: float) -> tuple[float, float, float]:
-    """Return a, b, c of y' = (a y_n+1 + b y_n + c y_n-1)/dt, `ratio` the step over the one before."""
-    return (1.0 + 2.0 * ratio) / (1.0 + ratio), -(1.0 + ratio), ratio**2 / (1.0 + ratio)
 
 
 class ConservedState(NamedTuple):

@@ -43,10 +43,6 @@ from .mass_conserving import (
 # which.
 
 
-MOST_GROWTH = 2.0
-"""Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
-
-
 class OilHistory(NamedTuple):
     """What a film that conserves its oil knows of its past.
 

@@ -18,8 +18,8 @@ from ...core.results import BearingLosses
 from ...core.signals import Signal, signals_of
 from ...native.loss_kernels import OilTable
 from ...native.spec import NativeSpec, parameter
-from ..reaction import FilmUnits, input_vector
-from .oil import Cooling, Oil, require_absolute, viscosity_table
+from ..reaction import input_vector
+from .oil import Cooling, LaminarFilm, Oil, require_absolute, viscosity_table
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
@@ -238,7 +238,7 @@ def heated_spec(
 # What bearings share whose film has a viscosity, or an oil and one temperature: stated, or in balance.
 
 
-class WarmBearing(FilmUnits):
+class WarmBearing(LaminarFilm):
     """The lubricant of a bearing and the heat of its film; fields, force, losses are those of a subclass."""
 
     if TYPE_CHECKING:

@@ -633,21 +633,6 @@ def compression(
     return math.hypot(*load) / (2.0 * radius * length) / bulk_modulus
 
 
-def warn_of_pressure(reaction: object, load: Array) -> None:
-    """Warn of a load [N] whose mean pressure is beyond films of one density and viscosity."""
-    bearing = getattr(reaction, "bearing", reaction)  # of a film that is told which bearing is around it
-    if not isinstance(bearing, FilmUnits):
-        return
-    R, L = bearing.radius, bearing.length  # type: ignore[attr-defined]
-    share = compression(load, R, L)
-    if share > MOST:
-        warn_user(
-            f"load {math.hypot(*load):.6g} N makes a mean pressure of {share * BULK_MODULUS:.3g} Pa over "
-            f"2 radius length, {share:.0%} of the bulk modulus of a mineral oil: a film of one density and "
-            "viscosity does not hold there"
-        )
-
-
 # Where the film of a bearing is no longer laminar, or its oil beyond the law of its viscosity.
 
 
@@ -695,40 +680,46 @@ def film_reynolds(
     return FilmNumbers(reynolds, reynolds * math.sqrt(clearance / radius))
 
 
-def warn_of_flow(
-    reaction: object, speed: float, temperature: float | None = None, hottest: float | None = None
-) -> None:
-    """Warn of a film that is not laminar at a speed [rad/s], or whose oil is beyond its viscosity law.
+class LaminarFilm(FilmUnits):
+    """A bearing that warns where its film of one density and viscosity ends; see `core.port`."""
 
-    Parameters
-    ----------
-    reaction : object
-        A bearing, or a film that has one as `bearing`; others are not judged.
-    speed : float [rad/s]
-    temperature : float, optional [K]
-        Of the oil in the mean; by default that of the bearing.
-    hottest : float, optional [K]
-        Of the oil; by default as warm as the mean.
-    """
-    bearing: Any = getattr(reaction, "bearing", reaction)
-    if not issubclass(type(bearing), FilmUnits):
-        return
-    oil = getattr(bearing, "oil", None)
-    viscosity, density = bearing.film_viscosity, DENSITY
-    if oil is not None:
-        at = bearing.temperature if temperature is None else temperature
-        if at is not None:
+    def warn_of_load(self: Any, load: Array) -> None:
+        """Warn of a load [N] whose mean pressure is beyond films of one density and viscosity."""
+        share = compression(load, self.radius, self.length)
+        if share > MOST:
+            warn_user(
+                f"load {math.hypot(*load):.6g} N makes a mean pressure of {share * BULK_MODULUS:.3g} Pa over "
+                f"2 radius length, {share:.0%} of the bulk modulus of a mineral oil: a film of one density "
+                "and viscosity does not hold there"
+            )
+
+    def warn_of_flow(
+        self: Any, speed: float, temperature: float | None = None, hottest: float | None = None
+    ) -> None:
+        """Warn of a film that is not laminar at a speed [rad/s], or whose oil is beyond its viscosity law.
+
+        Parameters
+        ----------
+        speed : float [rad/s]
+        temperature : float, optional [K]
+            Of the oil in the mean; by default that of the bearing.
+        hottest : float, optional [K]
+            Of the oil; by default as warm as the mean.
+        """
+        oil, viscosity, density = self.oil, self.film_viscosity, DENSITY
+        at = self.temperature if temperature is None else temperature
+        if oil is not None and at is not None:
             warn_beyond_law(oil, at if hottest is None else hottest)
             within = float(np.clip(at, *oil.law.temperature_range))
             liquid = min(max(within, COLDEST_OIL), HOTTEST_OIL)
             viscosity, density = float(oil.law.viscosity(within)), float(oil.density(liquid))
-    R, c = bearing.radius, bearing.clearance
-    found = film_reynolds(R, c, viscosity, density, speed)
-    most = min(TAYLOR * math.sqrt(R / c), TURBULENT)
-    if found.turbulence:
-        begins = "Taylor vortices begin" if most < TURBULENT else "turbulence begins"
-        warn_user(
-            f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
-            f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
-            f"{begins}: a real film takes more power and gets warmer than this laminar one"
-        )
+        R, c = self.radius, self.clearance
+        found = film_reynolds(R, c, viscosity, density, speed)
+        most = min(TAYLOR * math.sqrt(R / c), TURBULENT)
+        if found.turbulence:
+            begins = "Taylor vortices begin" if most < TURBULENT else "turbulence begins"
+            warn_user(
+                f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
+                f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
+                f"{begins}: a real film takes more power and gets warmer than this laminar one"
+            )

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 import rotorfilm as rf
 from rotorfilm import InputError
 from rotorfilm.analysis.compiled_rotor import call_with_added_mass
+from rotorfilm.native.film_call import MASSLESS
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
 FULL = rf.FullFilm()
@@ -53,3 +54,14 @@ def test_kernel_is_the_python_film(name):
 def test_inertia_without_a_kernel_is_refused_by_loops_in_c():
     with pytest.raises(InputError, match="reaction must have its added mass in C"):
         call_with_added_mass(rf.SqueezeFilmDamper(**SIZE, density=800.0, extent=FULL))
+
+
+@pytest.mark.parametrize("stiffness", [1e6, (1e6, 2e6)])
+def test_springs_pass_on_where_the_mass_is(stiffness):
+    damper = rf.SqueezeFilmDamper(**SIZE, **CASES["finite"])
+    call = call_with_added_mass(rf.Sprung(reaction=damper, stiffness=stiffness))
+    assert call.mass == call_with_added_mass(damper).mass != MASSLESS
+    light = rf.SqueezeFilmDamper(**SIZE, **CASES["tight, no inertia"])
+    assert call_with_added_mass(rf.Sprung(reaction=light, stiffness=stiffness)).mass == MASSLESS
+    with pytest.raises(InputError, match="reaction must have its added mass in C"):
+        call_with_added_mass(rf.Parallel((damper, damper)))

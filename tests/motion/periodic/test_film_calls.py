@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings, strategies as st
 
-from rotorfilm import JournalBearing, LinearBearing, PorousDamper, ShortFilm, Sprung
+from rotorfilm import JournalBearing, LinearBearing, Parallel, PorousDamper, RubRing, ShortFilm, Sprung
 from rotorfilm.analysis.compiled_rotor import JournalFilms, film_call
 from rotorfilm.bearings import MapSqueeze
+from rotorfilm.core.port import compiled_force
 from rotorfilm.native import Status
+from rotorfilm.native.film_call import FilmCall
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP, SHORT = JournalBearing(**SIZES), JournalBearing(**SIZES, film=ShortFilm())
@@ -15,8 +17,19 @@ SPRING = LinearBearing(stiffness=((1e6, 2e5), (-3e5, 2e6)), damping=((900.0, 5.0
 DAMPER = PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02, film=MapSqueeze())
 
 
+SIDES = tuple(LinearBearing(stiffness=(1e6,), damping=(800.0,), freedoms=(axis,)) for axis in "xy")
+RING = RubRing(gap=2e-4, stiffness=1e7, radius=0.05)
+
+
 class OwnBearing(JournalBearing):
     """A bearing of a user."""
+
+
+class CompiledBearing(LinearBearing):
+    """One whose user says where its force is in the C library: twice the stiffness."""
+
+    def compiled(self):
+        return FilmCall.of_numbers("rf_springs_at", 2.0 * np.ravel([self.stiffness, self.damping]))
 
 
 BEARINGS = {
@@ -25,6 +38,8 @@ BEARINGS = {
     "linear": SPRING,
     "sprung": Sprung(reaction=MAP, stiffness=1e6),
     "damper": Sprung(reaction=DAMPER, stiffness=1e6),
+    "beside": Parallel((MAP, SPRING, MAP)),
+    "one freedom each": Parallel(SIDES),
     "called back": OwnBearing(**SIZES),
 }
 
@@ -67,3 +82,20 @@ def test_compiled_force_is_that_of_the_bearing(name, chi, angle, velocity, speed
 @pytest.mark.parametrize("name", ["map", "short", "sprung", "damper", "called back"])
 def test_wall_is_a_status(name):
     assert answer(BEARINGS[name], np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == Status.AT_WALL
+
+
+@pytest.mark.parametrize(
+    "bearing", [MAP, SPRING, DAMPER, RING, Sprung(reaction=MAP, stiffness=1e6), Parallel((MAP, RING))]
+)
+def test_a_subclass_which_may_differ_is_not_compiled(bearing):
+    kind = type(bearing)
+    own = object.__new__(type("Own", (kind,), {}))
+    vars(own).update(vars(bearing))
+    assert compiled_force(bearing) is not None
+    assert compiled_force(own) is None
+
+
+def test_a_subclass_may_say_itself_that_it_is_compiled():
+    bearing = CompiledBearing(stiffness=1e6, damping=500.0)
+    force = answer(bearing, np.array([1e-5, 2e-5, 1e-3, 2e-3, 0.0]))[1]
+    assert force == pytest.approx([-21.0, -42.0], rel=1e-14)

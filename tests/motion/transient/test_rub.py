@@ -199,12 +199,12 @@ def test_derivatives_of_the_ring_in_python_and_compiled():
         up, down = ((q + s * shift[:2], v + s * shift[2:4], speed + s * shift[4]) for s in (1, -1))
         slope = (ring.force(*up) - ring.force(*down)) / (2.0 * step)
         assert_allclose(slope, jacobian[:, k], atol=1e-7 * np.abs(jacobian[:, k]).max())
-    from rotorfilm.analysis.compiled_rotor import kernel_call
+    from rotorfilm.core.port import compiled_force
     from rotorfilm.native import loops
 
     both = rf.Parallel((ring, rf.LinearBearing(stiffness=1e6, damping=30.0)))
     for reaction, name in ((ring, "rf_rub_at"), (both, "rf_both_at")):
-        call = kernel_call(reaction)
+        call = compiled_force(reaction)
         force, slopes = np.empty(2), np.empty((2, 5))
         for k in range(9):
             state = np.array([*q[:, k], *v[:, k], speed[k]])
@@ -262,11 +262,11 @@ def test_parallel_reactions_add_up():
 
 
 def test_where_one_of_two_touches_its_wall_nothing_is_added():
-    from rotorfilm.analysis.compiled_rotor import kernel_call
+    from rotorfilm.core.port import compiled_force
     from rotorfilm.native import Status, loops
 
     film = rf.JournalBearing(radius=0.05, length=0.02, clearance=3e-4, viscosity=0.02)
-    call = kernel_call(rf.Parallel((RING, film)))
+    call = compiled_force(rf.Parallel((RING, film)))
     state, force, slopes = np.array([3.1e-4, 0.0, 0.0, 0.01, 50.0]), np.empty(2), np.empty((2, 5))
     status = loops()["rf_both_at"](call.data, state.ctypes.data, force.ctypes.data, slopes.ctypes.data)
     assert status == Status.AT_WALL
@@ -281,3 +281,5 @@ def test_what_a_ring_refuses():
     run = rf.simulate(rotor(), RING, duration=1e-3, samples=2)
     with pytest.raises(rf.InputError, match="disk_x"):
         rf.ring_contacts(run, RING, station="disk")
+    with pytest.raises(rf.InputError, match="ring must be a RubRing, got LinearBearing"):
+        rf.ring_contacts(run, rf.LinearBearing(stiffness=1e6))

@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 import rotorfilm as rf
 from rotorfilm.analysis.equal_steps import ExcitedRotor, StatesAlong
 from rotorfilm.bearings import JudgedDamper
+from rotorfilm.core.port import force_along
 from rotorfilm.scenes.film_rungs import counted_calls
 
 SPEED = 300.0
@@ -70,5 +71,5 @@ def test_a_judged_damper_has_the_mass_of_its_damper():
     assert_allclose(judged.mass(q, v, SPEED), DAMPER.mass(q, v), rtol=0.0)
     assert judged.mass_slopes(q, v, SPEED).shape == (2, 2, 5, 4)
     left = judged.left_out(q, v, at.acceleration)
-    found = judged.force_along(q, v, at.acceleration, SPEED)
-    assert_allclose(found, DAMPER.force_along(q, v, at.acceleration) + left, rtol=1e-12)
+    found, own = (force_along(film, q, v, at.acceleration, SPEED) for film in (judged, DAMPER))
+    assert_allclose(found, own + left, rtol=1e-12)

@@ -8,7 +8,6 @@ from rotorfilm.bearings.films.mass_conserving import (
     FILM,
     ConservedCells,
     ConservedFilm,
-    bdf2,
     circular_gap,
     step_storage,
 )
@@ -20,6 +19,7 @@ from rotorfilm.bearings.films.mass_conserving_steps import (
     sharpened_oil,
     steady_oil,
 )
+from rotorfilm.core.time_steps import bdf2
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2.0, width=np.radians(20.0), share=0.8),), supply=0.05)
 
