@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from ..core.errors import InputError, require_finite, require_kind, require_number, require_positive
+from ..core.errors import InputError, brief, require_finite, require_kind, require_number, require_positive
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
@@ -555,7 +555,7 @@ class BistableMap(Drawable):
 
 
 @arguments
-def bistable_map(damper: Any, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
+def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
     """Return where the response to an unbalance folds.
 
     Parameters
@@ -587,7 +587,7 @@ def bistable_map(damper: Any, squeeze_numbers: ArrayLike, spring_ratios: ArrayLi
 
 
 @arguments
-def bistability_limit(damper: Any, spring_ratio: float) -> float:
+def bistability_limit(damper: Reaction, spring_ratio: float) -> float:
     """Return the squeeze number Bs/Omega above which the response to an unbalance has no fold."""
     require_number("spring_ratio", spring_ratio)
     response = _Response(damper)
@@ -606,6 +606,8 @@ class _Response:
     """U(eps)^2 = ((s^2 - 1) eps - Bs g_r)^2 + (Bs g_t)^2 of one damper, g its film on circular orbits."""
 
     def __init__(self, damper: Any) -> None:
+        if not hasattr(damper, "squeeze_case"):
+            raise InputError(f"damper must be a PorousDamper, got {brief(damper)}")
         if damper.feed is not None or (damper.cage is not None and damper.cage.supply_pressure):
             raise InputError(f"damper must have no feed for a map over the squeeze number, got {damper!r}")
         self.eps = np.linspace(1e-4, min(_LARGEST, damper.largest_eccentricity_ratio), _NODES)

@@ -30,6 +30,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model, stops
 from ..core.port import (
     Bearings,
+    Reaction,
     clearance_of,
     freedoms_of,
     in_time,
@@ -501,7 +502,7 @@ class RingContacts(Readable):
 
 
 @arguments
-def ring_contacts(run: Trajectory, ring: Any, station: str = "") -> RingContacts:
+def ring_contacts(run: Trajectory, ring: Reaction, station: str = "") -> RingContacts:
     """Return the contacts of a run, to the fourth order of the distance of its samples.
 
     Between two samples the motion is the cubic of their positions and velocities; a contact between two
@@ -521,7 +522,8 @@ def ring_contacts(run: Trajectory, ring: Any, station: str = "") -> RingContacts
         If the run has no such station or no two samples.
     """
     require_kind("run", run, Trajectory, "a Trajectory")
-    if not hasattr(ring, "contact"):
+    rub = getattr(ring, "contact", None)
+    if rub is None:
         raise InputError(f"ring must be a RubRing, got {brief(ring)}")
     prefix = f"{station}_" if station else ""
     if missing := [name for name in MOTION_NAMES if prefix + name not in run.signals]:
@@ -530,8 +532,8 @@ def ring_contacts(run: Trajectory, ring: Any, station: str = "") -> RingContacts
         raise InputError(f"run must have two samples at least, got {run.time.size}")
     x, y, vx, vy = (run.signals[prefix + name] for name in MOTION_NAMES)
     position, velocity = np.stack([x, y]), np.stack([vx, vy])
-    at = ring.contact(position, velocity, run.signals["speed"])
-    edges = _edges(run.time, position, velocity, lambda q: ring.contact(q, np.zeros(2)).depth, at.depth)
+    at = rub(position, velocity, run.signals["speed"])
+    edges = _edges(run.time, position, velocity, lambda q: rub(q, np.zeros(2)).depth, at.depth)
     largest = [float(at.normal_force[(run.time >= a) & (run.time <= b)].max(initial=0.0)) for a, b in edges]
     begin, end = np.array(edges).reshape(-1, 2).T
     return RingContacts(begin=begin, end=end, normal_force=np.array(largest))

@@ -254,6 +254,8 @@ def test_map_needs_a_film_that_scales(support):
     damper: PorousDamper = replace(support(0.08, 0.0), feed=AxialFeed(start_pressure=1.0, end_pressure=0.0))
     with pytest.raises(InputError, match="damper must have no feed"):
         bistable_map(damper, [0.1], [0.2])
+    with pytest.raises(InputError, match="damper must be a PorousDamper, got JournalBearing"):
+        bistable_map(JournalBearing(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.1), [0.1], [0.2])
     with pytest.raises(InputError, match="squeeze number at which folds appear"):
         bistability_limit(support(0.08, 0.0, extent=FullFilm()), 0.4)
 
