@@ -27,6 +27,7 @@ TASKS = {
         "bearings.linear",
         "bearings.own_reaction",
         "bearings.assemblies",
+        "bearings.frequency_dependent",
     ),
     "Equilibrium and coefficients": (
         "analysis.coefficients",
