@@ -654,7 +654,7 @@ class Sprung(SharedReaction):
     stiffness: Stiffness
 
     def __post_init__(self) -> None:
-        require_kind("reaction", self.reaction, PlanarReaction, "a PlanarReaction such as a PorousDamper")
+        require_kind("reaction", self.reaction, PlanarReaction, "a Reaction such as a PorousDamper")
         require_reaction("reaction", self.reaction, heavy=True, planar=True)
         if getattr(self.reaction, "states", ()):
             raise InputError(
