@@ -27,13 +27,17 @@ TASKS = {
         "bearings.linear",
         "bearings.own_reaction",
         "bearings.assemblies",
+        "bearings.linear_system",
+        "core.port",
     ),
     "Equilibrium and coefficients": (
         "analysis.coefficients",
         "analysis.equilibrium",
         "analysis.rotor_equilibrium",
         "core.results.Coefficients",
-        "bearings.reaction",
+        "core.results.FrequencyDependentCoefficients",
+        "core.results.InertialCoefficients",
+        "core.results.ReducedCoefficients",
         "core.results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (

@@ -53,7 +53,17 @@ BETWEEN_FAMILIES = {
     ("rolling", "contact"),
 }
 
-SAME_NAME = {"bearing", "bush", "contact", "damper", "rolling", "coupling", "shaft", "journal"}
+SAME_NAME = {
+    "frequency_dependent",
+    "bearing",
+    "bush",
+    "contact",
+    "damper",
+    "rolling",
+    "coupling",
+    "shaft",
+    "journal",
+}
 """Files that several parts may have: a family is a file of each."""
 
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

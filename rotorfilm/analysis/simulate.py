@@ -27,7 +27,7 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.inputs import arguments
-from ..core.model import Array, Dynamic, Linearization, Model, stops
+from ..core.model import Array, Dynamic, Linearization, Model, Stepped, stops
 from ..core.port import (
     Bearings,
     Reaction,
@@ -55,7 +55,7 @@ from .stepped_run import simulate_steps
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Any,
+    reaction: Reaction | Stepped | Mapping[str, Reaction | Stepped],
     *,
     duration: float,
     samples: int = 1001,

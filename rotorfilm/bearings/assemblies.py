@@ -395,6 +395,7 @@ class Series:
     outer : Reaction
         Such as a damper on its springs; a mass that it adds is added to the body.
     body : Body
+        Between both, such as the outer ring of a ball bearing.
     inner : Reaction
         Such as a ball bearing; it adds no mass.
 
@@ -661,7 +662,7 @@ class Sprung(SharedReaction):
     stiffness: Stiffness
 
     def __post_init__(self) -> None:
-        require_kind("reaction", self.reaction, PlanarReaction, "a PlanarReaction such as a PorousDamper")
+        require_kind("reaction", self.reaction, PlanarReaction, "a Reaction such as a PorousDamper")
         require_reaction("reaction", self.reaction, heavy=True, planar=True)
         if getattr(self.reaction, "states", ()):
             raise InputError(

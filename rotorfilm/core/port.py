@@ -314,7 +314,7 @@ def _planar(reaction: object, position: Array) -> tuple[Any, Any]:
 
 def is_warming(reaction: object) -> bool:
     """Return whether a reaction leaves the temperature of its film to its heat; then it has no own force."""
-    return bool(getattr(reaction, "is_warming", False))
+    return getattr(reaction, "is_warming", False) is True
 
 
 def in_time(reaction: Any) -> Any:
@@ -737,7 +737,12 @@ class StatesStiffness:
         by_place, by_rate = slice(n), slice(n, 2 * n)
         follow = s * np.eye(len(A)) - A
         drive = B[:, by_place] + s * B[:, by_rate]
-        moved = np.linalg.solve(follow, drive)
+        try:
+            moved = np.linalg.solve(follow, drive)
+        except np.linalg.LinAlgError:
+            raise InputError(
+                f"s must not be an exponent of the states alone, as 0 is where one integrates, got {s!r}"
+            ) from None
         slope = np.linalg.solve(follow, B[:, by_rate] - moved)
         K, damping = D[:, by_place] + s * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope
         return -K.astype(complex), -damping.astype(complex)

@@ -13,11 +13,16 @@ from rotorfilm import (
     Equilibrium,
     FrequencyDependentReaction as Reaction,
     InputError,
+    JeffcottRotor,
     OperatingPoint,
     RigidRotor,
     ValidityWarning,
+    coefficients,
     export_fmu,
     linearize,
+    mount,
+    rotor_equilibrium,
+    rotor_modes,
     simulate,
 )
 from rotorfilm.core.port import mass_of, quasi_static, rest_state, rigid_exponents, small_motion
@@ -159,6 +164,23 @@ def test_a_controller_that_integrates_holds_the_shaft_at_its_place():
     assert bearing.output(0.0, x, [*place, 0.0, 0.0, 0.0]) == pytest.approx(-load, rel=1e-6)
     run = simulate(RigidRotor(mass=MASS, speed=100.0), bearing, duration=2.5, samples=2)
     assert run["y"][-1] == pytest.approx(0.0, abs=1e-3 * 9.80665 * MASS / 423765.0)
+
+
+def test_a_stiffness_that_is_infinite_is_named():
+    with pytest.raises(InputError, match="s must not be an exponent of the states alone"):
+        coefficients(magnet(92.8084), CENTER, 0.0)
+
+
+def test_a_flexible_shaft_rests_in_magnets_that_integrate():
+    rotor = JeffcottRotor(mass=15.0, journal_mass=5.0, stiffness=3e6, speed=100.0, internal_damping=100.0)
+    bearing = magnet(92.8084)
+    at = rotor_equilibrium(rotor, {"": bearing}, 100.0)
+    assert abs(at.coefficients[""].position[1]) < 1e-8
+    assert at.loads[""] == pytest.approx([0.0, -20.0 * 9.80665], rel=1e-9)
+    whole = mount(rotor, {"": bearing})
+    poles = np.linalg.eigvals(whole.linearization(0.0, whole.initial_state, ()).A)
+    for value in rotor_modes(rotor, {"": bearing}, 100.0).eigenvalues:
+        assert np.abs(poles - value).min() < 1e-6 * abs(value)
 
 
 # Over time and in an FMU.

@@ -121,6 +121,17 @@ MADE = [
         cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13),
     ),
     rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6, damping=1.0), stiffness=2e6),
+    rf.bearings.Body(mass=2.0, inertia=0.01),
+    rf.FrequencyDependentReaction(
+        A=np.full((2, 1, 1), -300.0),
+        B=np.ones((2, 1, 2)),
+        C=np.ones((2, 2, 1)),
+        D=np.zeros((2, 2, 2)),
+        speeds=[100.0, 200.0],
+        damping=np.eye(2),
+        added_mass=np.eye(2),
+        band=(1.0, 500.0),
+    ),
     rf.RubRing(
         gap=2e-4,
         stiffness=1e7,

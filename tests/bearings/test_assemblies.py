@@ -1,0 +1,427 @@
+"""Reactions side by side, one behind the other with a body between, and beside springs."""
+
+from dataclasses import dataclass, replace
+
+import fmpy
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.linalg import expm
+
+from rotorfilm import (
+    Cooling,
+    EquilibriumError,
+    FrequencyDependentReaction,
+    FullFilm,
+    InputError,
+    JournalBearing,
+    LinearBearing,
+    Linearization,
+    Oil,
+    Parallel,
+    RigidRotor,
+    RubRing,
+    ShortFilm,
+    Sprung,
+    SqueezeFilmDamper,
+    UndefinedDerivativeError,
+    coefficients,
+    equilibrium,
+    export_fmu,
+    mount,
+    simulate,
+    synchronous_orbits,
+)
+from rotorfilm.analysis import dynamic_stiffness
+from rotorfilm.analysis.compiled_rotor import film_call, kernel_call
+from rotorfilm.bearings import Body, HalfSommerfeld, Series
+from rotorfilm.core.port import has_states, mass_of, quasi_static, rest_state, small_motion
+from rotorfilm.core.signals import force_outputs, journal_inputs, names
+
+CENTER, SPEED = np.zeros(2), 300.0
+FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.05, film=ShortFilm())
+DAMPER = SqueezeFilmDamper(
+    radius=0.06, length=0.02, clearance=1.2e-4, viscosity=0.01, extent=FullFilm(), density=870.0
+)
+RUPTURED = replace(DAMPER, extent=HalfSommerfeld())
+RING = LinearBearing(stiffness=2e7, damping=300.0)
+SUPPORT = LinearBearing(stiffness=((5e6, 4e5), (-3e5, 8e6)), damping=((800.0, 50.0), (-20.0, 600.0)))
+SEAL = FrequencyDependentReaction(
+    A=[[-400.0, 150.0], [-90.0, -700.0]],
+    B=[[1.0, 0.5], [-0.4, 1.0]],
+    C=[[2e9, -1e9], [1e9, 3e9]],
+    D=[[-2e7, 4e6], [-5e6, -2e7]],
+    damping=[[900.0, 0.0], [50.0, 700.0]],
+)
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Springs and dampers along any freedoms."""
+
+    freedoms: tuple
+    stiffness: tuple
+    damping: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+
+    states = ()
+
+    @property
+    def inputs(self):
+        return journal_inputs(1e-4, 100.0, self.freedoms, arm=0.1)
+
+    @property
+    def outputs(self):
+        return force_outputs(100.0, self.freedoms, arm=0.1)
+
+    def output(self, t, x, u):
+        return self.linearization(t, x, u).D @ u
+
+    def linearization(self, t, x, u):
+        n = len(self.freedoms)
+        D = np.hstack([-np.diag(self.stiffness[:n]), -np.diag(self.damping[:n]), np.zeros((n, 1))])
+        return Linearization(np.zeros((0, 0)), np.zeros((0, 2 * n + 1)), np.zeros((n, 0)), D)
+
+
+THRUST = Springs(("z", "tilt_x"), (3e7, 2e4), (2e3, 4.0))
+
+
+def stiffness(reaction, s, position=CENTER, speed=SPEED):
+    return small_motion(reaction, position, speed)(s)[0]
+
+
+def differences(reaction, x, u, step=1e-6):
+    """Return the derivatives of rates and outputs by central differences over states and inputs."""
+    sizes = np.array([signal.nominal for signal in (*reaction.states, *reaction.inputs)])
+    at, m = np.concatenate([x, u]), len(x)
+
+    def answer(z):
+        return np.concatenate([reaction.derivative(0.0, z[:m], z[m:]), reaction.output(0.0, z[:m], z[m:])])
+
+    columns = [
+        (answer(at + step * size * unit) - answer(at - step * size * unit)) / (2.0 * step * size)
+        for size, unit in zip(sizes, np.eye(len(at)), strict=True)
+    ]
+    return np.transpose(columns)
+
+
+def assert_exact(reaction, x, u):
+    """Assert that the linearization has the derivatives of rates and outputs."""
+    A, B, C, D = reaction.linearization(0.0, x, u)
+    found, sizes = np.block([[A, B], [C, D]]), [s.nominal for s in (*reaction.states, *reaction.inputs)]
+    wanted = differences(reaction, x, u)
+    rows = np.abs(wanted * sizes).max(axis=1, initial=1e-300)[:, None]
+    assert np.abs((found - wanted) * sizes / rows).max() < 1e-6
+
+
+# One behind the other.
+
+
+def test_springs_and_a_mass_in_series_have_the_closed_form():
+    one, other, mass = 2e7, 5e6, 3.0
+    series = Series(LinearBearing(stiffness=other), Body(mass), LinearBearing(stiffness=one))
+    for w in (0.0, 700.0, 1500.0, 6000.0):
+        exact = one * (other - mass * w**2) / (one + other - mass * w**2)
+        assert_allclose(stiffness(series, 1j * w), exact * np.eye(2), rtol=1e-11, atol=1e-3)
+
+
+@pytest.mark.parametrize("s", [0j, 500j, -40.0 + 900j, 3000j])
+def test_any_two_reactions_in_series_have_the_closed_form(s):
+    """Z = Z1 - Z1 (Z1 + Z2 + m s^2)^-1 Z1, those of the seal with its states."""
+    for inner, outer in ((RING, SUPPORT), (SEAL, SUPPORT), (SUPPORT, SEAL), (SEAL, SEAL)):
+        one, other = stiffness(inner, s), stiffness(outer, s, speed=0.0)
+        exact = one - one @ np.linalg.solve(one + other + 4.0 * s**2 * np.eye(2), one)
+        found = stiffness(Series(outer, Body(4.0), inner), s)
+        assert_allclose(found, exact, rtol=1e-10, atol=1e-11 * np.abs(exact).max())
+
+
+def test_names_of_states():
+    series = Series(SEAL, Body(4.0), SEAL)
+    assert names(series.states) == [
+        *("body_x", "body_y", "body_vx", "body_vy"),
+        *("inner_state_0", "inner_state_1", "outer_state_0", "outer_state_1"),
+    ]
+    assert [s.unit for s in series.states[:4]] == ["m", "m", "m/s", "m/s"]
+    assert names(series.inputs) == names(SEAL.inputs)
+    assert names(series.outputs) == ["force_x", "force_y"]
+
+
+def test_the_added_mass_of_the_outer_reaction_is_added_to_the_body():
+    outer = Sprung(reaction=DAMPER, stiffness=5e6)
+    added = mass_of(DAMPER, CENTER, CENTER, 0.0)
+    assert added[0, 0] > 0.1
+    own = coefficients(outer, CENTER, 0.0)
+    for s in (0j, 800j, -30.0 + 1200j):
+        one, other = 2e7 + 300.0 * s, own.stiffness + s * own.damping
+        body = one * np.eye(2) + other + s**2 * (2.0 * np.eye(2) + added)
+        exact = one * np.eye(2) - one**2 * np.linalg.inv(body)
+        assert_allclose(stiffness(Series(outer, Body(2.0), RING), s), exact, rtol=1e-9, atol=1e-4)
+
+
+def test_the_linearization_is_exact():
+    series = Series(Sprung(reaction=DAMPER, stiffness=5e6), Body(2.0), FILM)
+    x, u = np.array([2e-5, -3e-5, 2e-3, 1e-3]), np.array([4e-5, -5e-5, 3e-3, -2e-3, SPEED])
+    assert_exact(series, x, u)
+    assert_exact(Series(SEAL, Body(2.0), SEAL), np.array([*x, 1e-8, 2e-8, -1e-8, 3e-8]), u)
+
+
+def test_a_journal_bearing_in_a_sprung_body_rests_where_both_carry_the_load():
+    load = np.array([50.0, -300.0])
+    series = Series(LinearBearing(stiffness=(lambda k: ((k, 0.0), (0.0, 2.0 * k)))(6e6)), Body(2.0), FILM)
+    body = load / [6e6, 12e6]
+    at = equilibrium(FILM, load, SPEED)
+    place = at.position + body
+    assert_allclose(rest_state(series, place, SPEED), [*body, 0.0, 0.0], atol=1e-15)
+    assert_allclose(quasi_static(series).force(place, CENTER, SPEED), -load, rtol=1e-9)
+    found = equilibrium(series, load, SPEED)
+    assert_allclose(found.position, place, rtol=1e-9)
+    assert series.clearance == np.inf
+    assert Series(Sprung(reaction=DAMPER, stiffness=6e6), Body(2.0), FILM).clearance == pytest.approx(2.2e-4)
+    exact = coefficients(FILM, at.position, SPEED)
+    one = exact.stiffness + 200j * exact.damping
+    whole = one - one @ np.linalg.solve(one + np.diag([6e6, 12e6]) - 2.0 * 200.0**2 * np.eye(2), one)
+    assert_allclose(dynamic_stiffness(series, found, 200j), whole, rtol=1e-8)
+
+
+def test_a_damper_without_springs_carries_no_load():
+    bare = Series(DAMPER, Body(2.0), FILM)
+    with pytest.raises(EquilibriumError):
+        equilibrium(bare, [0.0, -300.0], SPEED)
+    place = np.array([3e-5, -2e-5])
+    assert_allclose(rest_state(Series(DAMPER, Body(2.0), RING), place, SPEED), [*place, 0.0, 0.0], atol=1e-15)
+
+
+def test_a_ruptured_damper_has_a_rest_and_no_derivative_there():
+    series = Series(Sprung(reaction=RUPTURED, stiffness=5e6), Body(2.0), RING)
+    place = np.array([4e-5, -2e-5])
+    assert_allclose(rest_state(series, place, SPEED), [*(0.8 * place), 0.0, 0.0], rtol=1e-10, atol=1e-18)
+    with pytest.raises(UndefinedDerivativeError):
+        small_motion(series, place, SPEED)
+
+
+def test_where_the_outer_film_cannot_carry_there_is_no_rest():
+    series = Series(FILM, Body(2.0), RING)  # the body does not turn: no wedge, and no derivative
+    with pytest.raises(EquilibriumError, match="reaction must have states that rest with the shaft at"):
+        rest_state(series, [9e-4, 0.0], SPEED)
+
+
+@pytest.mark.parametrize("outer", ["full", "ruptured"])
+def test_small_motion_in_time_is_that_of_the_eigenvalues(outer):
+    """A ring on springs in a full film: the exponential of the mounted system; a ruptured one just runs."""
+    film = {"full": DAMPER, "ruptured": RUPTURED}[outer]
+    series = Series(Sprung(reaction=film, stiffness=5e6), Body(2.0), RING)
+    rotor = RigidRotor(mass=30.0, speed=SPEED, gravity=(0.0, 0.0), position=(3e-8, -6e-8))
+    run = simulate(rotor, series, duration=0.02, samples=9, rtol=1e-10)
+    if outer == "ruptured":
+        assert np.hypot(run["x"], run["y"]).max() <= 6.8e-8
+        return
+    A = mount(rotor, {"": series}).linearization(0.0, np.zeros(8), []).A
+    states = np.array([expm(A * t) @ np.array([3e-8, -6e-8, *np.zeros(6)]) for t in run.time]).T
+    for name, row in zip(
+        ["x", "y", "vx", "vy", "body_x", "body_y", "body_vx", "body_vy"], states, strict=True
+    ):
+        assert run[name] == pytest.approx(row, abs=1e-6 * np.abs(row).max()), name
+
+
+def test_an_fmu_of_a_series_has_its_motion(tmp_path):
+    series = Series(SEAL, Body(2.0), RING)
+    path = export_fmu(series, tmp_path / "series.fmu", component="series", start={"x": 1e-5})
+    told = fmpy.simulate_fmu(str(path), stop_time=0.004, output_interval=1e-3, step_size=1e-3)
+    A, B, C, D = series.linearization(0.0, series.initial_state, np.zeros(5))
+    u = np.array([1e-5, 0.0, 0.0, 0.0, 0.0])
+    rest = -np.linalg.solve(A, B @ u)
+    for row in told:
+        x = rest - expm(A * row["time"]) @ rest
+        found = [row[f"series.{name}"] for name in ("force_x", "force_y")]
+        assert_allclose(found, C @ x + D @ u, rtol=1e-6, atol=1e-6)
+
+
+FREE = ("x", "y", "z", "tilt_x", "tilt_y")
+BALL = Springs(FREE, (2e7, 2e7, 1e7, 5e4, 5e4), (300.0, 300.0, 100.0, 2.0, 2.0))
+
+
+def test_the_body_moves_in_what_both_react_to():
+    """A ball bearing in a damper: the ring moves along x and y, and stands still in all else."""
+    series = Series(SUPPORT, Body(2.0), BALL)
+    assert series.freedoms == FREE
+    assert names(series.states) == ["body_x", "body_y", "body_vx", "body_vy"]
+    found = stiffness(series, 400j, np.zeros(5))
+    assert_allclose(found[:2, :2], stiffness(Series(SUPPORT, Body(2.0), RING), 400j), rtol=1e-12)
+    assert_allclose(np.diag(found)[2:], [1e7 + 4e4j, 5e4 + 800j, 5e4 + 800j], rtol=1e-13)
+
+
+def test_a_body_with_an_inertia_tilts():
+    holder = Springs(("x", "y", "tilt_x", "tilt_y"), (5e6, 5e6, 1e4, 2e4))
+    upright, tilting = (Series(holder, Body(2.0, inertia), BALL) for inertia in (None, 0.01))
+    assert names(upright.states) == ["body_x", "body_y", "body_vx", "body_vy"]
+    assert names(tilting.states)[:4] == ["body_x", "body_y", "body_tilt_x", "body_tilt_y"]
+    assert names(tilting.states)[4:] == ["body_vx", "body_vy", "body_tilt_rate_x", "body_tilt_rate_y"]
+    s = 900j
+    found, one = stiffness(tilting, s, np.zeros(5)), 5e4 + 2.0 * s
+    assert stiffness(upright, s, np.zeros(5))[3, 3] == pytest.approx(one, rel=1e-12)
+    for k, spring in ((3, 1e4), (4, 2e4)):
+        assert found[k, k] == pytest.approx(one - one**2 / (one + spring + 0.01 * s**2), rel=1e-11)
+
+
+# Side by side.
+
+
+def test_motions_of_all_reactions_in_order():
+    both = Parallel((THRUST, FILM))
+    assert both.freedoms == ("x", "y", "z", "tilt_x")
+    assert names(both.outputs) == ["force_x", "force_y", "force_z", "moment_x"]
+    q, v = np.array([3e-5, -4e-5, 1e-5, 2e-4]), np.array([1e-3, 2e-3, -1e-3, 0.01])
+    film, thrust = FILM.force(q[:2], v[:2], SPEED), [-3e7 * 1e-5 + 2.0, -4.0 - 0.04]
+    assert_allclose(both.force(q, v, SPEED), [*film, *thrust], rtol=1e-13)
+    assert_allclose(both.output(0.0, [], [*q, *v, SPEED]), [*film, *thrust], rtol=1e-13)
+    batch = both.jacobian(np.stack([q, 0.5 * q], axis=1), np.stack([v, v], axis=1), SPEED)
+    assert batch.shape == (4, 9, 2)
+    assert_allclose(batch[:, :, 0], both.linearization(0.0, [], [*q, *v, SPEED]).D, rtol=1e-12)
+    assert_allclose(batch[:2, [0, 1, 4, 5, 8], 0], FILM.jacobian(q[:2], v[:2], SPEED), rtol=1e-13)
+    assert not batch[:2, [2, 3, 6, 7]].any()
+    assert both.clearance == FILM.clearance
+    assert not has_states(both)
+
+
+def test_states_beside_a_film_without():
+    both = Parallel((FILM, SEAL, replace(SEAL, added_mass=[[3.0, 1.0], [1.0, 2.0]])))
+    assert names(both.states) == ["part1_state_0", "part1_state_1", "part2_state_0", "part2_state_1"]
+    assert names(both.outputs) == ["force_x", "force_y", "mass_xx", "mass_xy", "mass_yy"]
+    assert has_states(both)
+    assert both.has_inertia
+    assert_allclose(both.mass(CENTER, CENTER, SPEED), [[3.0, 1.0], [1.0, 2.0]])
+    place, s = np.array([2e-5, -6e-5]), 70.0 + 900j
+    parts = stiffness(FILM, s, place) + 2.0 * stiffness(SEAL, s, place)
+    assert_allclose(stiffness(both, s, place), parts, rtol=1e-12)
+    x = rest_state(both, place, SPEED)
+    assert_allclose(x, np.tile(rest_state(SEAL, place, SPEED), 2), rtol=1e-12)
+    assert not np.any(np.abs(both.derivative(0.0, x, [*place, 0.0, 0.0, SPEED])) > 1e-15)
+    assert_exact(both, 1.1 * x, np.array([*place, 1e-3, 2e-3, SPEED]))
+
+
+def test_a_parallel_reaction_rests_with_its_states():
+    both, load = Parallel((FILM, SEAL)), np.array([0.0, -400.0])
+    at = equilibrium(both, load, SPEED)
+    still = FILM.force(at.position, CENTER, SPEED) - stiffness(SEAL, 0j).real @ at.position
+    assert_allclose(still, -load, rtol=1e-9, atol=1e-7)
+
+
+def test_motion_of_parallel_reactions_is_that_of_both():
+    """A seal beside springs is the seal with these springs."""
+    rotor = RigidRotor(mass=20.0, speed=SPEED, gravity=(0.0, 0.0), position=(1e-5, 0.0))
+    alone = replace(SEAL, D=np.asarray(SEAL.D) - 3e6 * np.eye(2))
+    runs = [
+        simulate(rotor, one, duration=0.01, samples=5, rtol=1e-10)
+        for one in (Parallel((LinearBearing(stiffness=3e6), SEAL)), alone)
+    ]
+    assert_allclose(runs[0]["x"], runs[1]["x"], atol=1e-13)
+    assert_allclose(
+        runs[0]["part1_state_0"], runs[1]["state_0"], atol=1e-12 * np.abs(runs[1]["state_0"]).max()
+    )
+
+
+# Beside springs, by direction.
+
+
+@pytest.mark.parametrize("springs", [(3e6, 5e6), ((3e6, 4e5), (-2e5, 5e6))])
+def test_springs_by_direction_are_those_of_a_linear_bearing(springs):
+    sprung = Sprung(reaction=FILM, stiffness=springs)
+    matrix = np.diag(springs) if np.ndim(springs) == 1 else np.array(springs)
+    both = Parallel((FILM, LinearBearing(stiffness=matrix)))
+    q, v = np.array([3e-5, -4e-5]), np.array([1e-3, 2e-3])
+    assert_allclose(sprung.force(q, v, SPEED), both.force(q, v, SPEED), rtol=1e-13)
+    assert_allclose(sprung.jacobian(q, v, SPEED), both.jacobian(q, v, SPEED), rtol=1e-13)
+    assert_allclose(sprung.prepare()(*q, *v, SPEED), both.force(q, v, SPEED), rtol=1e-13)
+    x, y, slopes = sprung.prepare_tangent()(*q, *v, SPEED)
+    assert_allclose([x, y], both.force(q, v, SPEED), rtol=1e-13)
+    assert_allclose(np.reshape(slopes, (2, 5)), both.jacobian(q, v, SPEED), rtol=1e-13)
+    assert sprung.native() is None
+    rotor = RigidRotor(mass=20.0, speed=SPEED)
+    runs = [simulate(rotor, one, duration=0.02, samples=5, rtol=1e-10) for one in (sprung, both)]
+    assert_allclose(runs[0]["x"], runs[1]["x"], atol=1e-13)
+
+
+def test_springs_by_direction_have_a_kernel_in_c():
+    assert kernel_call(Sprung(reaction=FILM, stiffness=(3e6, 5e6))) is not None
+    assert kernel_call(Sprung(reaction=FILM, stiffness=3e6)) is not None
+    assert film_call(Sprung(reaction=FILM, stiffness=(3e6, 5e6))).address
+
+
+def test_circular_orbits_refuse_springs_that_differ():
+    with pytest.raises(InputError):
+        synchronous_orbits(
+            RigidRotor(mass=20.0, speed=SPEED, gravity=(0.0, 0.0)),
+            Sprung(reaction=replace(DAMPER, density=0.0), stiffness=(3e6, 5e6)),
+        )
+
+
+# What is refused.
+
+
+WARM = JournalBearing(
+    radius=0.05,
+    length=0.03,
+    clearance=1e-4,
+    oil=Oil.iso_vg(32),
+    cooling=Cooling(supply_temperature=313.15),
+)
+HEAVY = replace(SEAL, added_mass=np.eye(2))
+WRONG = [
+    (lambda: Body(0.0), "mass must be finite and positive, got 0.0"),
+    (lambda: Body(1.0, inertia=-1.0), "inertia must be finite and positive, got -1.0"),
+    (lambda: Series(RING, Body(1.0), 3.0), "inner must be a Reaction"),
+    (lambda: Series(3.0, Body(1.0), RING), "outer must be a Reaction"),
+    (lambda: Series(RING, 2.0, RING), "body must be a Body"),
+    (lambda: Series(RING, Body(1.0), HEAVY), "inner must not add a mass"),
+    (
+        lambda: Series(RING, Body(1.0), THRUST),
+        "one motion that the body has, got x, y and z, tilt_x",
+    ),
+    (
+        lambda: Series(Springs(("tilt_x",), (1.0,)), Body(1.0), THRUST),
+        "must react to one motion that the body has",
+    ),
+    (lambda: Series(WARM, Body(1.0), RING), "outer must have a temperature, or have it as a state"),
+    (lambda: Parallel((RING, WARM)), r"reactions\[1\] must have a temperature"),
+    (lambda: Parallel((RING,)), "reactions must be two at least, got 1"),
+    (lambda: Parallel((RING, "seal")), r"reactions\[1\] must be a Reaction"),
+    (lambda: Sprung(reaction=SEAL, stiffness=1e6), "reaction must be a Reaction such as a PorousDamper"),
+    (lambda: Sprung(reaction=FILM, stiffness=(1e6, -1e6)), "stiffness must be positive in every direction"),
+    (
+        lambda: Sprung(reaction=FILM, stiffness=((1e6, 3e6), (3e6, 1e6))),
+        "must be positive in every",
+    ),
+    (lambda: Sprung(reaction=FILM, stiffness=(1e6, 1e6, 1e6)), r"stiffness must be one, 2 or 2 x 2 numbers"),
+    (lambda: Series(RING, Body(1.0), RING).output(0.0, [0.0], np.zeros(5)), r"x must have shape \(4,\)"),
+    (lambda: Parallel((RING, SEAL)).output(0.0, [0.0], np.zeros(5)), r"x must have shape \(2,\)"),
+    (lambda: Parallel((RING, SEAL)).output(0.0, np.zeros(2), [0.0]), r"u must have shape \(5,\) for x, y"),
+]
+
+
+@pytest.mark.parametrize(("make", "said"), WRONG)
+def test_what_breaks_a_rule_is_named(make, said):
+    with pytest.raises(InputError, match=said):
+        make()
+
+
+def test_a_film_that_is_sprung_has_no_states_of_its_own():
+    from rotorfilm.bearings import BushReaction, f4k20_bush
+
+    worn = BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=8, extent=1.4, retardation=2e-4)
+    with pytest.raises(InputError, match="reaction must have no states"):
+        Sprung(reaction=worn, stiffness=1e6)
+    both = Parallel((worn, LinearBearing(stiffness=1e6)))
+    assert not has_states(both)
+    assert len(both.states) == len(worn.states)
+    q = np.array([0.0, -4.6e-4])
+    held = worn.force(q, CENTER, SPEED) - 1e6 * q
+    assert_allclose(both.force(q, CENTER, SPEED), held, rtol=1e-12)
+
+
+def test_a_seal_carries_no_load_in_series_or_beside():
+    from rotorfilm import AnnularSeal
+    from rotorfilm.core.port import carries_load
+
+    ring = RubRing(gap=1e-3, stiffness=1e7, radius=0.05)
+    assert carries_load(Series(RING, Body(1.0), RING))
+    assert carries_load(Parallel((RING, ring)))
+    assert AnnularSeal.carries_load is False
