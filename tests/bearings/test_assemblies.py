@@ -33,9 +33,9 @@ from rotorfilm import (
     synchronous_orbits,
 )
 from rotorfilm.analysis import dynamic_stiffness
-from rotorfilm.analysis.compiled_rotor import film_call, kernel_call
+from rotorfilm.analysis.compiled_rotor import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
-from rotorfilm.core.port import has_states, mass_of, quasi_static, rest_state, small_motion
+from rotorfilm.core.port import compiled_force, has_states, mass_of, quasi_static, rest_state, small_motion
 from rotorfilm.core.signals import force_outputs, journal_inputs, names
 
 CENTER, SPEED = np.zeros(2), 300.0
@@ -341,8 +341,8 @@ def test_springs_by_direction_are_those_of_a_linear_bearing(springs):
 
 
 def test_springs_by_direction_have_a_kernel_in_c():
-    assert kernel_call(Sprung(reaction=FILM, stiffness=(3e6, 5e6))) is not None
-    assert kernel_call(Sprung(reaction=FILM, stiffness=3e6)) is not None
+    assert compiled_force(Sprung(reaction=FILM, stiffness=(3e6, 5e6))) is not None
+    assert compiled_force(Sprung(reaction=FILM, stiffness=3e6)) is not None
     assert film_call(Sprung(reaction=FILM, stiffness=(3e6, 5e6))).address
 
 
