@@ -1,7 +1,8 @@
 """Reactions of a user's own with other freedoms and states go through every analysis as they are."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -10,10 +11,7 @@ from scipy.linalg import expm
 import rotorfilm as rf
 from rotorfilm import (
     InputError,
-    JournalBearing,
-    Linearization,
     RigidRotor,
-    ShortFilm,
     closed_loop,
     coefficients,
     equilibrium,
@@ -25,97 +23,10 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
-from rotorfilm.core.signals import force_outputs, journal_inputs, signals_of
+
+from .port_toys import Rubber, Strips, ThrustSpring
 
 SPEED = 300.0
-
-
-@dataclass(frozen=True)
-class ThrustSpring:
-    """A collar between springs and dampers: one axial stiffness, one against tilts."""
-
-    stiffness: tuple = (2e7, 4e4, 4e4)
-    damping: tuple = (3e3, 5.0, 5.0)
-
-    freedoms = ("z", "tilt_x", "tilt_y")
-    inputs = journal_inputs(1e-4, 100.0, ("z", "tilt_x", "tilt_y"), arm=0.1)
-    outputs = force_outputs(1e3, ("z", "tilt_x", "tilt_y"), arm=0.1)
-    states = ()
-
-    def output(self, t, x, u):
-        return -np.multiply(self.stiffness, u[:3]) - np.multiply(self.damping, u[3:6])
-
-    def linearization(self, t, x, u):
-        D = np.hstack([-np.diag(self.stiffness), -np.diag(self.damping), np.zeros((3, 1))])
-        return Linearization(np.zeros((0, 0)), np.zeros((0, 7)), np.zeros((3, 0)), D)
-
-
-STRIP = JournalBearing(radius=0.025, length=0.002, clearance=5e-5, viscosity=0.02, film=ShortFilm())
-
-
-@dataclass(frozen=True)
-class Strips:
-    """A journal bearing by strip theory: short films side by side, each at the place of its own journal."""
-
-    film: JournalBearing = STRIP
-    count: int = 6
-
-    freedoms = ("x", "y", "tilt_x", "tilt_y")
-    inputs = journal_inputs(5e-5, 100.0, ("x", "y", "tilt_x", "tilt_y"), arm=0.01)
-    outputs = force_outputs(100.0, ("x", "y", "tilt_x", "tilt_y"), arm=0.01)
-    states = ()
-    clearance = 5e-5
-
-    def _moves(self):
-        for z in self.film.length * (np.arange(self.count) - 0.5 * (self.count - 1)):
-            yield np.array([[1.0, 0.0, 0.0, z], [0.0, 1.0, -z, 0.0]])
-
-    def output(self, t, x, u):
-        u = np.asarray(u)
-        parts = (move.T @ self.film.force(move @ u[:4], move @ u[4:8], u[8]) for move in self._moves())
-        return sum(parts)
-
-    def linearization(self, t, x, u):
-        u, D = np.asarray(u), np.zeros((4, 9))
-        for move in self._moves():
-            own = self.film.jacobian(move @ u[:4], move @ u[4:8], u[8])
-            D += move.T @ np.hstack([own[:, :2] @ move, own[:, 2:4] @ move, own[:, 4:]])
-        return Linearization(np.zeros((0, 0)), np.zeros((0, 9)), np.zeros((4, 0)), D)
-
-
-@dataclass(frozen=True)
-class Rubber:
-    """A spring with a Maxwell element along x and along y: two states that follow the shaft."""
-
-    stiffness: float = 5e6
-    maxwell: float = 8e6
-    time: float = 2e-3
-    damping: float = 200.0
-
-    inputs = journal_inputs(1e-4, 100.0)
-    outputs = force_outputs(1e3)
-    states = signals_of(*((f"creep_{a}", "m", 1e-4, f"way of the dashpot along {a}") for a in "xy"))
-    initial_state = np.zeros(2)
-
-    def output(self, t, x, u):
-        q, v, z = np.asarray(u[:2]), np.asarray(u[2:4]), np.asarray(x)
-        return -self.stiffness * q - self.damping * v - self.maxwell * (q - z)
-
-    def derivative(self, t, x, u):
-        return (np.asarray(u[:2]) - np.asarray(x)) / self.time
-
-    def linearization(self, t, x, u):
-        one, none = np.eye(2), np.zeros((2, 1))
-        return Linearization(
-            -one / self.time,
-            np.hstack([one / self.time, 0.0 * one, none]),
-            self.maxwell * one,
-            np.hstack([-(self.stiffness + self.maxwell) * one, -self.damping * one, none]),
-        )
-
-    def stiffness_at(self, s):
-        follow = s * self.time / (1.0 + s * self.time)
-        return self.stiffness + s * self.damping + self.maxwell * follow
 
 
 RUBBER, STRIPS, THRUST = Rubber(), Strips(), ThrustSpring()
@@ -190,3 +101,181 @@ def test_a_reaction_that_does_not_fit_its_station_says_what_is_missing():
         rf.whirl_threshold(STRIPS, (0.0, -100.0), 10.0)
     with pytest.raises(InputError, match=r"load must have shape \(4,\) for x, y, tilt_x, tilt_y"):
         equilibrium(STRIPS, (0.0, -100.0), SPEED)
+
+
+STEEL = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7850.0)
+
+
+def shaft(**changes):
+    """Return a shaft on two tilting stations and one in the middle, which moves along its axis too."""
+    piece = rf.ShaftElement(length=0.6, outer_diameter=0.04, material=STEEL)
+    given = {
+        "elements": piece.split(4),
+        "speed": SPEED,
+        "stations": (
+            rf.Station(node=0, name="left", feels_tilt=True),
+            rf.Station(node=4, name="right", feels_tilt=True),
+            rf.Station(node=2, name="thrust", feels_tilt=True),
+        ),
+        "disks": (rf.Disk(node=2, mass=8.0, diametral_inertia=0.05, polar_inertia=0.09),),
+        "internal_damping": 2e-6,
+        "axial": True,
+    }
+    return rf.ShaftRotor(**{**given, **changes})
+
+
+BEARINGS = {"left": STRIPS, "right": STRIPS, "thrust": THRUST}
+
+
+def joined(rotor, bearings):
+    """Return where a rotor rests as a state of the mounted system, and the matrix of small motion there."""
+    whole = mount(rotor, bearings)
+    at = rotor_equilibrium(rotor, bearings, SPEED)
+    x = np.concatenate([at.displacement, np.zeros_like(at.displacement)])
+    u = np.zeros(len(whole.inputs))
+    assert np.abs(whole.derivative(0.0, x, u)).max() < 1e-6
+    return at, x, whole.linearization(0.0, x, u)
+
+
+def test_a_shaft_with_five_freedoms_is_one_system_in_all_analyses():
+    rotor = shaft()
+    at, _, (A, B, C, _) = joined(rotor, BEARINGS)
+    poles = np.linalg.eigvals(A)
+    found = rotor_modes(rotor, BEARINGS, SPEED).eigenvalues
+    assert len(found) >= 10
+    for value in found:
+        assert np.abs(poles - value).min() < 1e-8 * abs(value) + 1e-6
+    system = rotor_system(rotor, at)
+    free, s = [signal.name for signal in mount(rotor, BEARINGS).inputs], 1j * 450.0
+    assert free == ["thrust_force_x", "thrust_force_y", "left_force_z", "right_force_z"]
+    seen = system.output_labels.index("thrust_z")
+    rows = [signal.name for signal in rotor.outputs].index("thrust_z")
+    receptance = C[rows] @ np.linalg.solve(s * np.eye(len(A)) - A, B)
+    for k, name in enumerate(free):
+        assert_allclose(
+            system(s)[seen, system.input_labels.index(name)], receptance[k], rtol=1e-8, atol=1e-20
+        )
+
+
+def test_small_motion_of_a_shaft_over_time_is_that_of_its_matrix():
+    rotor = shaft(
+        elements=rf.ShaftElement(length=0.6, outer_diameter=0.04, material=STEEL).split(2),
+        stations=(
+            rf.Station(node=0, name="left", feels_tilt=True),
+            rf.Station(node=2, name="right", feels_tilt=True),
+            rf.Station(node=1, name="thrust", feels_tilt=True),
+        ),
+        disks=(rf.Disk(node=1, mass=8.0, diametral_inertia=0.05, polar_inertia=0.09),),
+    )
+    _, rest, (A, _, C, _) = joined(rotor, BEARINGS)
+    kick = np.zeros_like(rest)
+    kick[[signal.name for signal in rotor.states].index("vz_1")] = 1e-6
+    run = simulate(rotor, BEARINGS, duration=2e-3, samples=5, initial_state=rest + kick, rtol=1e-10)
+    moved = np.array([expm(A * t) @ kick for t in run.time]).T
+    labels = [signal.name for signal in rotor.outputs]
+    wanted = (C @ moved)[labels.index("thrust_z")]
+    assert_allclose(run["thrust_z"], wanted, atol=1e-9 * np.abs(wanted).max())
+    assert {"thrust_vz", "left_moment_y", "right_force_x"} <= set(run.signals)
+
+
+def test_a_thrust_bearing_on_a_gyroscopic_shaft_is_the_hand_calculation():
+    """A rigid disk on a collar: z swings alone, and tilts precess by I s^2 -+ i G s + k + c s = 0."""
+    inertia, gyroscopic, m = 0.08, 0.14 * SPEED, 12.0
+    rotor = rf.RigidShaft(
+        mass=m,
+        diametral_inertia=inertia,
+        polar_inertia=0.14,
+        stations=(("", 0.0),),
+        speed=SPEED,
+        gravity=(0.0, 0.0),
+        axial=True,
+        feels_tilt=True,
+    )
+    collar = rf.Parallel((THRUST, rf.LinearBearing(stiffness=1e7, damping=100.0)))
+    A = mount(rotor, {"": collar}).linearization(0.0, np.zeros(10), []).A
+    k, c = THRUST.stiffness, THRUST.damping
+    wanted = [
+        *np.roots([m, c[0], k[0]]),
+        *np.roots([inertia, c[1] - 1j * gyroscopic, k[1]]),
+        *np.roots([inertia, c[1] + 1j * gyroscopic, k[1]]),
+        *np.roots([m, 100.0, 1e7]),
+        *np.roots([m, 100.0, 1e7]),
+    ]
+    poles = np.linalg.eigvals(A)
+    for value in wanted:
+        assert np.abs(poles - value).min() < 1e-9 * abs(value)
+    values = rotor_modes(rotor, {"": collar}, SPEED).eigenvalues
+    for value in values:
+        assert min(abs(value - one) for one in wanted) < 1e-8 * abs(value)
+    assert len(values) == 5
+
+
+def fmu_outputs(model, path, state, version="2.0"):
+    """Return the outputs of an FMU of a model without time, at one input."""
+    file = rf.export_fmu(model, path, version, component="own")
+    start = {f"own.{signal.name}": value for signal, value in zip(model.inputs, state, strict=True)}
+    wanted = [f"own.{signal.name}" for signal in model.outputs]
+    found = fmpy.simulate_fmu(
+        str(file), start_values=start, output=wanted, stop_time=1e-3, output_interval=1e-3
+    )
+    return [found[name][0] for name in wanted]
+
+
+@pytest.mark.parametrize("model", [THRUST, STRIPS], ids=["thrust", "strips"])
+def test_an_fmu_has_the_freedoms_of_a_reaction(model, tmp_path):
+    state = np.array([signal.nominal for signal in model.inputs]) * 0.3
+    found = fmu_outputs(model, tmp_path / "own.fmu", state)
+    assert_allclose(found, model.output(0.0, [], state), rtol=1e-12)
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_a_linear_thrust_bearing_is_a_native_fmu(version, tmp_path):
+    model = rf.LinearBearing(
+        stiffness=THRUST.stiffness, damping=THRUST.damping, freedoms=("z", "tilt_x", "tilt_y")
+    )
+    state = np.array([signal.nominal for signal in model.inputs]) * 0.3
+    found = fmu_outputs(model, tmp_path / "own.fmu", state, version)
+    assert_allclose(found, THRUST.output(0.0, [], state), rtol=1e-14)
+
+
+def test_a_rotor_on_states_of_a_users_own_is_an_fmu(tmp_path):
+    rotor = RigidRotor(mass=30.0, speed=SPEED, unbalance=1e-4)
+    whole = mount(rotor, {"": RUBBER})
+    file = rf.export_fmu(whole, tmp_path / "whole.fmu", component="rotor", stop_time=0.02, step_size=1e-3)
+    found = fmpy.simulate_fmu(str(file), output=["rotor.x", "rotor.y"])
+    run = simulate(rotor, RUBBER, duration=0.02, samples=2, rtol=1e-10)
+    assert_allclose([found["rotor.x"][-1], found["rotor.y"][-1]], [run["x"][-1], run["y"][-1]], rtol=1e-6)
+
+
+BALLS = rf.back_to_back(
+    rf.BallBearing(
+        balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=0.4363, damping=300.0
+    ),
+    distance=0.02,
+    preload=150.0,
+)
+
+
+def test_balls_with_five_freedoms_hold_a_flexible_shaft(tmp_path):
+    """One pair holds the shaft along its axis and against tilts, in time, in an FMU and in python-control."""
+    held = rf.MomentCarryingBalls(bearing=BALLS, axial=True)
+    rotor = shaft(
+        stations=(rf.Station(node=0, name="left", feels_tilt=True), rf.Station(node=4, name="right"))
+    )
+    bearings = {"left": held, "right": rf.LinearBearing(stiffness=2e7, damping=300.0)}
+    at, rest, (A, *_) = joined(rotor, bearings)
+    poles = np.linalg.eigvals(A)
+    for value in rotor_modes(rotor, bearings, SPEED).eigenvalues:
+        assert np.abs(poles - value).min() < 1e-8 * abs(value)
+    assert_allclose(np.sort_complex(rotor_system(rotor, at).poles()), np.sort_complex(poles), rtol=1e-7)
+    start = rest.copy()
+    start[[signal.name for signal in rotor.states].index("vz_0")] += 1e-5
+    run = simulate(rotor, bearings, duration=5e-4, samples=3, initial_state=start, rtol=1e-9)
+    moved = [
+        (expm(A * t) @ (start - rest) + rest)[[s.name for s in rotor.states].index("z_0")] for t in run.time
+    ]
+    assert_allclose(run["left_z"], moved, atol=1e-4 * np.ptp(moved))
+    whole = mount(replace(rotor, initial=tuple(start)), bearings)
+    file = rf.export_fmu(whole, tmp_path / "whole.fmu", component="rotor", stop_time=5e-4, step_size=2.5e-4)
+    found = fmpy.simulate_fmu(str(file), output=["rotor.left_z"], output_interval=2.5e-4, stop_time=5e-4)
+    assert_allclose(found["rotor.left_z"][-1], run["left_z"][-1], rtol=1e-5)

@@ -296,7 +296,7 @@ def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
     if size > SMALL and frequency < ANY:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
             model = _remembered(rotor, exponent)
-            if model is None or 2 * len(model.structure.weight) > size:
+            if model is None or 2 * len(model.structure.coordinates) > len(full.coordinates):
                 break
             yield model
     yield Condensed(full, rotor.structure, None)

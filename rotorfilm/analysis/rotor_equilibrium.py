@@ -37,7 +37,7 @@ from ..core.port import (
 )
 from ..core.readable import Readable
 from ..core.results import Coefficients
-from ..core.signals import PLANAR
+from ..core.signals import FREEDOMS, PLANAR
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, hysteresis_matrices, untouched
 from .coefficients import film_coefficients
@@ -293,9 +293,14 @@ class RestEquations:
         middle = np.zeros(self.sizes[k])
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(clearance_of(bearing)):
             return middle, rest_temperature(bearing, middle, self.speed)
-        told = rest_place(bearing, load.tolist(), self.speed) if len(middle) > 2 else None
-        if told is not None:
-            return np.asarray(told), None
+        if len(middle) > 2:
+            # Moments that rigid bearings would have push loose balls far away: a start without them.
+            straight = [
+                0.0 if FREEDOMS[f].turns else part
+                for f, part in zip(freedoms_of(bearing), load.tolist(), strict=True)
+            ]
+            told = rest_place(bearing, straight, self.speed)
+            return middle if told is None else np.asarray(told), None
         at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
@@ -383,6 +388,7 @@ class RestEquations:
             except np.linalg.LinAlgError:
                 raise self.free() from None
             share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])
+            share = self._without_contact(p, step[n:], share)
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
@@ -428,6 +434,16 @@ class RestEquations:
                 break
             low, high = (low, share) if left < 0.0 else (share, high)
             share = 0.5 * (low + high)
+        return share
+
+    def _without_contact(self, p: Array, step: Array, share: float) -> float:
+        """Return the part of a step after which no tilted journal touches, which its center does not tell."""
+        for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
+            for _ in range(_HALVINGS if len(at) > 2 else 0):
+                with suppress(FilmContactError):
+                    force_at(bearing, at + share * move, self.speed)
+                    break
+                share *= 0.5
         return share
 
     def _within(self, p: Array, step: Array) -> float:

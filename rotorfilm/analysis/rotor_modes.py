@@ -48,7 +48,7 @@ from .rotor_matrices import (
 
 _OSCILLATES = 1e-6
 
-_ASIDE = 1e-20
+_ASIDE = 1e-12
 """Energy in the planes / that of axial and torsional motion, below which it is roundoff."""
 
 _HELD = 1e-12

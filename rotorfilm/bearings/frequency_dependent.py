@@ -34,6 +34,7 @@ from ..core.signals import (
     journal_inputs,
     place_names,
 )
+from ..native.spec import NativeSpec, linear_kernel
 from .linear import NOMINAL_LENGTH, require_rising, within_table
 from .rational_fit import rational_fit
 from .reaction import NOMINAL_SPEED, input_vector, mass_entries, mass_outputs
@@ -333,6 +334,18 @@ class FrequencyDependentReaction:
             np.vstack([C, np.zeros((told, len(A)))]),
             np.vstack([seen, np.zeros((told, seen.shape[1]))]),
         )
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of a linear model; None of a subclass, with an added mass or over speed."""
+        if (
+            type(self) is not FrequencyDependentReaction
+            or len(np.asarray(self.speeds)) > 1
+            or self.has_inertia
+        ):
+            return None
+        speed = float(np.asarray(self.speeds)[0]) if len(np.asarray(self.speeds)) else 0.0
+        at = self.linearization(0.0, self.initial_state, [*np.zeros(2 * len(self.freedoms)), speed])
+        return linear_kernel(at)
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states that rest with the shaft at a place (n,), shape (m,)."""

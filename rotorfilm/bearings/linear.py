@@ -1,4 +1,4 @@
-"""A bearing with constant stiffness and damping."""
+"""Bearings by stiffness and damping, constant or tabulated over the speed, for any freedoms."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import io
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,20 +20,67 @@ from ..core.files import read_text
 from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.results import write_csv
-from ..core.signals import Signal, force_outputs, journal_inputs
-from .reaction import Feedthrough, broadcast_state, without_overflow
+from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
+from ..native.spec import NativeSpec, linear_kernel
+from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state, without_overflow
+
+NOMINAL_LENGTH = 1e-4
+"""Typical displacement [m]."""
+
+
+class LinearReaction(Feedthrough):
+    """What a bearing with `freedoms` and `stiffness` says of its signals."""
+
+    clearance: ClassVar[float] = math.inf
+    """Infinite: it does not know where a wall is."""
+
+    freedoms: tuple[str, ...]
+    stiffness: Any
+
+    @property
+    def nominal_speed(self) -> float:
+        """Typical angular speed [rad/s]."""
+        return NOMINAL_SPEED
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals of the places of its freedoms, of their rates, and the speed: x, y, vx, vy, speed."""
+        return journal_inputs(NOMINAL_LENGTH, self.nominal_speed, self.freedoms, self._sizes[1])
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals of forces and moments on the shaft: force_x, force_y."""
+        size, arm = self._sizes
+        return force_outputs(size * NOMINAL_LENGTH or 1.0, self.freedoms, arm)
+
+    @property
+    def _sizes(self) -> tuple[float, float]:
+        """The largest stiffness against displacements, and the arm [m] at which it is that against tilts."""
+        turns = np.array([FREEDOMS[name].turns for name in self.freedoms])
+        size = np.abs(self.stiffness).reshape(-1, len(turns), len(turns)).max(axis=0)
+        along, about = (float(size[kind][:, kind].max(initial=0.0)) for kind in (~turns, turns))
+        return along or about, math.sqrt(about / along) if along and about else 1.0
+
 
 # A bearing whose stiffness and damping are tabulated over speed, as CSV in and out.
 
 
-ENTRIES = ("xx", "xy", "yx", "yy")
-HEADINGS = ("speed [rad/s]", *(f"k{e} [N/m]" for e in ENTRIES), *(f"c{e} [N s/m]" for e in ENTRIES))
-"""Columns of the CSV file."""
+def headings(freedoms: tuple[str, ...]) -> list[str]:
+    """Return the columns of the CSV file: speed, kxx to cyy, or as k_z_tilt_x for other freedoms."""
+    gap = "" if freedoms == PLANAR else "_"
+    found = ["speed [rad/s]"]
+    for letter, times in (("k", ""), ("c", " s")):
+        for force, place in product(freedoms, repeat=2):
+            unit = (
+                f"{'N m' if FREEDOMS[force].turns else 'N'}{times}/{'rad' if FREEDOMS[place].turns else 'm'}"
+            )
+            found.append(f"{letter}{gap}{force}{gap}{place} [{unit}]")
+    return found
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TabulatedBearing(Feedthrough):
+class TabulatedBearing(LinearReaction):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.
 
     Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them the bearing
@@ -40,27 +88,36 @@ class TabulatedBearing(Feedthrough):
 
     Parameters
     ----------
-    speeds : array_like, shape (n,) [rad/s]
+    speeds : array_like, shape (m,) [rad/s]
         Rising.
-    stiffness : array_like, shape (n, 2, 2) [N/m]
-    damping : array_like, shape (n, 2, 2) [N s/m]
+    stiffness : array_like, shape (m, n, n) [N/m]
+        Rows: forces and moments; columns: places; both in the order of the freedoms. In [N/rad], [N],
+        [N m/rad] where there are tilts.
+    damping : array_like, shape (m, n, n) [N s/m]
+        The same by the rates.
+    freedoms : tuple of str
+        Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 
     Raises
     ------
     InputError
-        If a shape is wrong, a number is not finite or the speeds do not rise.
+        If a shape is wrong, a number is not finite, the speeds do not rise, or freedoms are unknown or in
+        another order.
     """
 
     speeds: ArrayLike
     stiffness: ArrayLike
     damping: ArrayLike
+    freedoms: tuple[str, ...] = PLANAR
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "freedoms", checked_freedoms(self.freedoms))
         speeds = require_rising("speeds", self.speeds)
         for name in ("stiffness", "damping"):
             table = require_finite(name, getattr(self, name))
-            if table.shape != (len(speeds), 2, 2):
-                raise InputError(f"{name} must have shape ({len(speeds)}, 2, 2), got {table.shape}")
+            wanted = (len(speeds), len(self.freedoms), len(self.freedoms))
+            if table.shape != wanted:
+                raise InputError(f"{name} must have shape {wanted}, got {table.shape}")
             object.__setattr__(self, name, table)
         object.__setattr__(self, "speeds", speeds)
 
@@ -68,37 +125,31 @@ class TabulatedBearing(Feedthrough):
     def from_csv(cls, path: Path | str) -> TabulatedBearing:
         """Read a table that `to_csv` wrote; raise InputError where it is not one."""
         heading, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
-        if tuple(heading) != HEADINGS:
-            raise InputError(f"{path} must have the columns {list(HEADINGS)}, got {heading}")
+        known = {entry.partition(" ")[0] for entry in heading}
+        freedoms = tuple(name for name in FREEDOMS if f"k_{name}_{name}" in known) or PLANAR
+        if heading != (wanted := headings(freedoms)):
+            raise InputError(f"{path} must have the columns {wanted}, got {heading}")
         try:
             numbers = np.array([[float(entry) for entry in row] for row in rows])
         except ValueError as wrong:
             raise InputError(f"{path} must hold numbers below its heading, got {wrong}") from None
-        if numbers.ndim != 2 or numbers.shape[1] != len(HEADINGS):
-            raise InputError(f"{path} must have {len(HEADINGS)} numbers in every row")
-        tables = numbers[:, 1:].reshape(len(numbers), 2, 2, 2)
-        return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1])
+        if numbers.ndim != 2 or numbers.shape[1] != len(wanted):
+            raise InputError(f"{path} must have {len(wanted)} numbers in every row")
+        tables = numbers[:, 1:].reshape(len(numbers), 2, len(freedoms), len(freedoms))
+        return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1], freedoms=freedoms)
 
     def to_csv(self, path: Path | str) -> Path:
         """Write the table with nine digits; return the path."""
-        columns = np.column_stack([self.speeds, *(np.reshape(t, (-1, 4)) for t in self._tables)])
-        return write_csv(path, dict(zip(HEADINGS, columns.T.tolist(), strict=True)))
-
-    clearance: ClassVar[float] = math.inf
-    """Infinite: the table does not know where the wall is."""
+        columns = np.column_stack([self.speeds, *(t.reshape(len(t), -1) for t in self._tables)])
+        return write_csv(path, dict(zip(headings(self.freedoms), columns.T.tolist(), strict=True)))
 
     @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(NOMINAL_LENGTH, float(np.abs(self.speeds).max()) or 1.0)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(float(np.abs(self._tables[0]).max()) * NOMINAL_LENGTH or 1.0)
+    def nominal_speed(self) -> float:
+        """The largest speed of the table [rad/s]."""
+        return float(np.abs(self.speeds).max()) or 1.0
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal [N], shape (2, ...).
+        """Return forces [N] and moments [N m] on the shaft, shape (n, ...).
 
         Raises
         ------
@@ -110,10 +161,10 @@ class TabulatedBearing(Feedthrough):
             stiffness, damping = self._at(omega, 0)
             return -np.einsum("...ij,j...->i...", stiffness, q) - np.einsum("...ij,j...->i...", damping, v)
 
-        return without_overflow(law, *broadcast_state(position, velocity, speed))
+        return without_overflow(law, *broadcast_state(position, velocity, speed, len(self.freedoms)))
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...); InputError as in `force`."""
+        """Return d force/d(places, rates, speed), shape (n, 2 n + 1, ...); InputError as in `force`."""
 
         def law(q: Array, v: Array, omega: Array) -> Array:
             stiffness, damping = self._at(omega, 0)
@@ -122,7 +173,7 @@ class TabulatedBearing(Feedthrough):
             blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
             return np.concatenate([*blocks, by_speed[:, None]], axis=1)
 
-        return without_overflow(law, *broadcast_state(position, velocity, speed))
+        return without_overflow(law, *broadcast_state(position, velocity, speed, len(self.freedoms)))
 
     @property
     def _tables(self) -> tuple[Array, Array]:
@@ -134,11 +185,12 @@ class TabulatedBearing(Feedthrough):
         return [PchipInterpolator(speeds, table, axis=0) for table in self._tables]
 
     def _at(self, speed: ArrayLike, derivative: int) -> tuple[Array, Array]:
-        """Return K and C, or their derivatives by speed, shape (..., 2, 2)."""
+        """Return K and C, or their derivatives by speed, shape (..., n, n)."""
         known = np.asarray(self.speeds)
         omega = within_table(speed, known)
         if len(known) == 1:
-            stiffness, damping = (np.broadcast_to(t[0], (*omega.shape, 2, 2)) for t in self._tables)
+            size = *omega.shape, len(self.freedoms), len(self.freedoms)
+            stiffness, damping = (np.broadcast_to(t[0], size) for t in self._tables)
             return (0.0 * stiffness, 0.0 * damping) if derivative else (stiffness, damping)
         stiffness, damping = (curve(omega, nu=derivative) for curve in self._curves)
         return stiffness, damping
@@ -165,62 +217,79 @@ def within_table(speed: ArrayLike, known: Array) -> Array:
 # A bearing with constant stiffness and damping.
 
 
-Pair = tuple[tuple[float, float], tuple[float, float]]
-
-NOMINAL_LENGTH = 1e-4
-"""Typical displacement [m]."""
+Row = tuple[float, ...]
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class LinearBearing(Feedthrough):
-    """A spring and a damper, force = -stiffness position - damping velocity: a Reaction at any speed.
+class LinearBearing(LinearReaction):
+    """Springs and dampers, force = -stiffness position - damping velocity: a Reaction at any speed.
 
     Parameters
     ----------
-    stiffness : float [N/m] or 2 x 2 numbers
-        Rows: force x, y; columns: position x, y. One number is the same in both directions.
-    damping : float [N s/m] or 2 x 2 numbers
+    stiffness : float [N/m] or n x n numbers
+        Rows: forces and moments, as force x, y; columns: places, as position x, y; both in the order of the
+        freedoms, in [N/rad], [N], [N m/rad] where there are tilts. One number is the same along all
+        directions, n numbers are the diagonal.
+    damping : float [N s/m] or n x n numbers
+        The same by the rates.
+    freedoms : tuple of str
+        Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 
     Raises
     ------
     InputError
-        If one of them is neither a finite number nor 2 x 2.
+        If stiffness or damping has another shape, is one number but 0 where there are tilts, or is not
+        finite; if freedoms are unknown or in another order.
+
+    Examples
+    --------
+    >>> thrust = LinearBearing(stiffness=(2e8, 5e4, 5e4), freedoms=("z", "tilt_x", "tilt_y"))
+    >>> thrust.force([1e-5, 0.0, 2e-4], [0.0, 0.0, 0.0], 100.0)
+    array([-2000.,     0.,   -10.])
     """
 
-    stiffness: float | Pair
-    damping: float | Pair = 0.0
+    stiffness: float | Row | tuple[Row, ...]
+    damping: float | Row | tuple[Row, ...] = 0.0
+    freedoms: tuple[str, ...] = PLANAR
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "freedoms", checked_freedoms(self.freedoms))
         for name in ("stiffness", "damping"):
-            array = require_finite(name, getattr(self, name))
-            if array.shape not in ((), (2, 2)):
-                raise InputError(f"{name} must be a number or 2 x 2 numbers, got {getattr(self, name)!r}")
-            matrix = array if array.ndim else float(array) * np.eye(2)
+            matrix = self._matrix(name, getattr(self, name))
             object.__setattr__(self, name, tuple(tuple(row) for row in matrix.tolist()))
 
-    clearance: ClassVar[float] = math.inf
-    """Infinite: the journal may go anywhere."""
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(NOMINAL_LENGTH, 100.0)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(float(np.abs(self.stiffness).max()) * NOMINAL_LENGTH or 1.0)
+    def _matrix(self, name: str, value: ArrayLike) -> Array:
+        """Return the matrix (n, n) of a field; InputError of one that is none."""
+        array, n = require_finite(name, value), len(self.freedoms)
+        turning = [one for one in self.freedoms if FREEDOMS[one].turns]
+        if array.shape == (n, n):
+            return array
+        if array.shape == (n,) or (not array.ndim and not (turning and array)):
+            return array * np.eye(n)
+        raise InputError(
+            f"{name} must be {'' if turning else 'a number or '}{n} x {n} numbers, or {n} of the diagonal, "
+            f"for {', '.join(self.freedoms)}, got {value!r}"
+        )
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal [N], shape (2, ...); the speed is not used."""
+        """Return forces [N] and moments [N m] on the shaft, shape (n, ...); the speed is not used."""
         return without_overflow(
             lambda q, v, _: -np.tensordot(self.stiffness, q, 1) - np.tensordot(self.damping, v, 1),
-            *broadcast_state(position, velocity, speed),
+            *broadcast_state(position, velocity, speed, len(self.freedoms)),
         )
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...): the same everywhere."""
-        batch = np.broadcast_shapes(np.shape(position)[1:], np.shape(velocity)[1:], np.shape(speed))
-        constant = np.hstack([-np.array(self.stiffness), -np.array(self.damping), np.zeros((2, 1))])
-        return np.broadcast_to(constant.reshape(2, 5, *(1,) * len(batch)), (2, 5, *batch)).copy()
+        """Return d force/d(places, rates, speed), shape (n, 2 n + 1, ...): the same everywhere."""
+        n = len(self.freedoms)
+        batch = broadcast_state(position, velocity, speed, n)[2].shape
+        constant = np.hstack([-np.array(self.stiffness), -np.array(self.damping), np.zeros((n, 1))])
+        return np.broadcast_to(
+            constant.reshape(n, 2 * n + 1, *(1,) * len(batch)), (n, 2 * n + 1, *batch)
+        ).copy()
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of a linear model; None for a subclass, which may differ."""
+        if type(self) is not LinearBearing:
+            return None
+        return linear_kernel(self.linearization(0.0, (), np.zeros(2 * len(self.freedoms) + 1)))

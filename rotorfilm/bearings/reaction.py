@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -127,9 +127,6 @@ class StaticReaction(Feedthrough):
     One with tilts among its freedoms says its `arm` too.
     """
 
-    arm: ClassVar[float] = 1.0
-    """The clearance over it is a typical tilt, the nominal force times it a typical moment [m]."""
-
     @property
     def inputs(self: Any) -> tuple[Signal, ...]:
         """Signals of the places of its freedoms, of their rates, and the speed: x, y, vx, vy, speed."""
@@ -139,6 +136,11 @@ class StaticReaction(Feedthrough):
     def outputs(self: Any) -> tuple[Signal, ...]:
         """Signals of the forces on the shaft: force_x, force_y."""
         return force_outputs(self.nominal_force, freedoms_of(self), self.arm)
+
+    @property
+    def arm(self) -> float:
+        """Length [m]: clearance over it is a typical tilt, nominal force times it a typical moment."""
+        return 1.0
 
     @property
     def largest_eccentricity_ratio(self) -> float:

@@ -57,6 +57,7 @@ if TYPE_CHECKING:
         indices,
         journal_inputs,
         names,
+        signals_of,
         to_fmi_name,
     )
     from .sources import published

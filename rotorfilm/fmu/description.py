@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import FmuError, InputError
 from ..core.model import Array, Dynamic, Model, Stepped
-from ..core.signals import Scalar, Variable, names, to_fmi_name
+from ..core.signals import FREEDOMS, Scalar, Variable, force_names, names, place_names, to_fmi_name
 from ..core.units import DISPLAY_UNITS, UNITS
 
 # Which inputs, states and parameters each output and derivative depends on, for the FMI ModelStructure.
@@ -549,11 +549,13 @@ def switch_references(variables: Sequence[Variable]) -> list[int]:
 # journal on both sides, so all members are signals, which are equal in connected terminals.
 
 
-FORCE = re.compile(r"(?:(\w+)_)?force_[xyz]", re.ASCII)
-"""The force at a station, which has a name or none."""
+MOTION = tuple(place_names(list(FREEDOMS)))
+FORCES = tuple(force_names(list(FREEDOMS)))
+MEMBERS = (*MOTION, "speed", *FORCES)
+"""Signals of a journal, whichever of its freedoms a model has."""
 
-MOTION = ("x", "y", "z", "vx", "vy", "vz")
-MEMBERS = (*MOTION, "speed", "force_x", "force_y", "force_z")
+FORCE = re.compile(rf"(?:(\w+?)_)?(?:{'|'.join(FORCES)})", re.ASCII)
+"""A force or moment at a station, which has a name or none."""
 
 KIND = "_rotorfilm.Mechanical.Translational.Journal"
 """Kinds that a tool defines begin with its name."""

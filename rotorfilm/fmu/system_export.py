@@ -15,7 +15,7 @@ from ..core.model import Dynamic, Model, Stepped
 from ..core.port import require_massless
 from ..core.units import UNITS
 from .archive import read_description, to_zip
-from .description import Terminals, terminals, to_bytes
+from .description import FORCES, Terminals, terminals, to_bytes
 from .export import export_fmu
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ def _connected(parts: Mapping[str, Part], station: str) -> list[Connection]:
     name = station or FILM
     rotor, film = parts[ROTOR].terminals.get(station or ROTOR), parts[name].terminals.get(name)
     given = {} if film is None else parts[name].variables
-    forces = [label for member, label in (film or {}).items() if member.startswith("force")]
+    forces = [label for member, label in (film or {}).items() if member in FORCES]
     if film is None or any(given[label].causality == "input" for label in forces):
         raise InputError(f"films must take the motion of a journal and give its force, got none in {name!r}")
     if rotor is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from ctypes import byref, c_double, c_int32
 from typing import Any, NamedTuple
 
@@ -38,7 +39,7 @@ ROW = (
 WAVE = ("turns", "lobes", "radial", "axial", "phase")
 """The numbers of rf_ball_wave, the columns of the table `waves`."""
 
-_Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
+_Two, _Three, _Five, _Ten = c_double * 2, c_double * 3, c_double * 5, c_double * 10
 _Held = c_int32 * DEGREES
 
 
@@ -113,7 +114,7 @@ class BallKernel:
         self._waves = np.ascontiguousarray(waves, dtype=float)
         self._fixed = self.rows.ctypes.data, len(self.rows), growth, structure("rf_ball_law")(*law)
         self._balls = self._turned(0.0, 0.0)
-        self._held = (c_double * 3)(*place), thrust or 0.0, damping, thrust is not None
+        self._held = _Three(*place), thrust or 0.0, damping, thrust is not None
         self._journal = structure("rf_ball_journal")(self._balls, *self._held)
         self._reference = byref(self._journal)
         self._at = loops()["rf_ball_journal_at"]
@@ -137,10 +138,21 @@ class BallKernel:
         status = self._at(self._reference, _Five(*state), pair, ten, None)
         return pair[0], pair[1], ten[:], status
 
-    def axial_place(self, *state: float, cage: float = 0.0, shaft: float = 0.0) -> tuple[float, int]:
-        """Return z [m] at x, y, vx, vy, speed, with cage and shaft turned further [rad], and a status."""
+    def axial_place(
+        self,
+        *state: float,
+        tilt: tuple[float, float] | None = None,
+        cage: float = 0.0,
+        shaft: float = 0.0,
+    ) -> tuple[float, int]:
+        """Return z [m] at x, y, vx, vy, speed, with cage and shaft turned further [rad], and a status.
+
+        The tilts [rad] are those of the planar motion where no others are given.
+        """
         pair, z = _Two(), c_double()
-        journal = structure("rf_ball_journal")(self._turned(cage, shaft), *self._held)
+        place, *rest = self._held
+        held = place if tilt is None else _Three(place[0], *tilt)
+        journal = structure("rf_ball_journal")(self._turned(cage, shaft), held, *rest)
         status = self._at(byref(journal), _Five(*state), pair, None, byref(z))
         return z.value, status
 
@@ -160,20 +172,13 @@ class BallKernel:
         status = loops()["rf_balls_at"](byref(balls), motion.ctypes.data, speed, *places, each)
         return BallsAt(wrench, slopes, np.ctypeslib.as_array(each), status)
 
-    def rest(self, load: Array, speed: float, start: Array) -> BallsRest:
-        """Return the equilibrium under a load (5,) on the shaft."""
-        return self._rest(load, speed, start, None)
-
-    def planar_rest(self, load: tuple[float, float], speed: float) -> BallsRest:
-        """Return the equilibrium under a radial load (2,) on a shaft with held tilts, and z unless free."""
-        place, thrust, _, is_free = self._held
-        held = _Held(0, 0, not is_free, 1, 1)
-        return self._rest(np.array([*load, thrust, 0.0, 0.0]), speed, np.array([0.0, 0.0, *place]), held)
-
-    def _rest(self, load: Array, speed: float, start: Array, held: Any) -> BallsRest:
+    def rest(
+        self, load: Array, speed: float, start: Array, held: Sequence[bool] = (False,) * DEGREES
+    ) -> BallsRest:
+        """Return the equilibrium under a load (5,) on the shaft, whose held degrees stay where they start."""
         load, motion = np.ascontiguousarray(load, dtype=float), np.array(start, dtype=float)
         slopes, steps = np.empty((DEGREES, SLOPES)), c_int32()
         places = [one.ctypes.data for one in (motion, slopes)]
-        arguments = byref(self._balls), load.ctypes.data, speed, held, *places, byref(steps)
+        arguments = byref(self._balls), load.ctypes.data, speed, _Held(*held), *places, byref(steps)
         status = loops()["rf_balls_rest"](*arguments)
         return BallsRest(motion, steps.value, status)

@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ..core.errors import InputError
-from ..core.model import Array
+from ..core.model import Array, Linearization
 from ..core.signals import Signal
 from .library import functions
 from .structs import structure
@@ -124,6 +124,11 @@ class HasKernel(Protocol):
 
     def native(self) -> NativeSpec | None:
         """Return its kernel; None if this instance has none, as a bearing under a film without kernel."""
+
+
+def linear_kernel(at: Linearization) -> NativeSpec:
+    """Return the kernel of a linear model without parameters, which starts at zero."""
+    return NativeSpec(kernel="linear", tables=dict(zip("ABCD", map(np.asarray, at), strict=True)))
 
 
 # The kernel of the C library that is a journal bearing over a film.

@@ -184,6 +184,7 @@ class FlexibleRotor(Turning):
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """The coordinates of the x-z plane, those of the y-z plane, others, and their rates in this order."""
+        s = self.assembly
         kinds: tuple[tuple[str, str, float, str], ...] = (
             ("", "", 1.0, "displacement"),
             ("v", "/s", self.nominal_speed, "rate of the displacement"),
@@ -192,7 +193,7 @@ class FlexibleRotor(Turning):
             *(
                 (head + name.format(axis), unit + per, nominal * scale, text)
                 for head, per, scale, text in kinds
-                for axis, coordinates in zip(("x", "y", ""), _by_plane(self.assembly), strict=True)
+                for axis, coordinates in (("x", s.coordinates), ("y", s.coordinates), ("", s.others))
                 for name, unit, nominal in coordinates
             )
         )
@@ -342,12 +343,14 @@ class _Rows(NamedTuple):
     given_by: str
 
 
+_TILTING = "Station(feels_tilt=True) or RigidShaft(feels_tilt=True)"
+
 _ROWS = {
     "x": _Rows("journals", 0, 2, ""),
     "y": _Rows("journals", 1, 2, ""),
-    "z": _Rows("axial", 0, 1, "ShaftRotor(axial=True)"),
-    "tilt_x": _Rows("tilts", 0, 2, "Station(feels_tilt=True)"),
-    "tilt_y": _Rows("tilts", 1, 2, "Station(feels_tilt=True)"),
+    "z": _Rows("axial", 0, 1, "ShaftRotor(axial=True) or RigidShaft(axial=True)"),
+    "tilt_x": _Rows("tilts", 0, 2, _TILTING),
+    "tilt_y": _Rows("tilts", 1, 2, _TILTING),
     "twist": _Rows("twist", 0, 1, "ShaftRotor(torsional=True)"),
 }
 
@@ -399,10 +402,6 @@ def _arm(structure: Structure) -> float:
 
 
 # Coordinates beyond both planes: beside those of the planes, and held.
-
-
-def _by_plane(structure: Structure) -> tuple[tuple[Coordinate, ...], ...]:
-    return structure.coordinates, structure.coordinates, structure.others
 
 
 def beside(first: Any, *further: Any) -> Any:
@@ -473,7 +472,7 @@ def _mapped(
     """
     squares = ("mass", "damping", "gyroscopic", "stiffness", "circulation")
     stations = ("journals", "housings", "tilts", "axial", "twist")
-    made: dict[str, Any] = {name: square(getattr(full, name)) for name in squares if name not in fields}
+    made: dict[str, Any] = {name: square(getattr(full, name)) for name in squares}
     made |= {name: row(rows) for name in stations if (rows := getattr(full, name)) is not None}
     made["weight"], made["unbalance"] = row(full.weight), row(full.unbalance.T).T
     made["readouts"] = tuple((s, row(np.reshape(both, (2, -1))).ravel()) for s, both in full.readouts)
@@ -486,7 +485,6 @@ def without(full: Structure, aside: ArrayLike) -> Structure:
     if stays.all():
         return full
     kept = np.append(np.ones(2 * len(full.coordinates), dtype=bool), stays)
-
     others = tuple(full.others[k] for k in np.flatnonzero(stays))
     return _mapped(full, lambda part: part[kept][:, kept], lambda rows: rows[..., kept], others=others)
 

@@ -24,7 +24,7 @@ from ..core.errors import InputError
 from ..core.files import read_text
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import PlanarReaction, require_massless
+from ..core.port import PlanarReaction, require_massless, require_reaction
 from ..core.results import Coefficients
 from ..rotors import (
     ClassicalBeam,
@@ -258,7 +258,9 @@ def _supports(
         if not isinstance(spring, LinearBearing):
             raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
         damping = np.asarray(spring.damping) + alpha * mass["mx"] * np.eye(2)
-        found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=damping.tolist())
+        found[node] = Support(
+            mass=mass["mx"], stiffness=np.asarray(spring.stiffness).tolist(), damping=damping.tolist()
+        )
     return found
 
 
@@ -316,6 +318,7 @@ def to_ross(
     """
     if not isinstance(bearing, LinearBearing | TabulatedBearing):
         raise InputError(f"bearing must be a LinearBearing or a TabulatedBearing, got {bearing!r}")
+    require_reaction("bearing", bearing, planar=True)
     stiffness, damping = np.asarray(bearing.stiffness), np.asarray(bearing.damping)
     values: dict[str, Any] = {
         f"{letter}{entry}": table[..., row, column].tolist()

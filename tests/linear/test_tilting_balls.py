@@ -139,17 +139,17 @@ def test_a_shaft_of_many_elements_moves_in_few_shapes_and_says_its_error() -> No
 @pytest.mark.parametrize("bearing", [SINGLE, PAIR], ids=["thrust", "pair"])
 def test_coefficients_are_the_slopes_of_force_and_moment(bearing: rf.BallBearing | rf.BearingPair) -> None:
     held = rf.MomentCarryingBalls(bearing=bearing)
-    place = np.array([3e-7, -5e-7, 2e-5, 1e-5])
+    place, still = np.array([3e-7, -5e-7, 2e-5, 1e-5]), np.zeros(4)
     steps = np.diag([1e-9, 1e-9, 1e-7, 1e-7])
     slopes = np.stack(
         [
-            (held.tilting_force(place + step, 900.0) - held.tilting_force(place - step, 900.0))
+            (held.force(place + step, still, 900.0) - held.force(place - step, still, 900.0))
             / (2.0 * step.max())
             for step in steps
         ],
         axis=1,
     )
-    stiffness = held.tilting_coefficients(place, 900.0).stiffness
+    stiffness = rf.coefficients(held, place, 900.0).stiffness
     size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
     assert np.abs((stiffness + slopes) / size).max() < 1e-5
 
@@ -161,17 +161,28 @@ def test_the_python_control_system_has_the_whirls_of_the_modes() -> None:
     assert lowest == pytest.approx(rf.rotor_modes(rotor, bearings, 1000.0).frequency[:4], rel=1e-7)
 
 
+def test_a_rotor_mounted_on_them_has_the_whirls_of_its_modes() -> None:
+    rotor, bearings = heavy(10, replace(PAIR, damping=300.0))
+    at = rf.rotor_equilibrium(rotor, bearings, 1000.0)
+    mounted = rf.mount(replace(rotor, speed=1000.0), bearings)
+    state = np.concatenate([at.displacement, np.zeros_like(at.displacement)])
+    assert np.abs(mounted.derivative(0.0, state, [])).max() < 1e-6  # m/s2, of gravity
+    poles = np.linalg.eigvals(mounted.linearization(0.0, state, []).A)
+    lowest = np.sort(poles.imag[poles.imag > 1.0])[:4]
+    assert lowest == pytest.approx(rf.rotor_modes(rotor, bearings, 1000.0).frequency[:4], rel=1e-9)
+
+
 def test_what_does_not_fit_is_named() -> None:
     rotor, bearings = heavy(10, PAIR)
     plain = rf.ShaftRotor(elements=rotor.elements, speed=0.0, stations=(rf.Station(node=1, name="left"),))
-    with pytest.raises(InputError, match=r"station 'left' must feel tilts"):
+    with pytest.raises(InputError, match=r"station 'left' must have the freedom tilt_x"):
         rf.rotor_modes(plain, {"left": bearings["left"]}, 100.0)
-    with pytest.raises(InputError, match=r"bearings\['left'\] must be"):
-        rf.mount(rotor, bearings)
+    with pytest.raises(InputError, match=r"rotor must have the outputs .* without .*'left_tilt_x'"):
+        rf.mount(plain, {"left": bearings["left"]})
     with pytest.raises(InputError, match="bearing must be a BallBearing or a BearingPair"):
         rf.MomentCarryingBalls(bearing=rotor)
-    with pytest.raises(InputError, match=r"place must have shape \(4,\)"):
-        bearings["left"].tilting_force([0.0, 0.0])
+    with pytest.raises(InputError, match=r"position must have shape \(4, \.\.\.\)"):
+        bearings["left"].force([0.0, 0.0], [0.0, 0.0], 100.0)
 
 
 def spindle(
@@ -274,7 +285,8 @@ def test_light_rotors_rest_in_bearings_with_clearance(speed: float) -> None:
         at = rf.rotor_equilibrium(rotor, bearings, speed)
         assert at.residual < 1e-9
         loads = [
-            -bearings[name].tilting_force(at.coefficients[name].position, speed) for name in ("front", "rear")
+            -bearings[name].force(at.coefficients[name].position, np.zeros(4), speed)
+            for name in ("front", "rear")
         ]
         np.testing.assert_allclose(loads[0][:2] + loads[1][:2], [0.0, -weight], atol=1e-8 * weight)
         disk = rotor.disks[0].mass * 9.81

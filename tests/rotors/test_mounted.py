@@ -35,7 +35,7 @@ def test_constant_bearing_is_a_reaction_with_exact_derivatives():
     assert_allclose(jacobian[:, :2, 1], -np.array(SPRING.stiffness))
     assert_allclose(SPRING.output(0.0, [], [1.0, 0, 0, 2.0, 0]), SPRING.force([1.0, 0], [0, 2.0], 0.0))
     with pytest.raises(InputError, match="stiffness must be a number or 2 x 2 numbers"):
-        LinearBearing(stiffness=(1.0, 2.0))
+        LinearBearing(stiffness=(1.0, 2.0, 3.0))
 
 
 def test_mounted_station_is_no_input_any_more(friswell_591):

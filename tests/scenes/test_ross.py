@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotorfilm import InputError, LinearBearing, TabulatedBearing
 from rotorfilm.analysis import coefficients, rotor_modes
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.scenes import read_ross, to_ross_force
+from rotorfilm.scenes import read_ross, to_ross, to_ross_force
 
 STEEL = 'name = "Steel"\nrho = 7810.0\nE = 211e9\nG_s = 81.2e9\n'
 
@@ -271,3 +271,8 @@ def test_a_table_over_the_frequency_of_the_whirl_is_refused(tmp_path):
         file.write_text(head + shaft + bearing(0, 1, f"{axes}frequency = {axis}\n{body}"))
         with pytest.raises(InputError, match=r"^speed must be the only axis .*, got frequency in 'Bearing"):
             read_ross(file)
+
+
+def test_a_bearing_of_other_freedoms_is_refused():
+    with pytest.raises(InputError, match=r"^bearing must react to x and y alone here, got one of z, tilt_x"):
+        to_ross(LinearBearing(stiffness=(1e8, 1e4), freedoms=("z", "tilt_x")), 1)

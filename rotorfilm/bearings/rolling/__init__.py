@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from .ball_bearing import (
         BallBearing as BallBearing,
         BearingPair as BearingPair,
-        MomentCarryingBalls as MomentCarryingBalls,
         RollingMaterial as RollingMaterial,
         Waviness as Waviness,
         back_to_back as back_to_back,
@@ -40,6 +39,7 @@ if TYPE_CHECKING:
         lubricated_balls as lubricated_balls,
         race_films as race_films,
     )
+    from .moment_carrying_balls import MomentCarryingBalls as MomentCarryingBalls
     from .palmgren_balls import (
         PalmgrenBalls as PalmgrenBalls,
         load_integrals as load_integrals,

@@ -121,9 +121,7 @@ class VariableComplianceBalls(Called):
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives; where z follows from an axial load, with that."""
-        slopes = self._at(x, input_vector(u)).slopes
-        if self.bearing.axial_load is not None:
-            slopes = slopes - np.outer(slopes[:, 2], slopes[2]) / slopes[2, 2]
+        slopes = self.bearing.with_axial(self._at(x, input_vector(u)).slopes)
         B = np.zeros((2, 5))
         B[:, 4] = self.ratio, 1.0
         damping = -self.bearing.damping * np.eye(2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Self
@@ -30,7 +30,7 @@ from ...core.model import Array
 from ...core.port import MOST_LEFT
 from ...core.readable import Readable
 from ...native import NativeSpec, Status
-from ...native.ball_kernel import DEGREES, ROW, BallKernel, BallsAt
+from ...native.ball_kernel import DEGREES, ROW, BallKernel, BallsAt, BallsRest
 from ...native.spec import parameter
 from ..formulas import EllipticIntegrals, curvature_ratio, elliptic_integrals
 from ..reaction import KernelReaction
@@ -95,7 +95,7 @@ class BallElement(KernelReaction, ABC):
         ConvergenceError
             If a ball finds no balance.
         """
-        return self._at(displacement, speed).wrench
+        return self.at(displacement, speed).wrench
 
     def stiffness(self, displacement: ArrayLike, speed: float = 0.0) -> Array:
         """Return -d(force, moment)/d(displacement), exact, shape (5, 5) [N/m], [N], [N m/rad].
@@ -112,7 +112,7 @@ class BallElement(KernelReaction, ABC):
         InputError, ConvergenceError
             As in `wrench`.
         """
-        return -self._at(displacement, speed).slopes[:, :DEGREES]
+        return -self.at(displacement, speed).slopes[:, :DEGREES]
 
     def loads(self, displacement: ArrayLike, speed: float = 0.0) -> BallLoads:
         """Return loads, contact angles and inertia of each ball.
@@ -127,7 +127,7 @@ class BallElement(KernelReaction, ABC):
         InputError, ConvergenceError
             As in `wrench`.
         """
-        return self._loads(self._at(displacement, speed))
+        return self._loads(self.at(displacement, speed))
 
     @arguments
     def rest(self, load: ArrayLike, speed: float = 0.0, *, start: ArrayLike | None = None) -> BallEquilibrium:
@@ -159,7 +159,7 @@ class BallElement(KernelReaction, ABC):
                     lambda kernel: kernel.rest(load, speed, np.zeros(DEGREES)).status,
                 )
             )
-        at, size = self._at(found.motion, speed), float(np.linalg.norm(load))
+        at, size = self.at(found.motion, speed), float(np.linalg.norm(load))
         residual = float(np.linalg.norm(at.wrench + load)) / size if size else 0.0
         if not residual <= MOST_LEFT:
             raise EquilibriumError(
@@ -200,12 +200,19 @@ class BallElement(KernelReaction, ABC):
             )
         return f"{name} must be one that the balls can carry, got {got}"
 
-    def _at(self, displacement: ArrayLike, speed: float) -> BallsAt:
+    def at(self, displacement: ArrayLike, speed: float) -> BallsAt:
+        """Return wrench, slopes and balls at a displacement (5,); raise what `wrench` raises."""
         motion, speed = _five("displacement", displacement), require_number("speed", speed)
         at = self.kernel.at(motion, speed)
         if at.status:
             self.explain(at, motion, speed)
         return at
+
+    def with_axial(self, slopes: Array) -> Array:
+        """Return derivatives of a wrench, shape (5, ...), with those by the z that an axial load asks for."""
+        if self.axial_load is None or slopes[2, 2] == 0.0:
+            return slopes
+        return slopes - np.outer(slopes[:, 2], slopes[2]) / slopes[2, 2]
 
     def _loads(self, at: BallsAt) -> BallLoads:
         each, (inner, outer) = at.each, self.contacts
@@ -284,13 +291,29 @@ class BallElement(KernelReaction, ABC):
         load. Without gyroscopic moments the energy is convex, and a search that lowers it finds the rest.
         EquilibriumError where race control has none.
         """
-        found = self.kernel.planar_rest(load, speed)
+        motion = self.rest_along([0, 1], load, speed)
+        return None if motion is None else (float(motion[0]), float(motion[1]))
+
+    def rest_along(self, moving: list[int], load: Sequence[float], speed: float) -> Array | None:
+        """Return the displacement (5,) of a shaft that moves along some degrees, and z under an axial load.
+
+        As `rest_place`, with a load for each of the degrees.
+        """
+        free = moving if self.axial_load is None else [*moving, 2]
+        whole = np.zeros(DEGREES)
+        whole[moving] = load
+        whole[2] += self.axial_load or 0.0
+        start = np.array([0.0, 0.0, self.axial_displacement, *self.tilt])
+
+        def search(kernel: BallKernel) -> BallsRest:
+            return kernel.rest(whole, speed, start, [k not in free for k in range(DEGREES)])
+
+        found = search(self.kernel)
         if found.status <= Status.OUTSIDE:
-            return float(found.motion[0]), float(found.motion[1])
+            return found.motion
         if isinstance(self.running[0], RaceControl):
             got = f"{list(load)} N at {speed!r} rad/s"
-            why = self.why_no_rest("load", got, lambda kernel: kernel.planar_rest(load, speed).status)
-            raise EquilibriumError(why)
+            raise EquilibriumError(self.why_no_rest("load", got, lambda kernel: search(kernel).status))
         return None
 
     @cached_property

@@ -55,7 +55,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings import Body, PadMapFilm, PadResolution, Parallel, Series, f4k20_bush
-from rotorfilm.core.port import has_states, mass_of, rest_state
+from rotorfilm.core.port import has_states, mass_of, rest_linearization, rest_state, rest_temperature
 from rotorfilm.core.signals import names
 from rotorfilm.rotors import translations
 
@@ -408,3 +408,22 @@ def test_a_flexible_rotor_asks_for_its_films_by_station():
     rotor, films = placed("tilting pads", "flexible")
     with pytest.raises(InputError, match=r"mapping with a film for each of the stations \['left', 'right'\]"):
         simulate(rotor, films["left"], duration=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore:.*:rotorfilm.core.errors.ValidityWarning")
+@pytest.mark.parametrize("kind", sorted(FILMS))
+def test_transmissibility_is_the_algebra_of_the_dynamic_stiffness(kind):
+    """What reaches the housing is Z (Z + m s^2)^-1, the states eliminated by hand."""
+    rotor, films = placed(kind, "rigid")
+    film, load, s = films[""], rotor.static_load, 1j * SPEED
+    found = transmissibility(rotor, film, load, [SPEED]).frdata[:, :, 0]
+    at = equilibrium(film, load, SPEED)
+    # The temperature of a film is held, the wear of a bush follows the journal.
+    temperature = rest_temperature(film, at.position, SPEED)
+    held = film if temperature is None else film.at_temperature(temperature)
+    A, B, C, D = rest_linearization(held, at.position, SPEED)
+    moved = np.linalg.solve(s * np.eye(len(A)) - A, B[:, :2] + s * B[:, 2:4]) if len(A) else np.zeros((0, 2))
+    Z = -(D[:, :2] + s * D[:, 2:4] + C @ moved) + s**2 * mass_of(held, at.position, np.zeros(2), SPEED)
+    np.testing.assert_allclose(
+        found, Z @ np.linalg.inv(Z + rotor.mass * s**2 * np.eye(2)), rtol=1e-9, atol=1e-12
+    )
