@@ -27,7 +27,8 @@ TASKS = {
         "bearings.linear",
         "bearings.own_reaction",
         "bearings.assemblies",
-        "bearings.frequency_dependent",
+        "bearings.linear_system",
+        "core.port",
     ),
     "Equilibrium and coefficients": (
         "analysis.coefficients",
@@ -37,7 +38,6 @@ TASKS = {
         "core.results.FrequencyDependentCoefficients",
         "core.results.InertialCoefficients",
         "core.results.ReducedCoefficients",
-        "bearings.reaction",
         "core.results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (

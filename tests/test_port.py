@@ -1,5 +1,6 @@
 """Reactions of a user's own with other freedoms and states go through every analysis as they are."""
 
+import warnings
 from dataclasses import replace
 
 import fmpy
@@ -277,5 +278,6 @@ def test_balls_with_five_freedoms_hold_a_flexible_shaft(tmp_path):
     assert_allclose(run["left_z"], moved, atol=1e-4 * np.ptp(moved))
     whole = mount(replace(rotor, initial=tuple(start)), bearings)
     file = rf.export_fmu(whole, tmp_path / "whole.fmu", component="rotor", stop_time=5e-4, step_size=2.5e-4)
-    found = fmpy.simulate_fmu(str(file), output=["rotor.left_z"], output_interval=2.5e-4, stop_time=5e-4)
+    with warnings.catch_warnings(action="ignore"):  # trial states of its integrator press the balls too hard
+        found = fmpy.simulate_fmu(str(file), output=["rotor.left_z"], output_interval=2.5e-4, stop_time=5e-4)
     assert_allclose(found["rotor.left_z"][-1], run["left_z"][-1], rtol=1e-5)

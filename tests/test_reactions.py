@@ -105,7 +105,9 @@ def test_films_without_stations_name_themselves(ask):
         InputError, match=r"bearings must be a mapping such as \{'left': film\}, got LinearBearing"
     ):
         ask(SPRING)
-    with pytest.raises(InputError, match=r"bearings\['right'\] must be a Reaction .* without .*jacobian"):
+    with pytest.raises(
+        InputError, match=r"bearings\['right'\] must be a Reaction .* without .*linearization"
+    ):
         ask({"left": SPRING, "right": POOR})
 
 

@@ -276,7 +276,7 @@ class VariableCompliance(Drawable):
 
 @arguments
 def variable_compliance(
-    bearing: Any, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
+    bearing: Reaction, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
 ) -> VariableCompliance:
     """Return where a shaft rests at each angle of the cage over a ball pitch, and its stiffness there.
 
@@ -303,8 +303,9 @@ def variable_compliance(
         raise InputError(f"bearing must be a BallBearing or a BearingPair, got {brief(bearing)}")
     require_count("samples", samples, 4)
     require_number("speed", speed)
-    angles = np.arange(samples) * bearing.pitch / samples
-    turned = [bearing.turned(angle) for angle in angles.tolist()]
+    balls: Any = bearing
+    angles = np.arange(samples) * balls.pitch / samples
+    turned = [balls.turned(angle) for angle in angles.tolist()]
     places = [equilibrium(one, load, speed).position for one in turned]
     stiffness = np.array(
         [film_coefficients(one, at, speed).stiffness for one, at in zip(turned, places, strict=True)]
@@ -318,7 +319,7 @@ def variable_compliance(
         swing_amplitude=2.0 / samples * np.abs(np.fft.rfft(position)[:, 1 : samples // 2]),
         mean_stiffness=stiffness.mean(axis=0),
         first_harmonic=2.0 / samples * np.stack([first.real, -first.imag]),
-        ball_pass_frequency=2.0 * np.pi / bearing.pitch * bearing.cage_ratio * abs(speed),
+        ball_pass_frequency=2.0 * np.pi / balls.pitch * balls.cage_ratio * abs(speed),
         load=np.asarray(load, dtype=float),
         speed=speed,
     )

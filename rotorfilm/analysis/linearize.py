@@ -16,6 +16,7 @@ from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization, Model
 from ..core.port import (
     Complex,
+    Reaction,
     coefficients_of,
     freedoms_of,
     has_own_stiffness,
@@ -24,6 +25,7 @@ from ..core.port import (
     rest_state,
     settled,
     small_motion,
+    static_slopes,
 )
 from ..core.readable import Readable
 from ..core.results import Equilibrium, FrequencyDependentCoefficients
@@ -198,7 +200,7 @@ class _Fit(NamedTuple):
 
 @arguments
 def film_system(
-    film: Any,
+    film: Reaction,
     at: Equilibrium,
     *,
     highest_frequency: float | None = None,
@@ -240,7 +242,7 @@ def film_system(
     coefficients: Any = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
-    by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4:]
+    by_speed = static_slopes(film, at.position, np.zeros(2), at.speed)[:, 4:]
     system = control_system(
         A,
         np.hstack([B, np.zeros((len(A), 1))]),

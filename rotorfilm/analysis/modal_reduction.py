@@ -22,7 +22,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from ..core.errors import ConvergenceError, UnloadedPadWarning
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
-from ..rotors import FlexibleRotor
+from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import (
     MatrixRotor,
     Structure,
@@ -317,6 +317,7 @@ def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
 
 def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
     """Return a rotor without the axial and torsional motion that no bearing reacts to: it does not whirl."""
+    require_flexible(rotor)
     if not rotor.assembly.others:
         return rotor
     require_reactions("bearings", bearings, heavy=True)

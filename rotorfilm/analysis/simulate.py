@@ -27,9 +27,10 @@ from ..core.errors import (
     require_positive,
 )
 from ..core.inputs import arguments
-from ..core.model import Array, Dynamic, Linearization, Model, stops
+from ..core.model import Array, Dynamic, Linearization, Model, Stepped, stops
 from ..core.port import (
     Bearings,
+    Reaction,
     clearance_of,
     freedoms_of,
     in_time,
@@ -54,7 +55,7 @@ from .stepped_run import simulate_steps
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Any,
+    reaction: Reaction | Stepped | Mapping[str, Reaction | Stepped],
     *,
     duration: float,
     samples: int = 1001,

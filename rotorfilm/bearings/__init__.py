@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from .films.law import FilmLaw as FilmLaw, FilmOptions, gap_shear, options, static_rate
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable
-    from .frequency_dependent import FrequencyDependentReaction as FrequencyDependentReaction
     from .journal import *
     from .linear import LinearBearing as LinearBearing, TabulatedBearing as TabulatedBearing
+    from .linear_system import FrequencyDependentReaction as FrequencyDependentReaction
     from .oil import Cooling as Cooling, Oil as Oil
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *

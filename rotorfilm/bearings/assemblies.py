@@ -387,7 +387,7 @@ class Series:
     outer : Reaction
         Such as a damper on its springs; a mass that it adds is added to the body.
     body : Body
-        Between both.
+        Between both, such as the outer ring of a ball bearing.
     inner : Reaction
         Such as a ball bearing; it adds no mass.
 

@@ -534,6 +534,14 @@ def _number(value: Any) -> str:
     return TOO_LARGE if NUMBER < size < math.inf else ""
 
 
+def _complex(value: Any) -> str:
+    """Check a finite number, real or complex."""
+    if not isinstance(value, complex | np.complexfloating):
+        return _number(value)
+    size: Any = abs(value)
+    return "" if size < NUMBER else "a single finite number"
+
+
 def _integer(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         return "an integer"
@@ -643,6 +651,7 @@ def _protocol(kind: type, strictly: bool) -> Check:
 
 SIMPLE: dict[Any, Check] = {
     float: _number,
+    complex: _complex,
     int: _integer,
     bool: _truth,
     str: _text,

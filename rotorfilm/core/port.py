@@ -292,7 +292,7 @@ def _planar(reaction: object, position: Array) -> tuple[Any, Any]:
 
 def is_warming(reaction: object) -> bool:
     """Return whether a reaction leaves the temperature of its film to its heat; then it has no own force."""
-    return bool(getattr(reaction, "is_warming", False))
+    return getattr(reaction, "is_warming", False) is True
 
 
 def in_time(reaction: Any) -> Any:

@@ -42,6 +42,7 @@ RIGHT = {
     "Callable": {"class"},
     "type": {"class"},
     "bool": {"true"},
+    "complex": {"complex"},
     "Any": set(WRONG),
     "object": set(WRONG),
 }
