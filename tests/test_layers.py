@@ -54,7 +54,6 @@ BETWEEN_FAMILIES = {
 }
 
 SAME_NAME = {
-    "frequency_dependent",
     "bearing",
     "bush",
     "contact",
