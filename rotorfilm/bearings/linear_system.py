@@ -134,6 +134,11 @@ class FrequencyDependentReaction:
             raise InputError(f"added_mass must be symmetric, got {self._mass.tolist()}")
         if self.state_names and len(self.state_names) != m:
             raise InputError(f"state_names must be empty or {m} names, got {brief(self.state_names)}")
+        if self.state_names and not _are_free(self.state_names, freedoms):
+            raise InputError(
+                f"state_names must differ from each other and from those of motions and forces, got "
+                f"{brief(self.state_names)}"
+            )
         if self.band is not None:
             require_rising("band", self.band, least=2)
 
@@ -180,8 +185,7 @@ class FrequencyDependentReaction:
             raise InputError(f"system must have one size, got {[len(part[0]) for part in matrices]} states")
         A, B, C, D = matrices[0] if single else map(np.array, zip(*matrices, strict=True))
         labels = tuple(systems[0].state_labels)
-        taken = {*place_names(wanted), "speed", *force_names(wanted)}
-        named = all(label.isidentifier() for label in labels) and not taken.intersection(labels)
+        named = all(label.isidentifier() for label in labels) and _are_free(labels, wanted)
         return cls(
             A=A, B=B, C=C, D=D, freedoms=wanted, speeds=speeds, state_names=labels if named else ()
         )  # fmt: skip
@@ -242,7 +246,7 @@ class FrequencyDependentReaction:
         InputError
             If an argument breaks its rule.
         ConvergenceError
-            If no number of poles is enough for the tolerance.
+            If no number of poles is enough for the tolerance, as of a mass that is far from symmetric.
         """
         known = require_rising("frequencies", frequencies, least=2)
         require_positive("frequencies[0]", float(known[0]))
@@ -261,6 +265,8 @@ class FrequencyDependentReaction:
             added = 0.5 * (fit.polynomial[2] + fit.polynomial[2].T)
             less = Z + known[:, None, None] ** 2 * added
             fit = rational_fit(known, less, scale, poles=len(fit.poles), tolerance=tolerance, powers=2)
+            if poles is None and fit.error > tolerance:
+                fit = rational_fit(known, less, scale, poles=None, tolerance=tolerance, powers=2)
         A, B, C, D = fit.realization()
         return cls(
             A=A,
@@ -436,6 +442,12 @@ class FrequencyDependentReaction:
         return NOMINAL_LENGTH * np.where(states > 0.0, states, fallback), NOMINAL_LENGTH * float(
             forces
         ) or 1.0
+
+
+def _are_free(labels: Sequence[str], freedoms: tuple[str, ...]) -> bool:
+    """Return whether names differ from each other and from those of inputs and outputs."""
+    taken = [*place_names(freedoms), "speed", *force_names(freedoms), *labels]
+    return len(set(taken)) == len(taken)
 
 
 def _matrices(name: str, system: Any, freedoms: tuple[str, ...]) -> tuple[Array, Array, Array, Array]:

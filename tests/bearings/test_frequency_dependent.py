@@ -336,6 +336,18 @@ def test_an_added_mass_of_a_table_is_that_of_the_reaction():
     assert response(reaction, 700j) == pytest.approx(rational(700j), rel=1e-6)
 
 
+def test_a_mass_that_is_not_symmetric_is_fitted_by_fractions_within_the_tolerance():
+    w, mass = np.linspace(10.0, 1000.0, 40), np.array([[30.0, 20.0], [-20.0, 30.0]])
+    flat = [np.repeat(one[None], 40, 0) for one in (2e7 * np.eye(2), 900.0 * np.eye(2), mass)]
+    reaction = Reaction.from_table(w, *flat, tolerance=1e-3)
+    assert reaction.error <= 1e-3
+    for s in (55j, 700j):
+        Z = 2e7 * np.eye(2) + s * 900.0 * np.eye(2) + s**2 * mass
+        assert response(reaction, s) + s**2 * reaction.mass(CENTER, CENTER) == pytest.approx(Z, abs=4e4)
+    with pytest.raises(ConvergenceError, match=r"tolerance must be within reach of .* got 1e-15: the least"):
+        Reaction.from_table(w, *flat, tolerance=1e-15)
+
+
 def delayed(s):
     return 1e6 * np.exp(-1e-4 * s) * np.eye(1)
 
@@ -410,6 +422,9 @@ WRONG = [
     (lambda: replace(SEAL, damping=1.0), r"damping must have shape \(2, 2\), got \(\)"),
     (lambda: replace(SEAL, added_mass=[[1.0, 2.0], [0.0, 1.0]]), "added_mass must be symmetric"),
     (lambda: replace(SEAL, state_names=("a",)), "state_names must be empty or 3 names"),
+    (lambda: replace(SEAL, state_names=("a", "b", "a")), "state_names must differ from each other"),
+    (lambda: replace(SEAL, state_names=("a", "vx", "c")), "state_names must differ .* of motions and forces"),
+    (lambda: replace(SEAL, state_names=("a", "b", "force_y")), "state_names must differ .* got .*force_y"),
     (lambda: replace(SEAL, band=(5.0, 5.0)), "band must be a list of rising numbers"),
     (lambda: replace(SEAL, speeds=[2.0, 1.0]), "speeds must be a list of rising numbers"),
     (lambda: replace(SEAL, freedoms=("y", "x")), "freedoms must be some of"),
