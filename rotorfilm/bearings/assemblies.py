@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from typing import Any, ClassVar, NamedTuple, cast
@@ -11,6 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import (
+    EquilibriumError,
+    FilmContactError,
     InputError,
     UndefinedDerivativeError,
     require_finite,
@@ -24,6 +27,7 @@ from ..core.model import Array, Linearization, static_linearization
 from ..core.port import (
     Force,
     PlanarReaction,
+    QuasiStatic,
     Reaction,
     Tangent,
     carries_load,
@@ -44,16 +48,20 @@ from ..core.port import (
     prepared_force,
     prepared_tangent,
     quasi_static,
+    require_range,
     require_reaction,
     require_terminals,
     rest_linearization,
+    rest_place,
     rest_state,
     static_force,
     static_slopes,
 )
+from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, force_names, place_names
 from ..native.film_call import FilmCall
 from ..native.spec import HasKernel, NativeSpec
+from .linear_system import HoldingStiffness
 from .reaction import InertialModel, broadcast_state, input_vector, mass_entries, mass_outputs
 
 
@@ -101,6 +109,68 @@ def _moved(part: Any, t: float, x: Array, u: Array) -> Array:
 def _named(prefix: str, part: Any) -> list[Signal]:
     """Return the states of a part with a prefix."""
     return [replace(signal, name=f"{prefix}_{signal.name}") for signal in part.states]
+
+
+def _leaking(part: Any) -> Any:
+    """Return a part with a small decay of those of its states that integrate, so that they have a rest."""
+    return getattr(part, "leaking", part)
+
+
+def _reached(reaction: Any, place: Array, speed: float) -> Array | None:
+    """Return a place from which a search for the rest of a reaction may begin; None where it has no force."""
+    with suppress(EquilibriumError, FilmContactError, UndefinedDerivativeError):
+        static_force(quasi_static(reaction), place, np.zeros_like(place), speed)
+        return place
+    return None
+
+
+def _told_place(part: Any, load: Array, speed: float) -> Array | None:
+    """Return where a part says that it rests under a load; None where it does not say or cannot carry it."""
+    with suppress(EquilibriumError):
+        told = rest_place(part, load.tolist(), speed)
+        return None if told is None else np.asarray(told, dtype=float)
+    return None
+
+
+class PartAtRest(NamedTuple):
+    """One of the reactions of another one, where a shaft at rest holds it: place (n,), and speed [rad/s]."""
+
+    reaction: Any
+    place: Array
+    speed: float
+
+    def settled(self, found: Equilibrium) -> Equilibrium:
+        """Return an equilibrium of the whole with the place, eccentricity ratio and film of this part."""
+        still = quasi_static(self.reaction)
+        x, y = (dict(zip(freedoms_of(still), self.place, strict=True)).get(axis, 0.0) for axis in PLANAR)
+        alone = replace(
+            found,
+            position=self.place,
+            speed=self.speed,
+            eccentricity_ratio=float(np.hypot(x, y)) / clearance_of(still),
+            minimum_film=float(minimum_film(still, self.place)),
+            reaction=still,
+        )
+        tell = getattr(still, "settled", None)
+        return alone if tell is None else cast(Equilibrium, tell(alone))
+
+
+class AssemblyAtRest(QuasiStatic):
+    """An assembly with its states at rest, which tells the films of its parts."""
+
+    def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
+        """Return about where the shaft rests; see `core.port`."""
+        return cast("Array | None", rest_place(self.reaction, load, speed))
+
+    def settled(self, found: Equilibrium) -> Equilibrium:
+        """Return an equilibrium with the least film and the largest eccentricity ratio of all parts."""
+        parts = [part.settled(found) for part in self.reaction.parts_at_rest(found.position, found.speed)]
+        return replace(
+            found,
+            eccentricity_ratio=max(one.eccentricity_ratio for one in parts),
+            minimum_film=min(one.minimum_film for one in parts),
+            reaction=self,
+        )
 
 
 class _Place(NamedTuple):
@@ -181,16 +251,16 @@ class SharedReaction(InertialModel):
             total[np.ix_(rows, rows, columns)] += one.mass_slopes(q[rows], v[rows], omega)
         return total
 
-    def require_range(self, frequency: float) -> None:
-        """Warn, or raise InputError, where the inertia of one ends, for whirl at [rad/s].
+    def require_range(self: Any, frequency: float) -> None:
+        """Warn, or raise InputError, where the model of one ends, for motion at [rad/s].
 
         Parameters
         ----------
         frequency : float [rad/s]
             Of the motion.
         """
-        for place in self._heavy:
-            place.reaction.require_range(frequency)
+        for one in self.reactions:
+            require_range(one, frequency)
 
 
 @quantities
@@ -321,6 +391,35 @@ class Parallel(SharedReaction):
         """Return the states of all that rest with the shaft at a place (n,)."""
         q = require_finite("position", position)
         return np.concatenate([rest_state(one, q[rows], speed) for one, rows, _, _ in self._places])
+
+    @cached_property
+    def leaking(self) -> Parallel:
+        """The same with a small decay of states where some integrate."""
+        parts = tuple(map(_leaking, self.reactions))
+        held = all(a is b for a, b in zip(parts, self.reactions, strict=True))
+        return self if held else replace(self, reactions=parts)
+
+    def at_rest(self) -> Any:
+        """Return the reaction without states: with those that rest at rest; itself where it has none."""
+        return AssemblyAtRest(self.leaking) if self.has_states else self
+
+    def parts_at_rest(self, position: Array, speed: float) -> list[PartAtRest]:
+        """Return its reactions under a shaft at rest at a place (n,)."""
+        return [PartAtRest(one, position[rows], speed) for one, rows, _, _ in self._places]
+
+    def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
+        """Return about where the shaft rests: where the first journal or ball bearing says that it does."""
+        push, place = np.array(load), np.zeros(len(self.freedoms))
+        for one, rows, _, _ in self._places:
+            told = _told_place(one, push[rows], speed) if {*PLANAR} <= {*freedoms_of(one)} else None
+            if told is not None:
+                place[rows] = told
+                return _reached(self, place, speed)
+        return None
+
+    def dynamic_stiffness(self, position: ArrayLike, speed: float) -> HoldingStiffness:
+        """Return K(s) of small motion; see `core.port`."""
+        return HoldingStiffness(self.rest_linearization(position, speed))
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
         """Return the derivatives with all states at rest; see `core.port`.
@@ -517,6 +616,49 @@ class Series:
         return np.concatenate(
             [b, np.zeros_like(b), rest_state(self.inner, inner, speed), rest_state(self.outer, outer, 0.0)]
         )
+
+    @cached_property
+    def leaking(self) -> Series:
+        """The same with a small decay of states where some integrate."""
+        outer, inner = _leaking(self.outer), _leaking(self.inner)
+        held = outer is self.outer and inner is self.inner
+        return self if held else replace(self, outer=outer, inner=inner)
+
+    def at_rest(self) -> AssemblyAtRest:
+        """Return the reaction without states: with those at rest under a shaft at rest."""
+        return AssemblyAtRest(self.leaking)
+
+    def parts_at_rest(self, position: Array, speed: float) -> list[PartAtRest]:
+        """Return both reactions under a shaft at rest at a place (n,)."""
+        inner, outer = self._apart(position, self._resting_body(position, speed))
+        return [PartAtRest(self.inner, inner, speed), PartAtRest(self.outer, outer, 0.0)]
+
+    def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
+        """Return about where the shaft rests: where the inner reaction says, on the outer one as springs."""
+        push = np.array(load)
+        place = _told_place(self.inner, push, speed)
+        if place is None:
+            return None
+        (own, other), still = self._rows, np.zeros(len(freedoms_of(self.outer)))
+        with suppress(EquilibriumError, UndefinedDerivativeError, np.linalg.LinAlgError):
+            slopes = _slopes_near_rest(self.outer, still, 0.0)[np.ix_(other, other)]
+            place[own] -= np.linalg.solve(slopes, push[own])
+        return _reached(self, place, speed)
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the model of one of both ends, for motion at [rad/s].
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion.
+        """
+        require_range(self.inner, frequency)
+        require_range(self.outer, frequency)
+
+    def dynamic_stiffness(self, position: ArrayLike, speed: float) -> HoldingStiffness:
+        """Return K(s) of small motion; see `core.port`."""
+        return HoldingStiffness(self.rest_linearization(position, speed))
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
         """Return the derivatives with all states at rest; see `core.port`."""

@@ -23,7 +23,7 @@ from ..core.errors import (
 )
 from ..core.inputs import quantities
 from ..core.model import Array, Linearization
-from ..core.port import Complex, QuasiStatic
+from ..core.port import Complex, QuasiStatic, StatesStiffness
 from ..core.signals import (
     FREEDOMS,
     PLANAR,
@@ -355,12 +355,19 @@ class FrequencyDependentReaction:
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states that rest with the shaft at a place (n,), shape (m,)."""
-        A, B, _, _ = self._leaking._system(speed)
+        A, B, _, _ = self.leaking._system(speed)
         return np.asarray(np.linalg.solve(A, -B @ require_finite("position", position)))
+
+    def dynamic_stiffness(self, position: ArrayLike, speed: float) -> HoldingStiffness:
+        """Return K(s) of small motion; see `core.port`."""
+        rest = self.rest_state(position, speed)
+        still = np.zeros(len(self.freedoms))
+        A, B, C, D = self.linearization(0.0, rest, [*require_finite("position", position), *still, speed])
+        return HoldingStiffness(Linearization(A, B, C[: len(still)], D[: len(still)]))
 
     def at_rest(self) -> QuasiStatic:
         """Return the reaction without states: with those at rest under a shaft at rest."""
-        return QuasiStatic(self._leaking)
+        return QuasiStatic(self.leaking)
 
     @property
     def has_inertia(self) -> bool:
@@ -417,7 +424,7 @@ class FrequencyDependentReaction:
         return [PchipInterpolator(self._known, table, axis=0) for table in self._matrices]
 
     @cached_property
-    def _leaking(self) -> FrequencyDependentReaction:
+    def leaking(self) -> FrequencyDependentReaction:
         """The same reaction with a small decay of all states where some integrate."""
         own = np.abs(np.linalg.eigvals(self._matrices.A))
         fast = own.max(axis=-1, initial=0.0)[..., None]
@@ -427,7 +434,7 @@ class FrequencyDependentReaction:
         slowest = np.where(integrates, np.inf, own).min(axis=-1)
         decay = LEAK * np.where(np.isfinite(slowest), slowest, 1.0)
         found = replace(self, A=self._matrices.A - decay[..., None, None] * np.eye(own.shape[-1]))
-        vars(found)["_leaking"] = found
+        vars(found)["leaking"] = found
         return found
 
     @cached_property
@@ -442,6 +449,22 @@ class FrequencyDependentReaction:
         return NOMINAL_LENGTH * np.where(states > 0.0, states, fallback), NOMINAL_LENGTH * float(
             forces
         ) or 1.0
+
+
+class HoldingStiffness(StatesStiffness):
+    """K(s) of states some of which may integrate: these hold the shaft in motion that is infinitely slow."""
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m]; InputError at 0 where a state integrates."""
+        try:
+            return super().__call__(s)
+        except InputError:
+            if s:
+                raise
+            raise InputError(
+                "frequency must be above 0: at 0 a state that integrates holds the shaft, with infinite "
+                f"stiffness, got {abs(s)!r}"
+            ) from None
 
 
 def _are_free(labels: Sequence[str], freedoms: tuple[str, ...]) -> bool:
