@@ -365,6 +365,12 @@ class FrequencyDependentReaction:
         A, B, C, D = self.linearization(0.0, rest, [*require_finite("position", position), *still, speed])
         return HoldingStiffness(Linearization(A, B, C[: len(still)], D[: len(still)]))
 
+    def force_noise(self, speed: float) -> float:
+        """Return what roundoff of a place leaves of the static force [N]: much where a state integrates."""
+        A, B, C, D = self.leaking._system(speed)
+        static = D - C @ np.linalg.solve(A, B)
+        return float(np.finfo(float).eps * NOMINAL_LENGTH * np.abs(static).max(initial=0.0))
+
     def at_rest(self) -> QuasiStatic:
         """Return the reaction without states: with those at rest under a shaft at rest."""
         return QuasiStatic(self.leaking)

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
 from rotorfilm import (
+    BallBearing,
     Cooling,
     EquilibriumError,
     FrequencyDependentReaction,
@@ -24,7 +25,9 @@ from rotorfilm import (
     ShortFilm,
     Sprung,
     SqueezeFilmDamper,
+    TiltingPadBearing,
     UndefinedDerivativeError,
+    ValidityWarning,
     coefficients,
     equilibrium,
     export_fmu,
@@ -35,7 +38,15 @@ from rotorfilm import (
 from rotorfilm.analysis import dynamic_stiffness
 from rotorfilm.analysis.compiled_rotor import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
-from rotorfilm.core.port import compiled_force, has_states, mass_of, quasi_static, rest_state, small_motion
+from rotorfilm.core.port import (
+    compiled_force,
+    has_states,
+    mass_of,
+    quasi_static,
+    require_range,
+    rest_state,
+    small_motion,
+)
 from rotorfilm.core.signals import force_outputs, journal_inputs, names
 
 CENTER, SPEED = np.zeros(2), 300.0
@@ -180,6 +191,117 @@ def test_a_journal_bearing_in_a_sprung_body_rests_where_both_carry_the_load():
     one = exact.stiffness + 200j * exact.damping
     whole = one - one @ np.linalg.solve(one + np.diag([6e6, 12e6]) - 2.0 * 200.0**2 * np.eye(2), one)
     assert_allclose(dynamic_stiffness(series, found, 200j), whole, rtol=1e-8)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_the_least_film_of_a_series_is_that_of_its_journal_bearing(beside):
+    load, springs = np.array([3000.0, -15000.0]), Sprung(reaction=DAMPER, stiffness=5e8)
+    alone, series = equilibrium(FILM, load, SPEED), Series(springs, Body(2.0), FILM)
+    assert alone.minimum_film < 2e-5
+    ring = RubRing(gap=5e-4, stiffness=1e7, radius=0.05)
+    found = equilibrium(Parallel((series, ring)) if beside else series, load, SPEED)
+    assert_allclose(found.position, alone.position + load / 5e8, rtol=1e-9)
+    assert_allclose(found.minimum_film, alone.minimum_film, rtol=1e-8)
+    assert_allclose(found.eccentricity_ratio, alone.eccentricity_ratio, rtol=1e-9)
+
+
+def test_the_least_film_of_a_series_is_that_of_its_damper_where_this_is_nearer_to_its_wall():
+    load = np.array([0.0, -200.0])
+    soft = Series(Sprung(reaction=DAMPER, stiffness=2e6), Body(2.0), FILM)
+    found = equilibrium(soft, load, SPEED)
+    assert equilibrium(FILM, load, SPEED).minimum_film > DAMPER.clearance - 1e-4
+    assert_allclose(found.minimum_film, DAMPER.clearance - 1e-4, rtol=1e-8)
+    assert_allclose(found.eccentricity_ratio, 1e-4 / DAMPER.clearance, rtol=1e-9)
+
+
+def test_the_rest_of_a_series_without_a_clearance_tells_the_film_of_its_parts():
+    load = np.array([50.0, -300.0])
+    alone, still = equilibrium(FILM, load, SPEED), quasi_static(Series(RING, Body(2.0), FILM))
+    found = still.settled(equilibrium(Series(RING, Body(2.0), FILM), load, SPEED))
+    assert_allclose(found.minimum_film, alone.minimum_film, rtol=1e-8)
+    assert_allclose(found.eccentricity_ratio, alone.eccentricity_ratio, rtol=1e-8)
+
+
+def test_the_least_film_on_pads_in_a_sprung_body_is_that_of_the_pads():
+    pads = TiltingPadBearing(radius=0.05, length=0.05, pad_clearance=1e-4, viscosity=0.02,
+                             pivots=(0.8, 2.4, 3.9, 5.5), extent=1.0, preload=0.3)  # fmt: skip
+    load = [0.0, -500.0]
+    alone, series = (
+        equilibrium(pads, load, SPEED),
+        Series(Sprung(reaction=DAMPER, stiffness=5e8), Body(2.0), pads),
+    )
+    found = equilibrium(series, load, SPEED)
+    assert_allclose([found.minimum_film, found.eccentricity_ratio],
+                    [alone.minimum_film, alone.eccentricity_ratio], rtol=1e-7)  # fmt: skip
+
+
+# Where balls with clearance rest, and reactions with states that integrate; the band of a part.
+
+
+LOOSE = BallBearing(balls=9, ball_diameter=7.9e-3, pitch_diameter=46e-3, internal_clearance=12e-6)
+DISK = Springs(("z", "tilt_x", "tilt_y"), (2e8, 5e4, 5e4), (0.0, 0.0, 0.0))
+
+
+def test_loose_balls_beside_a_thrust_bearing_rest_as_both_alone():
+    load = [10.0, -100.0]
+    place = equilibrium(LOOSE, load, SPEED).position
+    found = equilibrium(Parallel((DISK, LOOSE)), [*load, 1.0, 0.0, 5e-3], SPEED)
+    assert_allclose(found.position, [*place, 5e-9, 0.0, 1e-7], rtol=1e-8, atol=1e-18)
+
+
+def test_loose_balls_in_a_sprung_body_rest_where_both_carry_the_load():
+    load = np.array([10.0, -100.0])
+    found = equilibrium(Series(LinearBearing(stiffness=(1e7, 2e7)), Body(1.0), LOOSE), load, SPEED)
+    place = equilibrium(LOOSE, load, SPEED).position + load / [1e7, 2e7]
+    assert_allclose(found.position, place, rtol=1e-8)
+
+
+def test_where_a_reaction_says_that_it_rests_is_no_start_beyond_another_wall():
+    load = [0.0, -50.0]
+    tight = replace(FILM, clearance=5e-6)
+    told = Parallel((LOOSE, tight)).rest_place(load, SPEED)
+    assert np.hypot(*equilibrium(LOOSE, load, SPEED).position) > tight.clearance
+    assert told is None
+    assert equilibrium(Parallel((LOOSE, tight)), load, SPEED).residual < 1e-12
+
+
+MAGNET = FrequencyDependentReaction(
+    A=np.diag([0.0, 0.0, -100.0, -100.0]),
+    B=np.vstack([np.eye(2)] * 2),
+    C=np.hstack([-1e8 * np.eye(2), -1e7 * np.eye(2)]),
+    D=-1e6 * np.eye(2),
+    damping=1e3 * np.eye(2),
+)
+
+
+def test_a_state_that_integrates_beside_a_film_holds_the_shaft():
+    load, both = [0.0, -100.0], Parallel((FILM, MAGNET))
+    assert_allclose(equilibrium(both, load, SPEED).position, [0.0, -1e-13], rtol=1e-6, atol=1e-19)
+    whole = dynamic_stiffness(both, equilibrium(both, load, SPEED), 90j)
+    parts = [small_motion(one, CENTER, SPEED).stiffness(90j) for one in (FILM, MAGNET)]
+    assert_allclose(whole, sum(parts), rtol=1e-8)
+    for speed, nu in ((0.0, None), (SPEED, 0.0)):
+        with pytest.raises(InputError, match=r"frequency must be above 0: at 0 a state that integrates"):
+            coefficients(both, CENTER, speed, nu)
+
+
+def test_a_state_that_integrates_on_springs_leaves_the_springs():
+    load, springs = np.array([30.0, -100.0]), LinearBearing(stiffness=5e7)
+    series, turned = Series(springs, Body(1.0), MAGNET), Series(MAGNET, Body(1.0), springs)
+    for one in (series, turned):
+        assert_allclose(equilibrium(one, load, SPEED).position, load / 5e7, rtol=1e-6)
+        slow = coefficients(one, CENTER, SPEED, 0.0)
+        assert_allclose(slow.stiffness, 5e7 * np.eye(2), rtol=1e-9)
+        assert_allclose(slow.damping, -(5e7**2) / 1e8 * np.eye(2), rtol=1e-9)
+
+
+def test_the_band_of_every_part_is_kept():
+    banded, series = replace(SEAL, band=(10.0, 100.0)), Series(RING, Body(1.0), SEAL)
+    wholes = [Parallel((FILM, banded)), replace(series, inner=banded), replace(series, outer=banded)]
+    for one in (*wholes, Parallel((FILM, wholes[1]))):
+        require_range(one, 50.0)
+        with pytest.warns(ValidityWarning, match="frequency should be 10 to 100 rad/s"):
+            coefficients(one, CENTER, SPEED)
 
 
 def test_a_damper_without_springs_carries_no_load():
