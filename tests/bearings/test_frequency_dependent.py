@@ -167,7 +167,7 @@ def test_a_controller_that_integrates_holds_the_shaft_at_its_place():
 
 
 def test_a_stiffness_that_is_infinite_is_named():
-    with pytest.raises(InputError, match="frequency must be above 0: .* integrates"):
+    with pytest.raises(InputError, match=r"frequency must be above 0: .* integrates"):
         coefficients(magnet(92.8084), CENTER, 0.0)
 
 
