@@ -15,6 +15,7 @@ from rotorfilm.core import (
     static_linearization,
     stops,
 )
+from rotorfilm.core.port import require_reaction
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -31,7 +32,8 @@ def test_bearing_is_a_reaction_without_states():
 
 def test_rotor_is_dynamic_and_no_reaction():
     assert isinstance(ROTOR, Dynamic)
-    assert not isinstance(ROTOR, Reaction)
+    with pytest.raises(InputError, match=r"reaction must have no inputs but .*speed.*, got .*force_x"):
+        require_reaction("reaction", ROTOR)
     assert len(ROTOR.states) == len(ROTOR.initial_state)
 
 

@@ -329,3 +329,53 @@ def test_balls_with_five_freedoms_hold_a_flexible_shaft(tmp_path):
     with warnings.catch_warnings(action="ignore"):  # trial states of its integrator press the balls too hard
         found = fmpy.simulate_fmu(str(file), output=["rotor.left_z"], output_interval=2.5e-4, stop_time=5e-4)
     assert_allclose(found["rotor.left_z"][-1], run["left_z"][-1], rtol=1e-5)
+
+
+def test_what_a_planar_analysis_cannot_take_is_refused():
+    disk = rf.RigidShaft(
+        mass=12.0,
+        diametral_inertia=0.08,
+        polar_inertia=0.14,
+        stations=(("", 0.0),),
+        speed=SPEED,
+        axial=True,
+        feels_tilt=True,
+    )
+    film = replace(STRIPS.film, length=0.02)
+    with pytest.raises(
+        InputError, match=r"film must react to x and y alone in a co-simulation, got .*force_z"
+    ):
+        rf.cosimulate(disk, rf.Parallel((film, THRUST)), duration=1e-3, macro_step=1e-5)
+    with pytest.raises(
+        InputError, match="coefficients must be those of x and y, got those of z, tilt_x, tilt_y"
+    ):
+        rf.critical_mass(coefficients(THRUST, np.zeros(3), SPEED))
+
+    class Crossed(ThrustSpring):
+        freedoms = ("tilt_x", "z", "tilt_y")
+
+    with pytest.raises(InputError, match=r"freedoms of reaction must be some of .* in this order"):
+        equilibrium(Crossed(), np.zeros(3), SPEED)
+
+
+def test_no_place_is_an_equilibrium_that_is_none():
+    pushing = rf.as_reaction(lambda z, vz, speed: (5.0,), clearance=1e-4, freedoms=("z",))
+    with pytest.raises(rf.EquilibriumError, match="the least imbalance found is"):
+        equilibrium(pushing, [0.0], SPEED)
+    weak = rf.as_reaction(lambda z, *_: (-1e6 * z,), clearance=1e-4, freedoms=("z",))
+    assert equilibrium(weak, [50.0], SPEED).position == pytest.approx([5e-5], rel=1e-9)
+    with pytest.warns(rf.ValidityWarning, match="statically unstable"):
+        equilibrium(rf.LinearBearing(stiffness=(-1e6,), freedoms=("z",)), [1.0], SPEED)
+
+
+def test_states_that_grow_by_themselves_are_counted():
+    one = np.eye(2)
+    growing = rf.FrequencyDependentReaction(
+        A=np.diag([40.0, 60.0]), B=one, C=1e9 * one, D=-1e8 * one, damping=1e4 * one
+    )
+    rotor = rf.JeffcottRotor(mass=20.0, journal_mass=2.0, stiffness=2e7, speed=SPEED)
+    A = mount(rotor, {"": growing}).linearization(0.0, np.zeros(10), []).A
+    assert np.linalg.eigvals(A).real.max() > 10.0
+    found = rotor_threshold(rotor, {"": growing}, np.linspace(100.0, 400.0, 4))
+    assert found.speed is None
+    assert "unstable" in found.reason

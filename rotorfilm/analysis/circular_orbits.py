@@ -157,7 +157,7 @@ def synchronous_orbits(
     ----------
     rotor : RigidRotor
         At constant speed, without static load (preloaded springs carry the weight).
-    reaction : Any
+    reaction : Reaction
         Isotropic: a `PorousDamper`, usually inside a `Sprung`.
     unbalances : array_like, shape (n,) [kg m], optional
         Positive; the rotor's own by default.
@@ -465,7 +465,7 @@ def polar_acceleration(rotor: RigidRotor, reaction: Any, t: float, polar: Array)
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Any
+    reaction : Reaction
     t : float [s]
     polar : array_like, shape (4,)
         Eccentricity ratio [1], angle phi from +x [rad] and their rates [1/s, rad/s]; not at the center.
@@ -686,7 +686,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
 
     Parameters
     ----------
-    reaction : Any
+    reaction : Reaction
         Isotropic.
     eccentricity_ratio : float [1]
         Radius of the orbit / clearance, above 0 and below 1.
@@ -731,7 +731,7 @@ def small_motion_transmissibility(
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Any
+    reaction : Reaction
         Film and springs, isotropic at the center, without cross coupling: a damper with a full film.
     name : str, optional
 
@@ -768,7 +768,7 @@ def orbit_system(
     Parameters
     ----------
     rotor : RigidRotor
-    reaction : Any
+    reaction : Reaction
         Film and springs.
     orbit : CircularOrbit
         As `synchronous_orbits(...).at(...)` returns them, stable or not.

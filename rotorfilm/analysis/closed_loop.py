@@ -77,7 +77,9 @@ def closed_loop(
     seen = indices("rotor must have the outputs", names(rotor.outputs), motion)
     film = linearize(reaction, at)
     states = range(len(rotor.states), len(rotor.states) + film.nstates)
-    shaft = rotor.linearization(0.0, rotor.initial_state, -at.load)
+    pull = np.zeros(len(rotor.inputs))
+    pull[pushed] = -at.load
+    shaft = rotor.linearization(0.0, rotor.initial_state, pull)
     # The speed is a parameter of the linear loop, whatever the rotor says about it.
     still = len(shaft.C)
     shaft = shaft._replace(

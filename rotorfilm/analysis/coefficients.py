@@ -108,9 +108,10 @@ def film_coefficients(
 def _held(film: Any, position: Array, speed: float) -> Coefficients:
     """Return K and C of a film with its states, if there are some, held."""
     n, still = len(position), np.zeros_like(position)
-    slopes = static_slopes(film, position, still, speed)
     if has_states(film):
         slopes = rest_linearization(film, position, speed).D
+    else:
+        slopes = static_slopes(film, position, still, speed)
     found = Coefficients(
         stiffness=-slopes[:, :n],
         damping=-slopes[:, n : 2 * n],
@@ -224,6 +225,7 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),
         damping=np.array([point.damping for point in points]),
+        freedoms=freedoms_of(reaction),
     )
 
 

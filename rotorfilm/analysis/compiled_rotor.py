@@ -489,7 +489,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     ----------
     rotor : Dynamic
         With one station left, the one without a name.
-    reaction : Any
+    reaction : Reaction
         The bearing of that.
     """
     if not _is_linear(rotor) or not _is_compiled(reaction):

@@ -173,7 +173,7 @@ class ExcitedRotor(NamedTuple):
 
     Attributes
     ----------
-    reaction : Any
+    reaction : Reaction
         What holds it.
     mass : float [kg]
     speed : float [rad/s]

@@ -57,6 +57,11 @@ UNLOADED = (
 )
 """Why a load of zero has no equilibrium."""
 
+UNSTABLE = (
+    "the equilibrium at {} m and {!r} rad/s is statically unstable: the force of the film drives the journal "
+    "away from it"
+)
+
 _KELVIN = 4e-12
 _FIRST_ANGLE = math.pi / 3.0
 _ALONG, _NEAR_WALL = 0.1, 0.02
@@ -69,7 +74,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
 
     Parameters
     ----------
-    reaction : Any
+    reaction : Reaction
         The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included; film force + load = 0. For a reaction with
@@ -101,7 +106,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
     angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
     as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Balls,
-    among which there may be no force at all, find their rest themselves (`core.model`).
+    among which there may be no force at all, find their rest themselves (`core.port`).
     """
     require_reaction("reaction", reaction, heavy=True)
     freedoms = freedoms_of(reaction)
@@ -139,10 +144,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     if not found.residual <= MOST_LEFT:
         raise EquilibriumError(_not_found(load, speed, found.residual))
     if is_unstable(best):
-        warn_user(
-            f"the equilibrium at {list(best.position)} m and {speed!r} rad/s is statically unstable: the "
-            "force of the film drives the journal away from it"
-        )
+        warn_user(UNSTABLE.format(list(best.position), speed))
     tell = getattr(film, "settled", None)
     return found if tell is None else tell(found)
 
@@ -165,25 +167,34 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
     def left(at: Array) -> Array:
         return static_force(reaction, at, still, speed) + load
 
-    size, steps = float(np.linalg.norm(load * way)), 0
+    force = load if load.any() else np.array([signal.nominal for signal in reaction.outputs[:n]])
+    size, steps = float(np.linalg.norm(force * way)), 0
     missing = left(place)
     while float(np.linalg.norm(missing * way)) > _ENOUGH * size and steps < _PLACES:
         slopes = static_slopes(reaction, place, still, speed)[:, :n]
         step = np.linalg.lstsq(slopes * np.outer(way, way), -missing * way, rcond=1e-14)[0] * way
         for halving in range(_BACK):
             trial = place + 0.5**halving * step
-            with suppress(FilmContactError, ConvergenceError):
+            with suppress(FilmContactError, ConvergenceError, EquilibriumError, InputError):
                 other = left(trial)
                 if np.linalg.norm(other * way) < np.linalg.norm(missing * way):
                     place, missing, steps = trial, other, steps + 1
                     break
         else:
             break
-    imbalance = float(np.linalg.norm(missing * way)) / size if size else 0.0
+    imbalance = float(np.linalg.norm(missing * way)) / size
     if not imbalance <= max(
         _ENOUGH, min(force_noise(reaction, speed) * way.max() / max(size, 1e-300), MOST_LEFT)
     ):
         raise EquilibriumError(_not_found(load, speed, imbalance))
+    if clearance_of(reaction) < math.inf and not relative_film(reaction, place) > 0.0:
+        raise EquilibriumError(
+            f"load must be within what the reaction carries at speed {speed!r} rad/s inside its clearance "
+            f"{clearance_of(reaction):.6g} m, got load {load.tolist()}, which takes it to {place.tolist()}"
+        )
+    slopes = static_slopes(reaction, place, still, speed)[:, :n] * np.outer(way, way)
+    if np.linalg.eigvals(slopes).real.max() > _NEUTRAL_SLOPE * np.abs(slopes).max():
+        warn_user(UNSTABLE.format(place.tolist(), speed))
     return _told(reaction, place, load, speed, imbalance, steps)
 
 
@@ -193,7 +204,9 @@ def _told(
     """Return a place of any freedoms as an equilibrium."""
     freedoms, clearance = freedoms_of(reaction), clearance_of(reaction)
     planar = freedoms[:2] == PLANAR
-    distance = math.hypot(*place[:2]) if planar else 0.0
+    distance = math.hypot(
+        *(part for name, part in zip(freedoms, place.tolist(), strict=True) if name in PLANAR)
+    )
     angle = 0.0
     if planar and distance and np.any(load[:2]):
         turned = math.atan2(place[1], place[0]) - math.atan2(load[1], load[0])

@@ -87,7 +87,14 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
 
     reference = np.linalg.eigvals(system.state_matrix())
     frequencies = _frequencies(reference, values, abs(at.speed))
-    return growing_count(ratio, frequencies, int(np.sum(reference.real > 0.0)))
+    known = int(np.sum(reference.real > 0.0)) + sum(_growing_poles(motion) for _, motion in films.values())
+    return growing_count(ratio, frequencies, known)
+
+
+def _growing_poles(motion: DynamicStiffness) -> int:
+    """Return how many states of a bearing grow by themselves: the phase counts them as missing."""
+    at = getattr(motion, "at", None)
+    return 0 if at is None or not len(at.A) else int(np.sum(np.linalg.eigvals(at.A).real > 0.0))
 
 
 def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, DynamicStiffness]:
@@ -242,7 +249,8 @@ def rigid_growing(film: FrequencyDependentCoefficients, mass: float) -> int:
     top = _TOP * max(own, c / mass, speed)
     low = min(own, speed) * 10.0 ** (-0.5 * _DECADES)
     waves = np.arange(1, 25) * 0.125 * speed
-    return growing_count(ratio, np.unique([0.0, *np.geomspace(low, top, 24), *waves[waves < top]]))
+    frequencies = np.unique([0.0, *np.geomspace(low, top, 24), *waves[waves < top]])
+    return growing_count(ratio, frequencies, _growing_poles(film.dynamic_stiffness))
 
 
 def _pencil(stiffness: np.ndarray, damping: np.ndarray, mass: float) -> NDArray[np.complex128]:

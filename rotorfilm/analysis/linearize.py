@@ -22,6 +22,7 @@ from ..core.port import (
     has_own_stiffness,
     has_states,
     input_of,
+    require_reaction,
     rest_state,
     settled,
     small_motion,
@@ -235,6 +236,7 @@ def film_system(
     exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
     the fit, and its damping in fast motion is positive.
     """
+    require_reaction("film", film, heavy=True, planar=True)
     if not has_states(film):
         raise InputError(f"film must be a film that remembers, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")

@@ -113,6 +113,9 @@ def remembering(at: RotorEquilibrium) -> dict[str, FrequencyDependentCoefficient
 LIGHT = 0.3
 """Damping ratio up to which whirl of the states of films counts as motion of the rotor."""
 
+GROWING = 1e-9
+"""Size of a real exponent, over the largest, above which one that is positive counts as growing."""
+
 
 def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarray, np.ndarray]:
     """Return whirl of a rotor and the states of its films as one linear system, where these are known.
@@ -120,7 +123,7 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
     Returns
     -------
     values : ndarray, shape (m,) [1/s]
-        Lightly damped ones, one of each pair.
+        Lightly damped ones, one of each pair, and those that grow without whirl.
     shapes : ndarray, shape (N, m)
         Of the coordinates of the rotor.
     """
@@ -147,7 +150,8 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
         whole[size : 2 * size, 2 * size :] = np.linalg.solve(system.mass, np.hstack(columns))
         whole[2 * size :, : 2 * size] = np.vstack(felt)
     values, vectors = np.linalg.eig(whole)
-    light = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
+    swings = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
+    light = swings | ((values.imag == 0.0) & (values.real > GROWING * np.abs(values).max()))
     return values[light].astype(complex), vectors[:size, light].astype(complex)
 
 

@@ -14,8 +14,9 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from ..core.errors import AbsentError, InputError
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Bearings, carries_load
+from ..core.port import Bearings, carries_load, freedoms_of
 from ..core.readable import Drawable
+from ..core.signals import PLANAR
 from ..rotors import ShaftRotor, Station
 from ..rotors.structure import dense_matrix, in_planes, mean_plane
 from .modal_reduction import BandedCholesky, modes_near
@@ -116,7 +117,8 @@ def _on_bearings(
             "bearings of the rotor too, or none and in `supports` the stations that hold it"
         )
     at = rotor_equilibrium(rotor, bearings, speed)
-    return at.displacement, {name: load[:2] for name, load in at.loads.items()}
+    held = [name for name, film in at.coefficients.items() if freedoms_of(film)[:2] == PLANAR]
+    return at.displacement, {name: at.loads[name][:2] for name in held}
 
 
 def _on_rigid(rotor: ShaftRotor, holding: Sequence[Station]) -> tuple[Array, dict[str, Array]]:

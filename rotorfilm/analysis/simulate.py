@@ -77,7 +77,7 @@ def simulate(
     ----------
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
-    reaction : Any, JFOFilm, or mapping of str to either
+    reaction : Reaction, JFOFilm, or mapping of str to either
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
         balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
         for each station by name; `mount` takes those of some stations where the last is of another kind.

@@ -18,9 +18,10 @@ from scipy.sparse.linalg import splu
 from ..core.errors import InputError, require_count, require_finite, require_positive, warn_user
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Bearings
+from ..core.port import Bearings, freedoms_of
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
+from ..core.signals import PLANAR
 from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
@@ -246,7 +247,8 @@ def _require_covered(speeds: Array, minimum_speed: float, maximum_speed: float) 
 
 
 def _is_displacement(name: str) -> bool:
-    return name.rpartition("_")[2] in ("x", "y") and not name.endswith(("force_x", "force_y"))
+    other = [f"{kind}_{axis}" for kind in ("force", "moment", "tilt", "tilt_rate") for axis in "xy"]
+    return name.rpartition("_")[2] in ("x", "y") and not name.endswith(tuple(other))
 
 
 def _peaks(
@@ -527,6 +529,8 @@ def _shape(rotor: ShaftRotor, at: RotorEquilibrium, mode: int) -> Array:
     n, nodes = len(full.coordinates), len(rotor.elements) + 1
     stiffness, mass = mean_plane(full.stiffness), mean_plane(full.mass)
     for name, film in at.coefficients.items():
+        if freedoms_of(film)[:2] != PLANAR:
+            continue
         row = journal_rows(full, name)[:1, :n]
         stiffness = stiffness + 0.5 * float(np.trace(film.stiffness[:2, :2])) * sparse.csr_array(row.T @ row)
     _, modes = lowest_modes(stiffness, mass, mode)
@@ -549,7 +553,8 @@ def _lobes(shape: Array) -> Iterator[int]:
 
 def _mass(rotor: ShaftRotor, at: RotorEquilibrium, node: int, peaks: list[int]) -> float:
     """Return the mass that an unbalance at a node is for [kg]."""
-    stations = {s.node: at.loads[s.name] for s in rotor.stations if s.name in at.loads}
+    held = [name for name, film in at.coefficients.items() if freedoms_of(film)[:2] == PLANAR]
+    stations = {s.node: at.loads[s.name] for s in rotor.stations if s.name in held}
     first, last = min(stations), max(stations)
     if not first <= node <= last:
         return _overhung(rotor, first if node < first else last, left=node < first)

@@ -20,6 +20,7 @@ from ..core.errors import (
     InputError,
     UnloadedPadWarning,
     ValidityWarning,
+    brief,
     require_finite,
     require_positive,
 )
@@ -30,6 +31,7 @@ from ..core.port import (
     Reaction,
     clearance_of,
     coefficients_of,
+    freedoms_of,
     has_own_stiffness,
     has_states,
     require_reaction,
@@ -45,6 +47,7 @@ from ..core.results import (
     InertialCoefficients,
     WhirlThreshold,
 )
+from ..core.signals import PLANAR
 from .coefficients import film_coefficients
 from .equilibrium import checked_load, equilibrium
 
@@ -66,7 +69,7 @@ def whirl_threshold(
 
     Parameters
     ----------
-    reaction : Any
+    reaction : Reaction
         The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
         of one that conserves its oil, rotor and oil by K(s): the result is a `VerifiedThreshold`.
     load : array_like, shape (2,) [N]
@@ -107,6 +110,8 @@ def whirl_threshold(
     require_reaction("reaction", reaction, planar=True)
     require_positive("mass", mass)
     force = checked_load(load)
+    if not clearance_of(reaction) < math.inf:
+        raise InputError(f"reaction must have a clearance, which scales the search, got {brief(reaction)}")
     speeds = _speeds(
         *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (clearance_of(reaction) * mass)))
     )
@@ -372,6 +377,10 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
     (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
     """
+    if freedoms_of(coefficients) != PLANAR:
+        raise InputError(
+            f"coefficients must be those of x and y, got those of {', '.join(freedoms_of(coefficients))}"
+        )
     told = getattr(coefficients, "dynamic_stiffness", None)
     if isinstance(coefficients, InertialCoefficients) or isinstance(told, InertialStiffness):
         raise InputError(

@@ -284,7 +284,7 @@ class KernelReaction(StaticReaction):
         return force
 
     def prepare_tangent(self: Any) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
+        """Return force and derivatives as one function of five numbers; see `core.port.Reaction`."""
         call, report = self.kernel.tangent, self.report
 
         def tangent(

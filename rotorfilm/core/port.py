@@ -25,7 +25,7 @@ from .errors import (
 )
 from .model import Array, Dynamic, Linearization, Model, static_linearization
 from .results import FrequencyDependentCoefficients, ReducedCoefficients
-from .signals import PLANAR, Signal, force_names, names, place_names
+from .signals import PLANAR, Signal, checked_freedoms, force_names, names, place_names
 
 Complex = NDArray[np.complex128]
 
@@ -97,7 +97,7 @@ Bearings = Mapping[str, Reaction]
 
 def freedoms_of(reaction: object) -> tuple[str, ...]:
     """Return the motions of the shaft that a reaction reacts to."""
-    return getattr(reaction, "freedoms", PLANAR)
+    return tuple(getattr(reaction, "freedoms", PLANAR))
 
 
 def clearance_of(reaction: object) -> float:
@@ -133,6 +133,10 @@ def require_reaction(
     if not (moves or rests) or isinstance(value, type):
         require_kind(name, value, Reaction, "a Reaction such as a JournalBearing, or what as_reaction makes")
         raise InputError(f"{name} must be a Reaction such as a JournalBearing, got {brief(value)}")
+    if freedoms_of(value) != PLANAR:
+        checked_freedoms(freedoms_of(value), f"freedoms of {name}")
+    if moves and not (freedoms_of(value) == PLANAR and hasattr(value, "force")):
+        require_terminals(name, value)
     if planar and freedoms_of(value) != PLANAR:
         raise InputError(
             f"{name} must react to x and y alone here, got one of {', '.join(freedoms_of(value))}: simulate, "
@@ -237,22 +241,28 @@ def is_constant(reaction: object) -> bool:
 
 
 def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-    """Return force and moment of a reaction without states on the shaft, shape (n, ...) [N], [N m]."""
+    """Return force and moment of a reaction on the shaft, its states held, shape (n, ...) [N], [N m]."""
     law = getattr(reaction, "force", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
     n = len(freedoms_of(reaction))
-    return _each(lambda u: reaction.output(0.0, np.zeros(0), u)[:n], input_of(position, velocity, speed))
+    x = _first_state(reaction)
+    return _each(lambda u: reaction.output(0.0, x, u)[:n], input_of(position, velocity, speed))
 
 
 def static_slopes(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-    """Return the derivatives of that by places, rates and speed, shape (n, 2 n + 1, ...)."""
+    """Return the derivatives of `static_force` by places, rates and speed, shape (n, 2 n + 1, ...)."""
     law = getattr(reaction, "jacobian", None)
     if law is not None:
         return np.asarray(law(position, velocity, speed))
     n = len(freedoms_of(reaction))
-    at = input_of(position, velocity, speed)
-    return _each(lambda u: reaction.linearization(0.0, np.zeros(0), u).D[:n, : 2 * n + 1], at)
+    at, x = input_of(position, velocity, speed), _first_state(reaction)
+    return _each(lambda u: reaction.linearization(0.0, x, u).D[:n, : 2 * n + 1], at)
+
+
+def _first_state(reaction: Any) -> Array:
+    """Return the states that a reaction starts with, at which those of one that has some are held."""
+    return np.asarray(getattr(reaction, "initial_state", np.zeros(0)), dtype=float)
 
 
 def _each(law: Callable[[Array], Array], inputs: Array) -> Array:
@@ -302,7 +312,7 @@ def relative_film(reaction: Any, position: Array) -> float:
 def _planar(reaction: object, position: Array) -> tuple[Any, Any]:
     """Return x and y of a place, 0 for one that is no freedom."""
     freedoms = freedoms_of(reaction)
-    if freedoms is PLANAR:
+    if freedoms == PLANAR:
         return position[0], position[1]
     still = np.zeros(np.shape(position)[1:])
     x, y = (position[freedoms.index(axis)] if axis in freedoms else still for axis in PLANAR)
@@ -667,6 +677,12 @@ class QuasiStatic:
     def inputs(self) -> tuple[Signal, ...]:
         """Those of the reaction."""
         signals: tuple[Signal, ...] = self.reaction.inputs
+        return signals
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Those of the reaction."""
+        signals: tuple[Signal, ...] = self.reaction.outputs
         return signals
 
     def minimum_film(self, position: Array) -> Array:

@@ -17,7 +17,18 @@ from scipy.linalg import expm
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints
 from ..core.port import in_time
-from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, MASS_OUTPUTS, MOTION_NAMES, indices, names, units
+from ..core.signals import (
+    FORCE_OUTPUTS,
+    FREEDOMS,
+    JOURNAL_INPUTS,
+    MASS_OUTPUTS,
+    MOTION_NAMES,
+    PLANAR,
+    force_names,
+    indices,
+    names,
+    units,
+)
 from ..fmu.reference import advance
 from ..native.library import master
 from ..native.spec import HasKernel
@@ -80,6 +91,7 @@ def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
     motions, forces = zip(*(station_names(station) for station in films), strict=True)
     taken, told = rotor
     for (station, (inputs, outputs)), motion, force in zip(films.items(), motions, forces, strict=True):
+        require_planar(inputs, outputs)
         indices("rotor must have the inputs", taken, force)
         indices("film must have the outputs", outputs, FORCE_OUTPUTS)
         require_no_mass(outputs, taken)
@@ -91,6 +103,17 @@ def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
         tuple(name for own in motions for name in own[:2]),
         tuple(name for own in motions for name in own[2:]),
     )
+
+
+def require_planar(inputs: Sequence[str], outputs: Sequence[str]) -> None:
+    """Raise InputError where a film has a further freedom than x, y, by the names of its signals."""
+    further = [name for name in FREEDOMS if name not in PLANAR]
+    known = [name for name in (*inputs, *outputs) if name in (*further, *force_names(further))]
+    if known:
+        raise InputError(
+            f"film must react to x and y alone in a co-simulation, got the signals {known}: simulate, and "
+            "mount(rotor, ...) in one FMU, take other freedoms"
+        )
 
 
 def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:

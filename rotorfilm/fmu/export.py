@@ -15,8 +15,8 @@ from ..core.errors import FmuError, InputError, require_finite, require_positive
 from ..core.files import write_atomically
 from ..core.inputs import arguments, quantity
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped
-from ..core.port import in_time
-from ..core.signals import Signal, indices, names
+from ..core.port import freedoms_of, in_time, inertial
+from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec, sized_spec
 from .archive import copyright_line, to_zip
 from .native.native_backend import Export, native_contents
@@ -155,6 +155,11 @@ def exported_subject(model: Any) -> Model | Stepped:
         )
     if subject.states and not isinstance(subject, Dynamic):
         raise FmuError(f"model must have initial_state and derivative, as it has states, got {model!r}")
+    if inertial(subject) is not None and freedoms_of(subject) != PLANAR:
+        raise FmuError(
+            f"model must not add mass to motions beside x and y, which an FMU cannot tell, got {model!r}: "
+            "mount(rotor, ...) has both in one FMU"
+        )
     return subject
 
 

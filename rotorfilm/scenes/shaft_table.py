@@ -361,7 +361,7 @@ class SpeedRangeTable:
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(ShaftRotor, without=("speed", "stations", "gravity", "initial"))
+@fields_of(ShaftRotor, without=("speed", "stations", "gravity", "initial", "axial", "torsional"))
 class ShaftTable(Taking):
     """`[shaft]`: a flexible rotor in its bearings.
 

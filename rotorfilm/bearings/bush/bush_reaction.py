@@ -506,7 +506,7 @@ class BushReaction(Called):
         return self.initial_state
 
     def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
-        """Return where the shaft rests [m] with the wear at t = 0; see `core.model`."""
+        """Return where the shaft rests [m] with the wear at t = 0; see `core.port`."""
         return self._liner.resting(load, speed, self.initial_state)
 
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:

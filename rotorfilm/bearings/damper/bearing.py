@@ -310,7 +310,7 @@ class SqueezeFilmDamper(InertialModel):
         return damper_spec(self)
 
     def portable(self) -> Self:
-        """Return this damper with a film that carries the table it needs; see `model.Reaction`."""
+        """Return this damper with a film that carries the table it needs; see `core.port.Reaction`."""
         carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
 

@@ -201,7 +201,7 @@ class JournalBearing(FilmReaction, WarmBearing):
         return journal_spec(kernel, tables, dimensions, fixed=bool(tables) and "range" not in tables)
 
     def portable(self) -> JournalBearing:
-        """Return this bearing with a film that carries the table it needs; see `model.Reaction`."""
+        """Return this bearing with a film that carries the table it needs; see `core.port.Reaction`."""
         film = self.fitted_film
         carried = self._options.tabulated(self.slenderness) or film
         return self if carried is film else replace(self, film=carried)

@@ -419,7 +419,7 @@ class FrozenFilm(StaticReaction):
         return np.stack([self._response(*state)[:, columns] for state in states], axis=-1)
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
+        """Return force and derivatives as one function of five numbers; see `core.port.Reaction`."""
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float
@@ -431,7 +431,7 @@ class FrozenFilm(StaticReaction):
         return tangent
 
     def rest_place(self, load: tuple[float, float], speed: float) -> tuple[float, float] | None:
-        """Return about where a journal rests [m]: where the film is frozen; see `core.model`."""
+        """Return about where a journal rests [m]: where the film is frozen; see `core.port`."""
         return self.frozen_at
 
     def solve(self, eccentricity: Array, squeeze: Array, speed: float) -> FilmSolution:

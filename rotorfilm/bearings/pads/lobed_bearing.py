@@ -379,7 +379,7 @@ class LobedBearing(FilmReaction, PadBearing):
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, self.dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
-        """Return this bearing with a film that carries the maps it needs; see `model.Reaction`."""
+        """Return this bearing with a film that carries the maps it needs; see `core.port.Reaction`."""
         return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
 
 

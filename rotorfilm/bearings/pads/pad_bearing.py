@@ -124,7 +124,7 @@ class PadBearing(WarmBearing):
         raise InputError(f"bearing must have slopes of its heat, as a LobedBearing, got a {kind}")
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff leaves of the force [N], as pads press each other; see `model.Reaction`."""
+        """Return what roundoff leaves of the force [N], as pads press each other; see `core.port`."""
         return _ROUNDOFF * self.force_scale * abs(speed)
 
 

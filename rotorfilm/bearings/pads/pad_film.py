@@ -188,7 +188,7 @@ def fitted_pad_film(
 
 
 def with_pad_tables(film: PadFilm, extents: Sequence[float], slenderness: float) -> PadFilm:
-    """Return a film law that carries the maps of pads of these extents [rad]; see `model.Reaction`."""
+    """Return a film law that carries the maps of pads of these extents [rad]; see `core.port.Reaction`."""
     if not isinstance(film, PadMapFilm):
         return film
     return replace(film, tables=tuple(film.table(extent, slenderness) for extent in dict.fromkeys(extents)))

@@ -334,7 +334,7 @@ class TiltingPadBearing(Called, PadBearing):
         )
 
     def portable(self) -> TiltingPadBearing:
-        """Return this bearing with a film that carries the map it needs; see `model.Reaction`."""
+        """Return this bearing with a film that carries the map it needs; see `core.port.Reaction`."""
         return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
 
     @property

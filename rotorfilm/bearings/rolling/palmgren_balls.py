@@ -82,7 +82,7 @@ class PalmgrenBalls(StaticReaction):
         """Accept every position: balls push back wherever the shaft goes."""
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.Reaction`."""
+        """Return force and derivatives as one function of five numbers; see `core.port.Reaction`."""
         constant, damping = self.constant, self.damping
 
         def tangent(
