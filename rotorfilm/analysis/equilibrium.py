@@ -195,7 +195,9 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
     slopes = static_slopes(reaction, place, still, speed)[:, :n] * np.outer(way, way)
     if np.linalg.eigvals(slopes).real.max() > _NEUTRAL_SLOPE * np.abs(slopes).max():
         warn_user(UNSTABLE.format(place.tolist(), speed))
-    return _told(reaction, place, load, speed, imbalance, steps)
+    found = _told(reaction, place, load, speed, imbalance, steps)
+    tell = getattr(reaction, "settled", None)
+    return found if tell is None else tell(found)
 
 
 def _told(
