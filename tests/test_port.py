@@ -370,12 +370,19 @@ def test_no_place_is_an_equilibrium_that_is_none():
 
 def test_states_that_grow_by_themselves_are_counted():
     one = np.eye(2)
-    growing = rf.FrequencyDependentReaction(
-        A=np.diag([40.0, 60.0]), B=one, C=1e9 * one, D=-1e8 * one, damping=1e4 * one
-    )
+    growing = rf.FrequencyDependentReaction(A=40.0 * one, B=one, C=1e9 * one, D=-1e8 * one, damping=1e4 * one)
     rotor = rf.JeffcottRotor(mass=20.0, journal_mass=2.0, stiffness=2e7, speed=SPEED)
     A = mount(rotor, {"": growing}).linearization(0.0, np.zeros(10), []).A
     assert np.linalg.eigvals(A).real.max() > 10.0
     found = rotor_threshold(rotor, {"": growing}, np.linspace(100.0, 400.0, 4))
     assert found.speed is None
     assert "unstable" in found.reason
+
+
+def test_whirl_of_an_isotropic_rotor_is_there_twice():
+    """Without gyroscopic effect forward and backward whirl have one exponent and two shapes."""
+    rotor = rf.JeffcottRotor(mass=20.0, journal_mass=2.0, stiffness=2e7, speed=SPEED)
+    found = rotor_modes(rotor, {"": RUBBER}, SPEED).eigenvalues
+    poles = np.linalg.eigvals(mount(rotor, {"": RUBBER}).linearization(0.0, np.zeros(10), []).A)
+    assert_allclose(np.sort_complex(found), np.sort_complex(poles[poles.imag > 1.0]), rtol=1e-8)
+    assert len(found) == 4

@@ -59,6 +59,7 @@ GROWN = 1e-4
 """Growth rate / frequency that is growth whatever the roundoff, whose bound is wide for light elements."""
 
 _SAME = 1e-9
+_NEW_SHAPE = 1e-2
 """Relative difference below which two eigenvalues are one."""
 
 
@@ -288,7 +289,7 @@ def _remembered(
     given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
     for start, shape, rounding in given:
         one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
-        if one is None or any(abs(one[0] - other) <= _SAME * abs(other) for other, *_ in found):
+        if one is None or _is_among(one[0], one[1], found):
             continue
         s, *vectors = one
         found.append((s, vectors[0], float(rounding)))
@@ -300,6 +301,16 @@ def _remembered(
     values = np.array([value for value, *_ in found], dtype=complex)
     right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
     return values, right.T, error, np.array([rounding for *_, rounding in found])
+
+
+def _is_among(value: complex, shape: np.ndarray, found: list[tuple[complex, np.ndarray, float]]) -> bool:
+    """Return whether a motion is one of those found; of equal values, whether its shape is made of theirs."""
+    equal = [other for s, other, _ in found if abs(value - s) <= _SAME * abs(s)]
+    if not equal:
+        return False
+    known, _ = np.linalg.qr(np.array(equal).T)
+    left = shape - known @ (known.conj().T @ shape)
+    return bool(np.linalg.norm(left) < _NEW_SHAPE * np.linalg.norm(shape))
 
 
 def _is_held(

@@ -110,8 +110,11 @@ def whirl_threshold(
     require_reaction("reaction", reaction, planar=True)
     require_positive("mass", mass)
     force = checked_load(load)
-    if not clearance_of(reaction) < math.inf:
-        raise InputError(f"reaction must have a clearance, which scales the search, got {brief(reaction)}")
+    if speed_range is None and not clearance_of(reaction) < math.inf:
+        raise InputError(
+            "speed_range must be given of a reaction without a clearance, which scales it, got "
+            f"{brief(reaction)}"
+        )
     speeds = _speeds(
         *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (clearance_of(reaction) * mass)))
     )
