@@ -27,6 +27,7 @@ TASKS = {
         "bearings.linear",
         "bearings.own_reaction",
         "bearings.assemblies",
+        "bearings.series",
         "bearings.linear_system",
         "core.port",
     ),

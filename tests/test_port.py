@@ -24,6 +24,7 @@ from rotorfilm import (
     simulate,
 )
 from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
+from rotorfilm.analysis.api617 import cross_coupled
 from rotorfilm.core.port import force_along
 
 from .port_toys import Rubber, Strips, ThrustSpring
@@ -386,3 +387,38 @@ def test_whirl_of_an_isotropic_rotor_is_there_twice():
     poles = np.linalg.eigvals(mount(rotor, {"": RUBBER}).linearization(0.0, np.zeros(10), []).A)
     assert_allclose(np.sort_complex(found), np.sort_complex(poles[poles.imag > 1.0]), rtol=1e-8)
     assert len(found) == 4
+
+
+class Creeping(Rubber):
+    """Rubber whose creep drifts: its force, and so its coefficients, hold it where it begins."""
+
+    def force(self, position, velocity, speed):
+        return self.output(0.0, self.initial_state, [*position, *velocity, speed])
+
+    def jacobian(self, position, velocity, speed):
+        return self.linearization(0.0, self.initial_state, [*position, *velocity, speed]).D
+
+    def rest_state(self, position, speed):
+        return self.initial_state
+
+
+def test_states_that_drift_follow_where_a_frequency_is_named_only():
+    one, place = Creeping(), np.zeros(2)
+    assert coefficients(one, place, SPEED).stiffness[0, 0] == one.stiffness + one.maxwell
+    whole = one.stiffness_at(1j * SPEED)
+    named = coefficients(one, place, SPEED, frequency=SPEED)
+    assert named.stiffness[0, 0] == pytest.approx(whole.real, rel=1e-12)
+    rotor = shaft(axial=False, gravity=(0.0, 0.0))
+    held = cross_coupled(rotor, {"left": one, "right": one}, SPEED, {2: 1.0}).at.coefficients["left"]
+    assert held.stiffness[0, 0] == one.stiffness + one.maxwell
+
+
+def test_motion_that_is_faster_than_a_model_is_warned_of():
+    one, none = np.eye(2), np.zeros((2, 2))
+    fitted = rf.FrequencyDependentReaction(
+        A=-one, B=one, C=one, D=-1e6 * one, damping=none, band=(10.0, 100.0)
+    )
+    at = equilibrium(fitted, (0.0, -10.0), 50.0)
+    assert dynamic_stiffness(fitted, at, 50j)[0, 0].real == pytest.approx(1e6, rel=1e-3)
+    with pytest.warns(rf.ValidityWarning, match="frequency"):
+        dynamic_stiffness(fitted, at, 300j)

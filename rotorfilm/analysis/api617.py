@@ -13,7 +13,7 @@ import numpy as np
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
 from ..core.model import Array
-from ..core.port import Bearings, carries_load
+from ..core.port import Bearings, carries_load, has_own_stiffness, states_rest
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
@@ -708,7 +708,7 @@ def cross_coupled(
     synchronous = {
         name: film_coefficients(bearing, at.coefficients[name].position, speed, abs(speed))
         for name, bearing in bearings.items()
-        if hasattr(bearing, "rest_state")
+        if states_rest(bearing) and not has_own_stiffness(bearing)
     }
     at = replace(at, coefficients={**at.coefficients, **synchronous})
     return CrossCoupledRotor(

@@ -23,10 +23,10 @@ from ..core.port import (
     Complex,
     InertialStiffness,
     Reaction,
+    at_balanced_temperature,
     coefficients_of,
     drifts,
     freedoms_of,
-    has_states,
     in_time,
     inertial,
     mass_of,
@@ -34,8 +34,8 @@ from ..core.port import (
     require_range,
     require_reaction,
     rest_linearization,
-    settled,
     small_motion,
+    states_rest,
     static_slopes,
     warn_of_flow,
 )
@@ -84,9 +84,9 @@ def coefficients(
     """
     require_reaction("reaction", reaction, heavy=True)
     position, speed = require_place(reaction, position), require_number("speed", speed)
-    film = settled(reaction, position, speed)
+    film = at_balanced_temperature(reaction, position, speed)
     warn_of_flow(film, speed)
-    if has_states(film):
+    if states_rest(film):
         require_range(film, speed if frequency is None else frequency)
     return film_coefficients(film if frequency is None else reaction, position, speed, frequency)
 
@@ -96,19 +96,21 @@ def film_coefficients(
 ) -> Coefficients:
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
     position = require_place(reaction, position)
-    if has_states(reaction) or (frequency is not None and drifts(reaction)):
-        film = settled(reaction, position, speed) if has_states(reaction) else in_time(reaction)
+    if states_rest(reaction) or (frequency is not None and drifts(reaction)):
+        film = (
+            at_balanced_temperature(reaction, position, speed) if states_rest(reaction) else in_time(reaction)
+        )
         motion = small_motion(film, position, speed)
         if inertial(film) is not None:
             motion = InertialStiffness(motion, mass_of(film, position, np.zeros_like(position), speed))
         return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
-    return _held(settled(reaction, position, speed), position, speed)
+    return _held(at_balanced_temperature(reaction, position, speed), position, speed)
 
 
 def _held(film: Any, position: Array, speed: float) -> Coefficients:
     """Return K and C of a film with its states, if there are some, held."""
     n, still = len(position), np.zeros_like(position)
-    if has_states(film):
+    if states_rest(film):
         slopes = rest_linearization(film, position, speed).D
     else:
         slopes = static_slopes(film, position, still, speed)
@@ -143,7 +145,7 @@ def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -
     """
     require_reaction("reaction", reaction, heavy=True, over_time=True)
     position, speed = require_place(reaction, position), require_number("speed", speed)
-    return _held(settled(reaction, position, speed), position, speed)
+    return _held(at_balanced_temperature(reaction, position, speed), position, speed)
 
 
 @arguments
@@ -184,14 +186,21 @@ def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Comple
     Raises
     ------
     InputError
-        If an argument breaks its rule.
+        If an argument breaks its rule, or s is an exponent of the states alone.
+
+    Warns
+    -----
+    ValidityWarning
+        If the motion is faster than the model of the reaction is meant for.
     """
     require_reaction("reaction", reaction, heavy=True)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     if not isinstance(s, Number) or not np.isfinite(s):
         raise InputError(f"s must be a finite number, got {s!r}")
     place, exponent = require_place(reaction, at.position, "at.position"), complex(s)
-    film = settled(reaction, place, at.speed) if has_states(reaction) else in_time(reaction)
+    film = at_balanced_temperature(reaction, place, at.speed) if states_rest(reaction) else in_time(reaction)
+    if states_rest(film):
+        require_range(film, abs(exponent))
     mass = mass_of(reaction, place, np.zeros_like(place), at.speed)
     return np.asarray(small_motion(film, place, at.speed).stiffness(exponent) + exponent**2 * mass)
 

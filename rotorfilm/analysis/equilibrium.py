@@ -33,7 +33,6 @@ from ..core.port import (
     clearance_of,
     force_noise,
     freedoms_of,
-    has_states,
     has_wall,
     is_warming,
     minimum_film,
@@ -43,6 +42,7 @@ from ..core.port import (
     require_place,
     require_reaction,
     rest_place,
+    states_rest,
     static_force,
     static_slopes,
     warn_of_flow,
@@ -122,7 +122,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
     if is_warming(reaction):
         return _warm(reaction, load, speed)
-    following = has_states(reaction)
+    following = states_rest(reaction)
     film: Any = quasi_static(reaction)
     if freedoms_of(film) != PLANAR or not clearance_of(film) < math.inf:
         return _without_circle(film, load, speed)
@@ -145,7 +145,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
         raise EquilibriumError(_not_found(load, speed, found.residual))
     if is_unstable(best):
         warn_user(UNSTABLE.format(list(best.position), speed))
-    tell = getattr(film, "settled", None)
+    tell = getattr(film, "completed", None)
     return found if tell is None else tell(found)
 
 
@@ -196,7 +196,7 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
     if np.linalg.eigvals(slopes).real.max() > _NEUTRAL_SLOPE * np.abs(slopes).max():
         warn_user(UNSTABLE.format(place.tolist(), speed))
     found = _told(reaction, place, load, speed, imbalance, steps)
-    tell = getattr(reaction, "settled", None)
+    tell = getattr(reaction, "completed", None)
     return found if tell is None else tell(found)
 
 

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, DynamicStiffness, InertialStiffness, freedoms_of, has_states
+from ..core.port import Bearings, DynamicStiffness, InertialStiffness, freedoms_of, states_rest
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
@@ -120,7 +120,7 @@ def require_all_growing(
 
     Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
     """
-    if not any(map(has_states, bearings.values())):
+    if not any(map(states_rest, bearings.values())):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:

@@ -17,15 +17,15 @@ from ..core.model import Array, Linearization, Model
 from ..core.port import (
     Complex,
     Reaction,
+    at_balanced_temperature,
     coefficients_of,
     freedoms_of,
     has_own_stiffness,
-    has_states,
     input_of,
     require_reaction,
     rest_state,
-    settled,
     small_motion,
+    states_rest,
     static_slopes,
 )
 from ..core.readable import Readable
@@ -132,7 +132,7 @@ def _rested(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
             "at must be an OperatingPoint for a model that is no film with the inputs "
             f"{', '.join(wanted)}, got an Equilibrium for the inputs {given}"
         )
-    film = settled(model, at.position, at.speed)
+    film = at_balanced_temperature(model, at.position, at.speed)
     x = rest_state(film, at.position, at.speed)
     return film, OperatingPoint(x=x, u=input_of(at.position, None, at.speed))
 
@@ -237,7 +237,7 @@ def film_system(
     the fit, and its damping in fast motion is positive.
     """
     require_reaction("film", film, heavy=True, planar=True)
-    if not has_states(film):
+    if not states_rest(film):
         raise InputError(f"film must be a film that remembers, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)

@@ -70,8 +70,8 @@ class RotorEquilibrium(Readable):
         Stiffness, damping and journal position of each bearing, by station; of one with an added mass that
         too, as `InertialCoefficients`.
     loads : dict of str to ndarray, shape (2,) [N]
-        Static load on each bearing, by station; shape (4,) with the moments about x, y [N m] of one that
-        resists tilts.
+        Static load on each bearing, by station; shape (n,) with the moments [N m] of one with
+        n other freedoms.
     displacement : ndarray, shape (N,)
         Coordinates of the rotor.
     residual : float [1]
@@ -103,7 +103,7 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
         Its own speed is not used.
     bearings : mapping of str to Reaction
         By the name of the station; a station without one is free. Without weight they need not hold the
-        rotor. `MomentCarryingBalls` go into stations that feel tilts.
+        rotor. One with other freedoms than x, y goes into a station that has them too.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 

@@ -29,15 +29,15 @@ from ..core.model import Array
 from ..core.port import (
     InertialStiffness,
     Reaction,
+    at_balanced_temperature,
     clearance_of,
     coefficients_of,
     freedoms_of,
     has_own_stiffness,
-    has_states,
     require_reaction,
     rigid_exponents,
-    settled,
     small_motion,
+    states_rest,
 )
 from ..core.readable import Readable
 from ..core.results import (
@@ -119,7 +119,7 @@ def whirl_threshold(
         *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (clearance_of(reaction) * mass)))
     )
     passed: list[str] = []
-    search = _settling if has_states(reaction) else _searched
+    search = _settling if states_rest(reaction) else _searched
     with _passing(passed):
         first = _first_carried(reaction, force, speeds.tolist())
     found = search(reaction, force, mass, speeds, first, passed)
@@ -580,6 +580,6 @@ def threshold_near(reaction: Any, load: ArrayLike, mass: float, start: float) ->
 
 
 def _film(reaction: Any, at: Equilibrium) -> FrequencyDependentCoefficients:
-    film = settled(reaction, at.position, at.speed)
+    film = at_balanced_temperature(reaction, at.position, at.speed)
     found = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     return cast(FrequencyDependentCoefficients, found)

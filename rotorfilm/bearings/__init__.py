@@ -11,7 +11,7 @@ if TYPE_CHECKING:
         ReducedCoefficients as ReducedCoefficients,
     )
     from ..core.sources import show
-    from .assemblies import Body as Body, Parallel as Parallel, Series as Series, Sprung as Sprung
+    from .assemblies import Parallel as Parallel, Sprung as Sprung
     from .bush import *
     from .contact import *
     from .damper import *
@@ -44,5 +44,6 @@ if TYPE_CHECKING:
     from .rolling import *
     from .rub import RubContact as RubContact, RubRing as RubRing
     from .seal import AnnularSeal as AnnularSeal, HirsFriction as HirsFriction, SealFlow as SealFlow
+    from .series import Body as Body, Series as Series
 else:
     show(__name__)

@@ -49,8 +49,10 @@ class Reaction(Model, Protocol):
     - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
     - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
     - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
-    - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest;
-    - `has_states`, whether its states rest with the shaft, where having `force` does not tell;
+    - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
+      `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
+    - `rest_linearization(position, speed)`, the exact derivatives about that rest;
+    - `states_rest`, whether its states rest with the shaft, where having `force` does not tell;
     - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
     - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
@@ -332,7 +334,7 @@ def in_time(reaction: Any) -> Any:
     return reaction.in_time() if is_warming(reaction) else reaction
 
 
-def settled(reaction: Any, position: ArrayLike, speed: float) -> Any:
+def at_balanced_temperature(reaction: Any, position: ArrayLike, speed: float) -> Any:
     """Return a reaction at the temperature that its film has with the journal at rest; any other as it is.
 
     Parameters
@@ -526,12 +528,12 @@ class StepTrial(NamedTuple):
 _STEPS, _HALVINGS, _SETTLED = 40, 30, 1e-13
 
 
-def has_states(reaction: Any) -> bool:
+def states_rest(reaction: Any) -> bool:
     """Return whether a reaction has states that rest with the shaft, or K(s) in another way.
 
     Those that drift, as the wear of a bush or the temperature of a film, are held where they are.
     """
-    told = getattr(reaction, "has_states", None)
+    told = getattr(reaction, "states_rest", None)
     return (
         told
         if told is not None
@@ -553,7 +555,7 @@ def quasi_static(reaction: Any) -> Any:
     own = getattr(reaction, "at_rest", None)
     if own is not None:
         return own()
-    return QuasiStatic(reaction) if has_states(reaction) else reaction
+    return QuasiStatic(reaction) if states_rest(reaction) else reaction
 
 
 def rest_state(reaction: Any, position: ArrayLike, speed: float) -> Array:
@@ -636,7 +638,8 @@ def newton_root(
 def rest_linearization(reaction: Any, position: ArrayLike, speed: float) -> Linearization:
     """Return the exact derivatives of a reaction whose states rest with the shaft, without further signals.
 
-    Inputs: places and rates, and the speed where the reaction tells it; outputs: the forces, shape (n,).
+    Inputs: places and rates, and the speed; outputs: the forces, shape (n,). A reaction that leaves out the
+    speed, as tilting pads, tells its derivatives in slow motion by its `at_rest`.
     """
     n = len(freedoms_of(reaction))
     own = getattr(reaction, "rest_linearization", None)
@@ -702,6 +705,8 @@ class QuasiStatic:
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return the derivatives in slow motion, shape (n, 2 n + 1)."""
         A, B, C, D = rest_linearization(self.reaction, position, speed)
+        if D.shape[1] == 2 * len(C):
+            raise InputError(f"reaction must tell its derivatives by the speed, got {brief(self.reaction)}")
         K, slope = StatesStiffness(Linearization(A, B, C, D))(0j)
         by_speed = D[:, -1:] - C @ np.linalg.solve(A, B[:, -1:])
         return np.hstack([-K.real, -slope.real, by_speed])
@@ -837,7 +842,7 @@ def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: floa
 
     A film that warms keeps the temperature of the rest.
     """
-    film = settled(reaction, position, speed)
+    film = at_balanced_temperature(reaction, position, speed)
     at, added = (
         rest_linearization(film, position, speed),
         mass_of(film, position, np.zeros_like(position), speed),

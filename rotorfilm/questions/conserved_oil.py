@@ -18,7 +18,7 @@ from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
 from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
 from ..core.errors import InputError, RotorfilmError
-from ..core.port import settled
+from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
 from ..scenes.film_heat import HeatSteps, uniform_rest
 from ..scenes.film_rungs import (
@@ -83,7 +83,7 @@ class FilmEquilibrium(JournalEquilibrium):
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> FilmEquilibrium:
     """Return where a journal rests on a film, which may be on an oil."""
     at = equilibrium(film, load, speed)
-    return FilmEquilibrium(at, settled(film, at.position, speed))
+    return FilmEquilibrium(at, at_balanced_temperature(film, at.position, speed))
 
 
 class Change(NamedTuple):

@@ -27,7 +27,7 @@ from ..bearings.pads import (
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array
-from ..core.port import settled
+from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
 from ..scenes.pad_tables import pad_film_name, quasi_static_scene
@@ -292,7 +292,7 @@ class TiltingCandidate(FilmCandidate):
 
     def growth(self, at: Equilibrium, mass: float) -> float:
         """Return the growth rate [1/s] of the least stable mode of a rigid rotor [kg] with the pads."""
-        film = settled(self.reaction, at.position, at.speed)
+        film = at_balanced_temperature(self.reaction, at.position, at.speed)
         return float(film.at_rest().modes(at.position, at.speed, mass)[0].real)
 
     def rich_growth(self, at: Equilibrium, mass: float) -> tuple[float, str]:

@@ -22,7 +22,7 @@ from ..bearings.pads import (
     pressure_dam_pads,
 )
 from ..core.errors import EquilibriumError, InputError, require_finite, require_positive
-from ..core.port import Reaction, has_states, rigid_exponents
+from ..core.port import Reaction, rigid_exponents, states_rest
 from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 
@@ -258,6 +258,6 @@ def _threshold(
 
 def _is_stable(bearing: Reaction, load: tuple[float, float], mass: float, speed: float) -> bool:
     at = equilibrium(bearing, load, speed)
-    if has_states(bearing):
+    if states_rest(bearing):
         return bool(rigid_exponents(bearing, at.position, speed, mass)[0].real < 0.0)
     return is_stable(coefficients(bearing, at.position, speed), mass)

@@ -40,12 +40,12 @@ from rotorfilm.analysis.compiled_rotor import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
 from rotorfilm.core.port import (
     compiled_force,
-    has_states,
     mass_of,
     quasi_static,
     require_range,
     rest_state,
     small_motion,
+    states_rest,
 )
 from rotorfilm.core.signals import force_outputs, journal_inputs, names
 
@@ -217,7 +217,7 @@ def test_the_least_film_of_a_series_is_that_of_its_damper_where_this_is_nearer_t
 def test_the_rest_of_a_series_without_a_clearance_tells_the_film_of_its_parts():
     load = np.array([50.0, -300.0])
     alone, still = equilibrium(FILM, load, SPEED), quasi_static(Series(RING, Body(2.0), FILM))
-    found = still.settled(equilibrium(Series(RING, Body(2.0), FILM), load, SPEED))
+    found = still.completed(equilibrium(Series(RING, Body(2.0), FILM), load, SPEED))
     assert_allclose(found.minimum_film, alone.minimum_film, rtol=1e-8)
     assert_allclose(found.eccentricity_ratio, alone.eccentricity_ratio, rtol=1e-8)
 
@@ -401,14 +401,14 @@ def test_motions_of_all_reactions_in_order():
     assert_allclose(batch[:2, [0, 1, 4, 5, 8], 0], FILM.jacobian(q[:2], v[:2], SPEED), rtol=1e-13)
     assert not batch[:2, [2, 3, 6, 7]].any()
     assert both.clearance == FILM.clearance
-    assert not has_states(both)
+    assert not states_rest(both)
 
 
 def test_states_beside_a_film_without():
     both = Parallel((FILM, SEAL, replace(SEAL, added_mass=[[3.0, 1.0], [1.0, 2.0]])))
     assert names(both.states) == ["part1_state_0", "part1_state_1", "part2_state_0", "part2_state_1"]
     assert names(both.outputs) == ["force_x", "force_y", "mass_xx", "mass_xy", "mass_yy"]
-    assert has_states(both)
+    assert states_rest(both)
     assert both.has_inertia
     assert_allclose(both.mass(CENTER, CENTER, SPEED), [[3.0, 1.0], [1.0, 2.0]])
     place, s = np.array([2e-5, -6e-5]), 70.0 + 900j
@@ -532,7 +532,7 @@ def test_a_film_that_is_sprung_has_no_states_of_its_own():
     with pytest.raises(InputError, match="reaction must have no states"):
         Sprung(reaction=worn, stiffness=1e6)
     both = Parallel((worn, LinearBearing(stiffness=1e6)))
-    assert not has_states(both)
+    assert not states_rest(both)
     assert len(both.states) == len(worn.states)
     q = np.array([0.0, -4.6e-4])
     held = worn.force(q, CENTER, SPEED) - 1e6 * q

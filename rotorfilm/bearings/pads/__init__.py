@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         PadMapFilm as PadMapFilm,
         is_pad_mappable,
     )
+    from .pad_matrices import PadMatrices as PadMatrices
     from .pressure_dam import (
         DamKernel,
         PressureDamBearing as PressureDamBearing,
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     )
     from .tilting_bearing import (
         PadEquilibrium as PadEquilibrium,
-        PadMatrices as PadMatrices,
         StaticTiltingPads,
         TiltedPads as TiltedPads,
         TiltingPadBearing as TiltingPadBearing,

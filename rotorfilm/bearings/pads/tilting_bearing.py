@@ -27,9 +27,9 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization
-from ...core.port import StatesStiffness, Tangent
+from ...core.port import Tangent
 from ...core.readable import Readable
-from ...core.results import BearingLosses, Equilibrium, ReducedCoefficients
+from ...core.results import BearingLosses, Equilibrium
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native import Status
 from ...native.pad_kernels import RestPoint, TiltingKernel, TiltingPoint
@@ -38,6 +38,7 @@ from ..oil.heated_bearing import FilmHeat, HeatedBearing, fed_temperature
 from ..reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
 from .pad_bearing import WEDGE, PadBearing, PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
+from .pad_matrices import PadMatrices
 from .pad_table import LossyPadFilm, least_film
 
 
@@ -657,7 +658,7 @@ class StaticTiltingPads:
 
         return tangent
 
-    def settled(self, found: Equilibrium) -> PadEquilibrium:
+    def completed(self, found: Equilibrium) -> PadEquilibrium:
         """Return an equilibrium with the pads, whose clearance and least film are those it tells."""
         pads = self.pad_states(found.position, found.speed)
         known = {one.name: getattr(found, one.name) for one in fields(found)}
@@ -786,117 +787,3 @@ class StaticTiltingPads:
         point = self.bearing.kernel.at_rest(place, require_number("speed", speed))  # type: ignore[arg-type]
         report_pads(self.bearing, point.status, point.pad, place)
         return point
-
-
-# Stiffness and damping of journal and tilting pads together, and what of them a journal feels.
-
-
-@dataclass(frozen=True, kw_only=True)
-class PadMatrices(Readable):
-    """Stiffness, damping and mass of journal and pads together at rest: M p'' + C p' + K p = 0.
-
-    The coordinates p are x, y of the journal, the tilts q_1 .. q_N of the pads as lengths, and on springs the
-    places s_1 .. s_N of their pivots, negative outward. A pad without film has rows of zeros, but for its
-    spring.
-
-    Attributes
-    ----------
-    stiffness : ndarray, shape (n, n) [N/m]
-    damping : ndarray, shape (n, n) [N s/m]
-    mass : ndarray, shape (n, n) [kg]
-        Of the pads; that of the journal is 0.
-    position : ndarray, shape (2,) [m]
-    speed : float [rad/s]
-    unloaded : ndarray of bool, shape (N,)
-        Which pads have no film.
-    """
-
-    stiffness: Array
-    damping: Array
-    mass: Array
-    position: Array
-    speed: float
-    unloaded: NDArray[np.bool_]
-
-    def reduced(self, frequency: float, growth_rate: float = 0.0) -> ReducedCoefficients:
-        """Return what the journal feels when it moves as exp(s t): the Schur complement of K + s C + s^2 M.
-
-        Equal to Lund's (1964) assembly of single pads.
-
-        Parameters
-        ----------
-        frequency : float [rad/s]
-            Of the whirl, of either sign; 0 for the limit of slow motion.
-        growth_rate : float [1/s]
-            s = growth_rate + i frequency; 0 at frequency 0.
-
-        Raises
-        ------
-        InputError
-            If a number is not finite, or growth has no frequency.
-        """
-        nu, sigma = require_number("frequency", frequency), require_number("growth_rate", growth_rate)
-        if nu == 0.0 and sigma != 0.0:
-            raise InputError(f"growth_rate must be 0 at frequency 0, got {growth_rate!r}")
-        s = complex(sigma, nu)
-        Z, slope = self.dynamic_stiffness(s)
-        C = slope.real if nu == 0.0 else Z.imag / nu
-        return ReducedCoefficients(
-            stiffness=Z.real - sigma * C,
-            damping=C,
-            position=self.position,
-            speed=self.speed,
-            frequency=nu,
-            growth_rate=sigma,
-        )
-
-    def modes(self, rotor_mass: float) -> NDArray[np.complex128]:
-        """Return the exponents of free motion of a rigid rotor and the pads, the least damped first [1/s].
-
-        Parameters
-        ----------
-        rotor_mass : float [kg]
-            That the bearing carries.
-        """
-        return StatesStiffness(self.linearization()).exponents(rotor_mass)
-
-    def linearization(self) -> Linearization:
-        """Return the loaded pads as states under a journal: inputs x, y, vx, vy, outputs its force.
-
-        Velocities of what has mass are states; of what has none they follow from its balance.
-        """
-        kept = [0, 1, *self._loaded]
-        K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))
-        masses, n = np.diag(M), len(kept) - 2
-        heavy = np.flatnonzero(masses > 0.0)
-        light = np.array([k for k in range(2, n + 2) if masses[k] == 0.0], dtype=int)
-        states = n + len(heavy)
-        # Columns: places of the pads, velocities of the heavy ones, place and velocity of the journal.
-        place, velocity = np.zeros((2, n + 2, states + 4))
-        place[:, [states, states + 1, *range(n)]] = np.eye(n + 2)
-        velocity[:2, states + 2 :] = np.eye(2)
-        velocity[heavy, n:states] = np.eye(len(heavy))
-        pull = K[light] @ place + C[light] @ velocity
-        velocity[light] = -np.linalg.solve(C[np.ix_(light, light)], pull)
-        force = -K @ place - C @ velocity
-        rates = np.vstack([velocity[2:], force[heavy] / masses[heavy, None]])
-        return Linearization(rates[:, :states], rates[:, states:], force[:2, :states], force[:2, states:])
-
-    @property
-    def _loaded(self) -> list[int]:
-        """Coordinates of the pads that have a film."""
-        pads = len(self.unloaded)
-        return [k for k in range(2, len(self.stiffness)) if not self.unloaded[(k - 2) % pads]]
-
-    def dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-        """Return Z(s) of the journal, shape (2, 2), and dZ/ds; s is an exponent [1/s]."""
-        pads = self._loaded
-        whole = self.stiffness + s * self.damping + s * s * self.mass
-        slope = self.damping + 2.0 * s * self.mass
-        if not pads:
-            return whole[:2, :2], slope[:2, :2]
-        inner = whole[np.ix_(pads, pads)]
-        follow = np.vstack([np.eye(2), -np.linalg.solve(inner, whole[pads, :2])])
-        push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, pads].T).T])
-        kept = [0, 1, *pads]
-        return whole[:2, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow

@@ -55,7 +55,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings import Body, PadMapFilm, PadResolution, Parallel, Series, f4k20_bush
-from rotorfilm.core.port import has_states, mass_of, rest_linearization, rest_state, rest_temperature
+from rotorfilm.core.port import mass_of, rest_linearization, rest_state, rest_temperature, states_rest
 from rotorfilm.core.signals import names
 from rotorfilm.rotors import translations
 
@@ -187,7 +187,7 @@ def resting(kind, shape, unbalance=0.0, speed=SPEED):
         x[[k for k in down if "tilt" not in rotor.states[k].name]] = IN_CONTACT
     else:
         x[: size // 2] = rest_of(rotor, films, speed)
-        if all(map(has_states, films.values())):
+        if all(map(states_rest, films.values())):
             at = dict(zip(names(rotor.outputs), rotor.output(0.0, x[:size], ()), strict=True))
             places = [[at[f"{name}_{axis}" if name else axis] for axis in "xy"] for name in films]
             states = [
