@@ -23,7 +23,7 @@ from ..core.errors import (
 )
 from ..core.inputs import quantities
 from ..core.model import Array, Linearization
-from ..core.port import Complex, QuasiStatic, StatesStiffness
+from ..core.port import Complex, QuasiStatic, StatesStiffness, rest_linearization
 from ..core.signals import (
     FREEDOMS,
     PLANAR,
@@ -342,16 +342,12 @@ class FrequencyDependentReaction:
         )
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of a linear model; None of a subclass, with an added mass or over speed."""
-        if (
-            type(self) is not FrequencyDependentReaction
-            or len(np.asarray(self.speeds)) > 1
-            or self.has_inertia
-        ):
+        """Return the kernel of a linear model; None of a subclass, with an added mass or tied to speeds."""
+        if type(self) is not FrequencyDependentReaction or self._known.size or self.has_inertia:
             return None
-        speed = float(np.asarray(self.speeds)[0]) if len(np.asarray(self.speeds)) else 0.0
-        at = self.linearization(0.0, self.initial_state, [*np.zeros(2 * len(self.freedoms)), speed])
-        return linear_kernel(at)
+        return linear_kernel(
+            self.linearization(0.0, self.initial_state, np.zeros(2 * len(self.freedoms) + 1))
+        )
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states that rest with the shaft at a place (n,), shape (m,)."""
@@ -360,10 +356,7 @@ class FrequencyDependentReaction:
 
     def dynamic_stiffness(self, position: ArrayLike, speed: float) -> HoldingStiffness:
         """Return K(s) of small motion; see `core.port`."""
-        rest = self.rest_state(position, speed)
-        still = np.zeros(len(self.freedoms))
-        A, B, C, D = self.linearization(0.0, rest, [*require_finite("position", position), *still, speed])
-        return HoldingStiffness(Linearization(A, B, C[: len(still)], D[: len(still)]))
+        return HoldingStiffness(rest_linearization(self, position, speed))
 
     def force_noise(self, speed: float) -> float:
         """Return what roundoff of a place leaves of the static force [N]: much where a state integrates."""

@@ -269,6 +269,13 @@ def test_the_derivative_by_the_speed_is_exact():
     assert at.D[:, 4].any()
 
 
+def test_one_that_is_tied_to_speeds_has_no_kernel_that_would_answer_at_others():
+    single = Reaction.from_system([at_speed(SPEEDS[0])], speeds=SPEEDS[:1])
+    assert SEAL.native().kernel == "linear"
+    assert single.native() is None
+    assert TURNING.native() is None
+
+
 def test_beyond_the_speeds_of_the_table_it_refuses():
     with pytest.raises(InputError, match=r"speed must be within the table, 0 to 400 rad/s, got 500"):
         TURNING.derivative(0.0, np.zeros(3), [0.0, 0.0, 0.0, 0.0, 500.0])

@@ -29,8 +29,8 @@ class MomentCarryingBalls(StaticReaction):
     Its freedoms are x, y, tilt_x and tilt_y, for shafts without axial motion: z is given, or follows from the
     axial load of the bearing at every place. With `axial` they are all five.
 
-    It goes into `rotor_equilibrium`, `rotor_modes`, `campbell`, `critical_speeds`, `unbalance_response` and
-    `rotor_system` of a `ShaftRotor`, in a station with `feels_tilt=True`.
+    It goes into a station with `feels_tilt=True` of a `ShaftRotor`, with `axial` of one that has `axial=True`
+    too, for rests, modes, responses and `simulate`.
 
     Parameters
     ----------
