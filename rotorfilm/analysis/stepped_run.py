@@ -220,10 +220,10 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
     for name, film in films.items():
-        said = f"reaction[{name!r}]" if name else "reaction"
+        argument = f"reaction[{name!r}]" if name else "reaction"
         if not takes_steps(film):
             raise InputError(
-                f"{said} must be a film that steps, as a JFOFilm, as all others of it are, got {brief(film)}"
+                f"{argument} must be a film that steps, as a JFOFilm, since others do, got {brief(film)}"
             )
         motion, force = station_names(name)
         places = indices("rotor must have the outputs", outputs, [*motion, JOURNAL_INPUTS[-1]])
