@@ -1,4 +1,4 @@
-"""Motion of a rotor on films that remember, in steps of equal length, halved where they fail."""
+"""Motion of a rotor on mass-conserving films, in steps of equal length, halved where they fail."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def _cubic(last: Moment, now: Moment, s: float) -> Array:
     return np.asarray(cubic(last.state, now.state, dt * last.rate, dt * now.rate, s)[0])
 
 
-# A rotor and films that remember in one Newton step: both by differences of second order in time.
+# A rotor and mass-conserving films in one Newton step: both by differences of second order in time.
 
 
 CONVERGED = 1e-9
@@ -237,7 +237,7 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
 
 
 class SteppedLoop:
-    """Steps of a rotor on films that remember.
+    """Steps of a rotor on mass-conserving films.
 
     With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's
     method solves
@@ -357,7 +357,7 @@ class SteppedLoop:
         return Moment(t, x, rate, films, np.concatenate(outputs))
 
 
-# How far steps of a run on films that remember may be off: nothing controls them, so the run says it.
+# How far steps of a run on mass-conserving films may be off: nothing controls them, so the run says it.
 
 
 class StepError:

@@ -148,7 +148,7 @@ class FlexibleRotor(Turning):
         return dense(self.assembly)
 
     @cached_property
-    def remembered(self) -> dict[Any, Any]:
+    def cache(self) -> dict[Any, Any]:
         """What analyses have worked out of the rotor, by their own keys."""
         return {}
 
