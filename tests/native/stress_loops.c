@@ -78,6 +78,8 @@ static void read_ring(const char *path, rf_ring *ring)
     ring->turning = next_number(file) != 0.0;
     ring->extrapolated = next_number(file) != 0.0;
     ring->spans = (int32_t)next_number(file);
+    ring->levels = RF_LEVELS;
+    ring->recess = -1;
     ring->pad = ring->spans == 2 && uniform() < 0.5;
     ring->start = numbers_of(file, (size_t)ring->spans);
     ring->extent = numbers_of(file, (size_t)ring->spans);

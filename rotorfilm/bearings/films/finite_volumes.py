@@ -321,7 +321,14 @@ class RingKernel(FilmKernel):
             self._place(spans.start),
             self._place(spans.extent),
             slenderness,
+            0.0,
+            None,
+            None,
             len(spans.start),
+            -1,
+            False,
+            len(grids),
+            False,
             spans.pinned,
             spans.turning,
             cavitation.searched,
@@ -340,6 +347,9 @@ class RingKernel(FilmKernel):
             self._place(grid.held, np.int32),
             self._place(grid.width),
             self._place(grid.conductance),
+            None,
+            None,
+            0,
         )
 
     def _place(self, numbers: Array, kind: Any = np.float64) -> int:
@@ -481,7 +491,7 @@ def reference(film: RingKernel, e: Array, w: Array) -> Array:
     return np.concatenate([force, slopes.reshape(8, -1)])
 
 
-# Reynolds' equation with a conductance for every face of a ring of cells (`native/grids/stencil.h`).
+# Reynolds' equation with a conductance for every face of a ring of cells (`native/grids/search.h`).
 
 
 class Stencil(NamedTuple):
@@ -544,7 +554,8 @@ def solve_stencil(
     held = np.ascontiguousarray(stencil.held, dtype=np.uint8)
     pressure, full = np.array(value, dtype=float), np.array(guess, dtype=np.uint8)
     answers = np.array(others, dtype=float)
-    struct = structure("rf_stencil")(lines, nodes, *(row.ctypes.data for row in (*rows, held)))
+    around, along, source, shut = (row.ctypes.data for row in (*rows, held))
+    struct = structure("rf_stencil")(lines, nodes, around, along, None, source, shut)
     places = pressure.ctypes.data, full.ctypes.data, len(answers), answers.ctypes.data
     status = loops()["rf_stencil_film"](byref(struct), *places)
     if status == Status.NO_MEMORY:
