@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -217,11 +217,6 @@ class Heating(NamedTuple):
     carry_over: float | None
     walls: WallResponse | None
 
-    @property
-    def openings(self) -> int:
-        """Openings, that all round at mid-length the last."""
-        return int(self.opening.max()) + 1 + (self.flow.central is not None)
-
 
 class HeatSolution(NamedTuple):
     """Temperatures above that of the supply [K], and where the heat goes [K/s].
@@ -235,10 +230,8 @@ class HeatSolution(NamedTuple):
     bush : ndarray, shape (N,), or None [K]
     journal : float or None [K]
         Of the walls; None of those that take no heat.
-    heat : ndarray, shape (N, M, ...) [K/s]
-        Of shear and pressure in each cell.
     made : float [K/s]
-        All of it.
+        Heat of shear and pressure.
     leaked : float [K/s]
         With the oil that leaves the film sideways.
     drained : float [K/s]
@@ -250,7 +243,6 @@ class HeatSolution(NamedTuple):
     openings: Array
     bush: Array | None
     journal: float | None
-    heat: Array
     made: float
     leaked: float
     drained: float
@@ -274,7 +266,7 @@ class FilmProfile:
     pressure itself, upwind: heat is accounted for to the last digit on any grid.
     """
 
-    layers: int
+    layers: int = 1
 
     def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
         """Return the shape of a temperature of cells (N, M)."""
@@ -293,23 +285,31 @@ class FilmProfile:
         ConvergenceError
             If it is singular.
         """
-        walls, lines = heating.walls, len(heating.opening)
-        struct, kept = _struct(heating, self.layers)
-        oil, heat = np.empty(heating.viscosity.shape), np.empty(heating.viscosity.shape)
-        openings, bush, account = np.zeros(heating.openings), np.empty(lines), structure("rf_heat_account")()
-        places = [answer.ctypes.data for answer in (oil, openings, bush, heat)]
-        status = loops()["rf_solve_energy"](byref(struct), *places, byref(account))
-        del kept
-        if status:
-            raise ConvergenceError(f"the heat of a film must have a solution, got status {status}")
-        names = ("made", "leaked", "drained", "to_bush", "to_journal")
+        flow, shape = heating.flow, heating.viscosity.shape
+        film = np.expand_dims(heating.opening < 0, -1)
+        viscosity, thinning, start = (
+            field.reshape(*film.shape[:2], self.layers)
+            for field in (heating.viscosity, heating.thinning, heating.temperature)
+        )
+        shares = layer_shares(1.0 / viscosity)
+        central, around, axial, fresh = _layer_flows(flow, shares)
+        made = heating.heat_scale * layer_heat(heating, shares) * film
+        less = made * thinning
+        lost = np.maximum(-fresh, 0.0)
+        lost[:, -1] += np.maximum(axial[:, -1], 0.0)
+        conducted = self.layers * heating.diffusion * flow.shear
+        fields = around, axial, fresh, made + less * start, less, conducted
+        oil, openings, bush, account = _solve(heating, central, fields)
         return HeatSolution(
-            oil=oil,
+            oil=oil.reshape(shape),
             openings=openings,
-            bush=None if walls is None else bush,
-            journal=None if walls is None else account.journal,
-            heat=heat,
-            **{name: getattr(account, name) for name in names},
+            bush=None if heating.walls is None else bush,
+            journal=None if heating.walls is None else float(account[3]),
+            made=float(np.sum(made - less * (oil - start))),
+            leaked=float(np.sum(film * lost * oil)),
+            drained=float(account[0]),
+            to_bush=float(account[1]),
+            to_journal=float(account[2]),
         )
 
 
@@ -317,7 +317,6 @@ class FilmProfile:
 class MeanTemperature(FilmProfile):
     """One temperature across the film, a parabola between the walls with that mean; see `FilmProfile`."""
 
-    layers: ClassVar[int] = 1
 
 
 @quantities
@@ -337,31 +336,60 @@ class LayeredTemperature(FilmProfile):
         require_count("layers", self.layers, 2)
 
 
-def _struct(heating: Heating, layers: int) -> tuple[Any, list[Array]]:
-    """Return an rf_energy, and what it points to."""
-    flow, walls = heating.flow, heating.walls or WallResponse(np.zeros((0, 0)), *(0.0,) * 6)
-    names = ("dragged", "pressed", "axial", "entering", "leaving", "shear", "dissipation", "climb", "central")
-    fields = [getattr(flow, name) for name in names]
-    fields += [heating.viscosity, heating.thinning, heating.temperature, walls.spread]
-    kept = [np.zeros(0) if field is None else contiguous(field) for field in fields]
-    opening = np.ascontiguousarray(heating.opening, dtype=np.int32)
-    *places, spread = (None if of is None else its.ctypes.data for of, its in zip(fields, kept, strict=True))
+def _solve(
+    heating: Heating, central: Array | None, fields: tuple[Array, ...]
+) -> tuple[Array, Array, Array, Array]:
+    """Return temperatures of oil, openings and bush, and an account, from what rf_energy has of the cells."""
+    opening, walls = np.ascontiguousarray(heating.opening, dtype=np.int32), heating.walls
+    kept = [None if of is None else contiguous(of) for of in (central, *fields, walls and walls.spread)]
+    *places, spread = (None if of is None else of.ctypes.data for of in kept)
+    shape, openings = fields[0].shape, int(opening.max()) + 1 + (central is not None)
     struct = structure("rf_energy")(
-        *opening.shape,
-        layers,
-        heating.openings,
-        heating.walls is not None,
+        *shape,
+        openings,
+        walls is not None,
         heating.speed < 0.0,
+        -1.0 if heating.carry_over is None else heating.carry_over,
         opening.ctypes.data,
         *places,
-        heating.speed,
-        heating.heat_scale,
-        heating.diffusion,
-        -1.0 if heating.carry_over is None else heating.carry_over,
         spread,
-        *walls[1:],
+        *(walls[1:] if walls else ()),
     )
-    return struct, [*kept, opening]
+    answers = np.empty(shape), np.empty(openings), np.empty(len(opening)), np.empty(4)
+    status = loops()["rf_solve_energy"](byref(struct), *(answer.ctypes.data for answer in answers))
+    if status:
+        raise ConvergenceError(f"the heat of a film must have a solution, got status {status}")
+    return answers
+
+
+def _layer_flows(flow: FilmFlow, shares: LayerShares) -> tuple[Array | None, Array, Array, Array]:
+    """Return flows from the center, around, along and from outside as in `FilmFlow`, layer by layer."""
+    dragged, pressed = (
+        _normalized(field + np.roll(field, -1, axis=0)) for field in (shares.dragged, shares.pressed)
+    )
+    onward = np.concatenate([shares.pressed[:, 1:], shares.pressed[:, -1:]], axis=1)
+    return (
+        None if flow.central is None else flow.central[:, None] * _normalized(shares.pressed[:, 0]),
+        flow.dragged[..., None] * dragged + flow.pressed[..., None] * pressed,
+        flow.axial[..., None] * _normalized(shares.pressed + onward),
+        (flow.leaving - flow.entering)[..., None] * _normalized(shares.dragged),
+    )
+
+
+def _normalized(layers: Array) -> Array:
+    return layers / layers.sum(axis=-1, keepdims=True)
+
+
+def layer_heat(heating: Heating, shares: LayerShares) -> Array:
+    """Return the heat that each layer makes [1/s^2]."""
+    flow, speed = heating.flow, heating.speed
+    dragged = (speed**2 * flow.shear / shares.F0)[..., None] * shares.sheared
+    pressed = flow.dissipation[..., None] * shares.squeezed
+    both = (24.0 * speed * flow.climb)[..., None] * shares.crossed
+    return dragged + pressed + both
+
+
+# How oil between two walls flows and is sheared, its viscosity varying across the gap (Dowson, 1962).
 
 
 class LayerShares(NamedTuple):
@@ -396,8 +424,29 @@ class LayerShares(NamedTuple):
 
 def layer_shares(fluidity: Array) -> LayerShares:
     """Return the shares of layers of a fluidity 1/viscosity (N, M + 1, K) [any unit]."""
-    f, (lines, cells, layers) = contiguous(fluidity), fluidity.shape
-    shares = LayerShares(*np.empty((2, lines, cells)), *np.empty((5, *fluidity.shape)))
-    places = [field.ctypes.data for field in (f, *shares)]
-    loops()["rf_layer_shares"](lines * cells, layers, *places)
-    return shares
+    count = fluidity.shape[-1]
+    edges = np.linspace(0.0, 1.0, count + 1)
+    low, high, d = edges[:-1], edges[1:], 1.0 / count
+    middle = 0.5 * (low + high)
+    F0, F1 = (fluidity * d).sum(axis=-1), (fluidity * middle * d).sum(axis=-1)
+    y = (F1 / F0)[..., None]
+    by_pressure = fluidity * (high**3 - low**3 - 1.5 * y * (high**2 - low**2)) / 3.0
+    square = fluidity * ((high - y) ** 3 - (low - y) ** 3) / 3.0
+    F2 = by_pressure.sum(axis=-1)
+    below = _before(fluidity * d)
+    moment = _before(fluidity * (middle - y) * d)
+    inside = fluidity * ((high**3 - low**3) / 6.0 - 0.5 * low**2 * d - 0.5 * y * d**2)
+    return LayerShares(
+        F0=F0,
+        F2=F2,
+        dragged=d * (below + 0.5 * d * fluidity) / F0[..., None],
+        pressed=-(d * moment + inside),
+        sheared=d * fluidity / F0[..., None],
+        squeezed=square / F2[..., None],
+        crossed=d * fluidity * (middle - y) / F0[..., None],
+    )
+
+
+def _before(layers: Array) -> Array:
+    """Return the sum of all layers before each."""
+    return np.cumsum(layers, axis=-1) - layers

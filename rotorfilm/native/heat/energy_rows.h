@@ -1,4 +1,4 @@
-/* A sparse matrix that is nearly triangular, as that of oil which carries its heat along: eliminated row by row.
+/* A sparse matrix that is nearly triangular, as that of oil which carries its heat along, eliminated row by row.
 
    Unknowns of the band couple to some that are near; those after them, its border, to any. Rows keep their order, which
    is that of the flow: then hardly anything fills. There is no pivoting, which the matrix must allow. */
@@ -6,26 +6,25 @@
 #define ROTORFILM_ENERGY_ROWS_H
 
 #include <stddef.h>
-#include <stdint.h>
 
 #include "../status.h"
 
 typedef struct rf_entry {
-    uint32_t row, column;
+    size_t column, next; /* `next`: another entry of the row, 0 if there is none */
     double value;
 } rf_entry;
 
 typedef struct rf_sparse {
-    size_t band, size, count, room; /* unknowns of the band, and all; entries, and how many there is room for */
-    rf_entry *entries;              /* in any order; those of one place are added */
+    size_t band, size, count; /* unknowns of the band, and all; places in use, the first with nothing in it */
+    size_t *rows;             /* size: an entry of each */
+    rf_entry *entries;        /* those of one place are added */
 } rf_sparse;
 
-/* Add to an entry; more than there is room for are counted only. */
 static inline void rf_put(rf_sparse *matrix, size_t row, size_t column, double value)
 {
-    const rf_entry entry = {(uint32_t)row, (uint32_t)column, value};
-    if (matrix->count++ < matrix->room)
-        matrix->entries[matrix->count - 1] = entry;
+    const rf_entry entry = {column, matrix->rows[row], value};
+    matrix->entries[matrix->count] = entry;
+    matrix->rows[row] = matrix->count++;
 }
 
 /* Replace the right-hand side by the solution: RF_OK, RF_STUCK where the matrix is singular, RF_MEMORY. */
