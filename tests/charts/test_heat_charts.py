@@ -96,7 +96,7 @@ def test_ladder_has_a_panel_for_each_bearing():
         StudyRow(
             name=model,
             family=model,
-            label=model.said,
+            label=model.label,
             case=case.name,
             values={
                 "error of the position [1]": 0.5 / k,

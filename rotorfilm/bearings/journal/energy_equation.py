@@ -318,7 +318,6 @@ class MeanTemperature(FilmProfile):
     """One temperature across the film, a parabola between the walls with that mean; see `FilmProfile`."""
 
 
-
 @quantities
 @dataclass(frozen=True)
 class LayeredTemperature(FilmProfile):
