@@ -310,7 +310,7 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     if parts.base is not None:
         pushes.append(np.vstack([np.zeros_like(parts.moved), -parts.moved]))
     return (
-        model.steady + speed * model.spin,
+        model.steady + speed * model.by_speed,
         np.hstack(pushes),
         model.weight,
     )
@@ -326,8 +326,8 @@ def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
     rest : ndarray, shape (2 n_modes,)
         At the rest.
     """
-    spin = modal.inverse @ solved_equations(modal.parts.structure).spin
-    seen, rest = spin @ np.hstack([modal.shapes.real, -modal.shapes.imag]), spin @ modal.rest
+    by_speed = modal.inverse @ solved_equations(modal.parts.structure).by_speed
+    seen, rest = by_speed @ np.hstack([modal.shapes.real, -modal.shapes.imag]), by_speed @ modal.rest
     return np.vstack([seen.real, seen.imag]), np.concatenate([rest.real, rest.imag])
 
 

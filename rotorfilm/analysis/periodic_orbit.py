@@ -22,7 +22,7 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import MOST_LEFT, Bearings, clearance_of, reach, static_force, static_slopes
+from ..core.port import MOST_LEFT, Bearings, amplitude_ratio, clearance_of, static_force, static_slopes
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
@@ -659,10 +659,12 @@ def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None
     return balance.in_length(step), balance.in_length(other)
 
 
-def reach_of(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
-    """Return how far the journals go towards contact at the samples; see `reach`."""
+def orbit_amplitude_ratio(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
+    """Return how far the journals go towards contact at the samples; see `amplitude_ratio`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
-    return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
+    return max(
+        amplitude_ratio(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations)
+    )
 
 
 def _by_bearing(rows: Array) -> Array:
