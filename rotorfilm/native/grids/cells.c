@@ -155,10 +155,10 @@ static row row_at(const rf_cells *cells, const double *q, const double n0, const
 }
 
 /* H at place k, on land. */
-static double thickness(const row *row, size_t k)
+static double thickness(const row *across, size_t k)
 {
-    const rf_grid *grid = row->cells->grid;
-    return grid->place ? grid->wall[k] - row->base - grid->place[k] * row->lean : 1.0 - row->base;
+    const rf_grid *grid = across->cells->grid;
+    return grid->place ? grid->wall[k] - across->base - grid->place[k] * across->lean : 1.0 - across->base;
 }
 
 /* Add a conductance of so much width per length at a thickness, and its derivative by the thickness. */
