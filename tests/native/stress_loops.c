@@ -290,7 +290,7 @@ static int plain(const void *of, const double *state, double *f, double *jacobia
 
 int stress_loops(const char *path, long count)
 {
-    rf_ring ring;
+    rf_ring ring = {0};
     const rf_short thin = {1.44};
     const double none[8] = {0.0};
     read_ring(path, &ring);

@@ -18,9 +18,12 @@ static int is_supplied(const rf_ring *ring)
 }
 
 /* Whether nothing drives the film, so that one that ruptures has no derivative. */
-static int is_at_rest(const rf_ring *ring, const double *w)
+static int is_at_rest(const rf_ring *ring, const double *drive)
 {
-    return w[0] == 0.0 && w[1] == 0.0 && (ring->ruptured || ring->clipped) && !is_supplied(ring);
+    for (int k = 0; k < RF_DRIVES; ++k)
+        if (drive[k] != 0.0)
+            return 0;
+    return (ring->ruptured || ring->clipped) && !is_supplied(ring);
 }
 
 /* Make d f/de with the lines held that of lines which turn with the journal: at right angles to e the film turns as a
@@ -95,8 +98,11 @@ int rf_ring_wrench(const rf_ring *ring, const double *q, const double *drive, do
 {
     rf_levels levels;
     int status = rf_judge_state(ring, q, drive);
+    memset(f, 0, RF_FREEDOMS * sizeof(double));
     if (status != RF_OK)
         return status;
+    if (is_at_rest(ring, drive))
+        return by ? RF_UNDEFINED : RF_OK;
     status = rf_open_levels(&levels, ring);
     if (status == RF_OK) {
         rf_place_journal(&levels, q);
@@ -112,7 +118,9 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
     const int judged = judge(ring, e, w);
     if (judged != RF_OK)
         return rf_fail(judged, f, jacobian, 8);
-    const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned && !ring->turning;
+    const double drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, 0.0};
+    const int resting = is_at_rest(ring, drive);
+    const int centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned && !ring->turning;
     if (resting && !(jacobian && centered))
         return rf_rest(f, jacobian);
     rf_levels levels;

@@ -76,7 +76,7 @@ RF_EXPORT_LOOP double rf_least_film(const rf_ring *ring, const double *q, double
 int rf_judge_state(const rf_ring *ring, const double *q, const double *drive);
 
 /* Force and moment f[4] = (F, T) at q[4] = (e, tau) and drive[5] = (w, w', rate), T in units of half the length, and unless
-   NULL by[4][9] = d f/d(q, drive). RF_STUCK, RF_MEMORY. Rows and columns of tau are 0 unless the bearing is whole. */
+   NULL by[4][9] = d f/d(q, drive). RF_STUCK, RF_MEMORY; RF_UNDEFINED for the derivative where nothing drives the film. Rows and columns of tau are 0 unless the bearing is whole. */
 RF_EXPORT_LOOP int rf_ring_wrench(const rf_ring *ring, const double *q, const double *drive, double *f, double *by);
 
 /* The force, on the finest grid unless it is extrapolated, as any film's (films/film.h); RF_STUCK where the search

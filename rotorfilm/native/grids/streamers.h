@@ -4,9 +4,9 @@
 
 #include "levels.h"
 
-/* The gap at an angle, and the integrals of 1/H and 1/H^2 from the line of maximum film. */
+/* The gap at an angle, the integrals of 1/H and 1/H^2 from the line of maximum film, and the factor of 1/H by the mobility. */
 typedef struct rf_section {
-    double thickness, film, square;
+    double thickness, film, square, sheared;
 } rf_section;
 
 /* One state, seen in the direction in which the oil runs. */
