@@ -346,7 +346,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
         shifted = A - B[:, : len(K0)] @ np.hstack([K0[:, None] * parts.rows, C0[:, None] * parts.rows])
-        found = modes(shifted, rate)
+        found = modes(shifted, np.repeat([1.0, rate], len(A) // 2))
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
         if found[3] < GOOD_CONDITION:
@@ -382,10 +382,8 @@ def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     return stiffness, abs(speed) or math.sqrt(float(stiffness.max()) / mass)
 
 
-def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
+def modes(A: Array, scale: Array) -> tuple[Complex, Complex, Complex, float]:
     """Return eigenvalues, shapes, their inverse and condition; one of each pair, real parts to be added."""
-    n = len(A) // 2
-    scale = np.repeat([1.0, rate], n)
     values, vectors = np.linalg.eig(A * scale / scale[:, None])
     try:
         inverse = np.linalg.inv(vectors)
