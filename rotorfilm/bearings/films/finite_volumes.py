@@ -14,7 +14,7 @@ from ctypes import byref, c_double, c_size_t
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -301,8 +301,7 @@ class RingKernel(FilmKernel):
         Whether the second of two spans is a pad of its own, which the journal touches on its arc only.
     """
 
-    _function: ClassVar[str] = "rf_ring_film"
-    _library = staticmethod(loops)
+    _function = "rf_ring_film"
 
     def __init__(
         self,
