@@ -185,7 +185,7 @@ def synchronous_orbits(
         given = wanted if unbalances is None else unbalances
         raise InputError(f"unbalances must be positive and not empty, got {given!r}")
     system = orbit_rotor(rotor, reaction)
-    nodes = _radii(system.reach)
+    nodes = _radii(system.largest_ratio)
     folds = _folds(system, nodes)
     ends = [nodes[0], *(fold.eccentricity_ratio for fold in folds), nodes[-1]]
     branches = tuple(_branch(system, low, high, wanted) for low, high in pairwise(ends))
@@ -206,12 +206,12 @@ def orbits_over_speed(
     return tuple(synchronous_orbits(replace(rotor, speed=float(speed)), reaction) for speed in values)
 
 
-def _radii(reach: float) -> Array:
+def _radii(largest_ratio: float) -> Array:
     """Return eccentricity ratios from nearly 0 to the film's reach or nearly 1, denser towards the wall."""
     depth = np.linspace(math.log1p(-1e-7), math.log(WALL), NODES)
     inner = np.linspace(1e-7, 0.98, NODES)
     radii = np.union1d(inner, -np.expm1(depth[depth < math.log(0.02)]))
-    return radii if reach >= 1.0 else np.append(radii[radii < reach], reach)
+    return radii if largest_ratio >= 1.0 else np.append(radii[radii < largest_ratio], largest_ratio)
 
 
 def _folds(system: OrbitRotor, nodes: Array) -> tuple[Fold, ...]:
@@ -268,7 +268,7 @@ def _inverted(system: OrbitRotor, low: float, high: float, unbalance: Array, *, 
 
 def _contact(system: OrbitRotor) -> float | None:
     """Return the unbalance of the orbit as wide as the clearance, if the film is bounded there."""
-    if system.reach < 1.0:
+    if system.largest_ratio < 1.0:
         return None
     near, nearer = unbalances(system, 1.0 - np.array([1e3 * WALL, WALL]))
     return float(nearer) if abs(nearer - near) <= _BOUNDED * near else None
@@ -294,7 +294,7 @@ class OrbitRotor(NamedTuple):
     speed: float
     clearance: float
     reaction: Any
-    reach: float
+    largest_ratio: float
     """Largest eccentricity ratio that the film is meant for."""
 
 
@@ -400,8 +400,8 @@ def _require_isotropy(system: OrbitRotor) -> None:
 
 def damped_orbit(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     """Return the constants of a rotor on a film that is known to be isotropic, at its first speed."""
-    reach = largest_eccentricity_ratio(reaction)
-    return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
+    largest_ratio = largest_eccentricity_ratio(reaction)
+    return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, largest_ratio)
 
 
 def unbalances(system: OrbitRotor, radius: Array) -> Array:

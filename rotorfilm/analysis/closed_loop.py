@@ -31,7 +31,7 @@ from .equilibrium import equilibrium
 from .linearize import control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import LeftOut, remembering, rest_near, second_order, small_motion
+from .rotor_matrices import LeftOut, frequency_dependent_films, rest_near, second_order, small_motion
 from .rotor_modes import first_growing
 
 if TYPE_CHECKING:
@@ -509,7 +509,7 @@ def rotor_states(
     structure = rotor.structure
     if structure.hysteresis is not None:
         raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    films = {name: film_states(film) for name, film in remembering(at).items()}
+    films = {name: film_states(film) for name, film in frequency_dependent_films(at).items()}
     direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
     mass, damping, stiffness = second_order(structure, direct)
     n, sizes = len(mass), [len(film.A) for film in films.values()]
@@ -565,6 +565,8 @@ def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, 
             position=place,
             speed=at.speed,
             freedoms=freedoms,
-            mass=getattr(remembering(at)[name].dynamic_stiffness, "mass", np.zeros_like(stiffness)),
+            mass=getattr(
+                frequency_dependent_films(at)[name].dynamic_stiffness, "mass", np.zeros_like(stiffness)
+            ),
         )
     return held

@@ -310,7 +310,7 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     if parts.base is not None:
         pushes.append(np.vstack([np.zeros_like(parts.moved), -parts.moved]))
     return (
-        model.steady + speed * model.spin,
+        model.steady + speed * model.by_speed,
         np.hstack(pushes),
         model.weight,
     )
@@ -326,8 +326,8 @@ def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
     rest : ndarray, shape (2 n_modes,)
         At the rest.
     """
-    spin = modal.inverse @ solved_equations(modal.parts.structure).spin
-    seen, rest = spin @ np.hstack([modal.shapes.real, -modal.shapes.imag]), spin @ modal.rest
+    by_speed = modal.inverse @ solved_equations(modal.parts.structure).by_speed
+    seen, rest = by_speed @ np.hstack([modal.shapes.real, -modal.shapes.imag]), by_speed @ modal.rest
     return np.vstack([seen.real, seen.imag]), np.concatenate([rest.real, rest.imag])
 
 
@@ -346,7 +346,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
         shifted = A - B[:, : len(K0)] @ np.hstack([K0[:, None] * parts.rows, C0[:, None] * parts.rows])
-        found = modes(shifted, rate)
+        found = modes(shifted, np.repeat([1.0, rate], len(A) // 2))
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
         if found[3] < GOOD_CONDITION:
@@ -382,10 +382,8 @@ def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     return stiffness, abs(speed) or math.sqrt(float(stiffness.max()) / mass)
 
 
-def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
+def modes(A: Array, scale: Array) -> tuple[Complex, Complex, Complex, float]:
     """Return eigenvalues, shapes, their inverse and condition; one of each pair, real parts to be added."""
-    n = len(A) // 2
-    scale = np.repeat([1.0, rate], n)
     values, vectors = np.linalg.eig(A * scale / scale[:, None])
     try:
         inverse = np.linalg.inv(vectors)

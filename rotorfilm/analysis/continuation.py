@@ -28,7 +28,7 @@ from .harmonic_balance import (
     CONVERGED,
     MOST_HARMONICS,
     Balance,
-    ModalFilms,
+    PeriodicRotor,
     Residual,
     Solution,
     constant,
@@ -47,7 +47,9 @@ from .periodic_orbit import (
     finished,
     force_columns,
     leading,
+    orbit_rotor,
     rest_of,
+    series_of,
 )
 
 FIRST_STEP = 0.02
@@ -184,7 +186,7 @@ def continue_orbits(
 
 def _from_orbit(curve: Curve, orbit: PeriodicOrbit, parameter: float, direction: int) -> Point:
     balance = curve.balance(parameter, orbit.harmonics, orbit.periods)
-    series = orbit.series.reshape(-1, orbit.series.shape[-1])
+    series = series_of(balance.rotor, orbit)
     point = curve.at(Point(Solution(series, orbit.frequency, balance, 0.0, 0), parameter, None), parameter)  # type: ignore[arg-type]
     return point._replace(tangent=point.tangent * (1.0 if direction > 0 else -1.0))
 
@@ -333,7 +335,7 @@ _BISECTIONS = 5
 class Point(NamedTuple):
     """A solution, its parameter, and the unit tangent in (series / clearance, ln frequency, parameter)."""
 
-    solution: Solution[ModalFilms]
+    solution: Solution[PeriodicRotor]
     parameter: float
     tangent: Array
 
@@ -352,14 +354,11 @@ class Curve(NamedTuple):
     family: Family
     scale: float
 
-    def balance(self, parameter: float, harmonics: int, periods: int) -> Balance[ModalFilms]:
+    def balance(self, parameter: float, harmonics: int, periods: int) -> Balance[PeriodicRotor]:
         """Return the equations at a parameter."""
-        parts = take_apart(self.family(parameter))
-        return Balance(
-            rotor=ModalFilms(modal_rotor(parts, parts.speed)), harmonics=harmonics, periods=periods
-        )
+        return Balance(rotor=orbit_rotor(self.family(parameter)), harmonics=harmonics, periods=periods)
 
-    def point(self, solution: Solution[ModalFilms], parameter: float, before: Array | None) -> Point:
+    def point(self, solution: Solution[PeriodicRotor], parameter: float, before: Array | None) -> Point:
         """Return a solution as a point; its tangent goes on as the one before, else with the parameter."""
         matrix = self._equations(solution, parameter)
         if before is None:
@@ -450,13 +449,13 @@ class Curve(NamedTuple):
             parameter += step[-1] * self.scale
         raise ConvergenceError("no orbit at the next step: Newton's method does not converge")
 
-    def _equations(self, solution: Solution[ModalFilms], parameter: float) -> Array:
+    def _equations(self, solution: Solution[PeriodicRotor], parameter: float) -> Array:
         at = solution.balance.residual(solution.series, solution.frequency)
         reference = phase_row(solution.series, solution.balance)
         slope = self._by_parameter(solution, parameter)
         return _bordered(at, slope, reference, solution.frequency, bool(solution.balance.periods))
 
-    def _by_parameter(self, solution: Solution[ModalFilms], parameter: float) -> Array:
+    def _by_parameter(self, solution: Solution[PeriodicRotor], parameter: float) -> Array:
         harmonics, periods = solution.balance.harmonics, solution.balance.periods
         ends = []
         for side in (-1.0, 1.0):
@@ -468,7 +467,7 @@ class Curve(NamedTuple):
         return np.asarray((ends[1] - ends[0]) / (2.0 * RELATIVE_STEP) / units)
 
 
-def _frequency(balance: Balance[ModalFilms], frequency: float) -> float:
+def _frequency(balance: Balance[PeriodicRotor], frequency: float) -> float:
     return balance.frequency if balance.periods else frequency
 
 

@@ -41,9 +41,9 @@ from .rotor_matrices import (
     FullRotorModel,
     SecondOrder,
     dynamics,
+    frequency_dependent_films,
     inverse_steps,
     motion_near,
-    remembering,
     rest_near,
     second_order,
     small_motion,
@@ -295,7 +295,7 @@ EDGE = 1e-9
 """Part of the speed by which a crossing may be beyond the end of its step, by roundoff."""
 
 SWINGS = 3.0
-"""Decay / speed up to which whirls on films that remember are asked for."""
+"""Decay / speed up to which whirls on frequency-dependent films are asked for."""
 
 BENT = 2.0
 """How much more K and C of films may bend within a step than the parabola through its ends and middle."""
@@ -385,14 +385,15 @@ class SpannedModes:
         side to the other once at most.
         """
         T, line = self.changing, self.middle + np.array([-self.half, self.half])
-        remembers = bool(remembering(self.rests[1]))  # then K(s) is that of slow growth and decay only
-        ways = branches_on_line(T, line, SWINGS * self.middle if remembers else np.inf)
+        # With them K(s) is that of slow growth and decay only.
+        frequency_dependent = bool(frequency_dependent_films(self.rests[1]))
+        ways = branches_on_line(T, line, SWINGS * self.middle if frequency_dependent else np.inf)
         if ways is None:
             return None
         values, rates = T.values[ways.places], np.diag(T.rates)[ways.places].imag - 1.0
         leads = values.imag - self.middle
         near = np.abs(leads) <= self.half * np.abs(rates) + ways.drifts + EDGE * self.middle
-        if remembers:
+        if frequency_dependent:
             near &= np.abs(values.real) <= SWINGS * self.middle
         elif np.isrealobj(self.systems[1].stiffness):  # an isolated real eigenvalue stays real
             near &= np.abs(values.imag) > 0.0

@@ -126,12 +126,20 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     film: Any = quasi_static(reaction)
     if freedoms_of(film) != PLANAR or not clearance_of(film) < math.inf:
         return _without_circle(film, load, speed)
-    room = min(relative_film(film, np.zeros(2)), 1.0)
+    relative_clearance = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if following else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
     near = rest_place(film, (-x, -y), speed)
     target = StaticTarget(
-        prepared_tangent(film), film.clearance, speed, x, y, room, lead, force_noise(film, speed), near
+        prepared_tangent(film),
+        film.clearance,
+        speed,
+        x,
+        y,
+        relative_clearance,
+        lead,
+        force_noise(film, speed),
+        near,
     )
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
@@ -368,7 +376,7 @@ class StaticTarget(NamedTuple):
     speed: float
     x: float
     y: float
-    room: float
+    relative_clearance: float
     lead: float  # of the first trial, from the load on
     noise: float = 0.0  # force that roundoff leaves [N]
     near: tuple[float, float] | None = None  # where the film says that it is [m]
@@ -443,7 +451,10 @@ def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
 
 def _starts(target: StaticTarget) -> list[tuple[float, float]]:
     """Return starting points (s, phi); half of the way to the wall is enough for most films."""
-    along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
+    along_load, half = (
+        math.atan2(-target.y, -target.x),
+        math.log(target.relative_clearance / (2.0 - target.relative_clearance)),
+    )
     turns = [k * math.pi / 3.0 for k in range(6)]
     told = [] if target.near is None else [_start_at(target, *target.near)]
     first = (half, along_load + target.lead)
@@ -542,7 +553,7 @@ def has_force_against(target: StaticTarget) -> bool:
     """
     sides = [-math.inf, math.inf]
     for share in _FAR:
-        chi = share * min(target.room, MAXIMUM_ECCENTRICITY)
+        chi = share * min(target.relative_clearance, MAXIMUM_ECCENTRICITY)
         for k in range(_DIRECTIONS):
             at = _point(target, math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS, 0)
             if at.norm < math.inf:

@@ -1,4 +1,4 @@
-"""Motions of a rotor on films that remember, and how many of them grow."""
+"""Motions of a rotor on frequency-dependent films, and how many of them grow."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import all_rows, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import remembering, second_order, whirl_near
+from .rotor_matrices import frequency_dependent_films, second_order, whirl_near
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
@@ -33,7 +33,7 @@ _REAL = 1e-8
 def frequency_dependent_motion(
     structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, shape: np.ndarray
 ) -> tuple[complex, np.ndarray, np.ndarray] | None:
-    """Return the motion on films that remember next to one on films that do not; None for none.
+    """Return the motion on frequency-dependent films next to one on others; None for none.
 
     That is s [1/s] and its vectors, shape (N,): L(s) right = 0, left* L(s) = 0. A motion that decays faster
     than it turns may have no other next to it: the film's own exponents are many there.
@@ -55,7 +55,7 @@ def frequency_dependent_motion(
 
 
 def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray) -> int:
-    """Return how many exponents of a rotor on films that remember grow, both of a pair.
+    """Return how many exponents of a rotor on frequency-dependent films grow, both of a pair.
 
     The determinant of all equations is that with K and C of one frequency, whose exponents are known, times
     det(1 + R (K(s) - K - s C)) with the receptance R of the journals on those films.
@@ -68,7 +68,7 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     values : ndarray [1/s]
         Exponents next to which the phase turns fast.
     """
-    films = {name: _without_mass(film) for name, film in remembering(at).items()}
+    films = {name: _without_mass(film) for name, film in frequency_dependent_films(at).items()}
     still = {name: one for name, (one, _) in films.items()}
     system = second_order(structure, replace(at, coefficients={**at.coefficients, **still}))
     rows = all_rows(structure, still)
@@ -118,7 +118,7 @@ def require_all_growing(
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 
-    Nothing is asked of rotors without films that remember, nor of those with hysteresis, which has no K(s).
+    Rotors without frequency-dependent films are not asked, nor those with hysteresis, which has no K(s).
     """
     if not any(map(states_rest, bearings.values())):
         return
@@ -126,7 +126,7 @@ def require_all_growing(
     if structure.hysteresis is not None:
         return
     at = rest(structure, bearings, speed)
-    if not remembering(at):
+    if not frequency_dependent_films(at):
         return
     count = rotor_growing(structure, at, values)
     if count != growing:
@@ -154,7 +154,7 @@ def _moved(values: np.ndarray, others: np.ndarray) -> np.ndarray:
     return np.asarray(values[distance > MOVED * np.abs(values)])
 
 
-# The exponents of a rigid rotor on a film that remembers: roots of det(K(s) + s^2 mass).
+# The exponents of a rigid rotor on a frequency-dependent film: roots of det(K(s) + s^2 mass).
 
 
 STARTS = (0.5, 0.3, 1.0)
@@ -343,7 +343,7 @@ def _turn(
     return total
 
 
-# The rigid masses at which a film that remembers lets a whirl neither grow nor decay.
+# The rigid masses at which a frequency-dependent film lets a whirl neither grow nor decay.
 
 
 RATIOS = np.concatenate([np.geomspace(0.01, 0.1, 6, endpoint=False), np.linspace(0.1, 3.0, 59)])

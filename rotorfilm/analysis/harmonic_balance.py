@@ -14,8 +14,8 @@ samples as the series has terms this is collocation: the equations of motion hol
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, Generic, NamedTuple, Protocol, Self, TypeVar
 
@@ -34,16 +34,26 @@ OVERSAMPLING = 4
 
 
 Receptance = tuple[Complex, Complex | None]
-"""What the journals of a rotor answer to the harmonics of forces on them, shape (H + 1, 2 n_bearings, 2
-n_bearings), and its derivative by the frequency; None of a rotor that is known at one frequency."""
+"""What the rows of a rotor answer to the harmonics of forces on them, shape (H + 1, rows, rows), and its
+derivative by the frequency; None of a rotor that is known at one frequency."""
 
 
 class HarmonicRotor(Protocol):
-    """A rotor in its films as the equations of an orbit see it."""
+    """A rotor in its films as the equations of an orbit see it.
+
+    Its rows are the places of each bearing, x and y or more, and the states of the bearing behind them.
+    """
 
     @property
-    def clearances(self) -> Array:
-        """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
+    def blocks(self) -> Sequence[slice]:
+        """The rows of each bearing."""
+
+    @property
+    def units(self) -> Array:
+        """Size of each row, shape (rows,): the clearance of a displacement, nominal values of others."""
+
+    def gaps(self, position: Array) -> Array:
+        """Return the film left at samples (rows, samples), shape (n_bearings, samples) [m]; it may be inf."""
 
     @property
     def speed(self) -> float:
@@ -56,16 +66,75 @@ class HarmonicRotor(Protocol):
         """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
 
     def forces(self, position: Array, velocity: Array) -> Array:
-        """Return the forces of films and springs, (2 n, samples).
+        """Return the forces of films and springs, (rows, samples); of states what drives them.
 
         Raises FilmContactError if a journal leaves its bearing.
         """
 
     def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
-        """Return the forces and their slopes by each bearing's own motion, (2 n, 2, samples) each."""
+        """Return the forces and their slopes by the rows of their own bearing, (rows, widest, samples) each.
+
+        Those of bearings with fewer rows than the widest are zero behind these.
+        """
 
     def loaded(self, part: float) -> Self:
         """Return the same under a part of the unbalance."""
+
+
+class PeriodicRotor(HarmonicRotor, Protocol):
+    """A rotor whose orbits are found at any frequency, with their states and multipliers."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The stations of its bearings."""
+
+    @property
+    def lengths(self) -> Array:
+        """Clearance of each bearing, shape (n_bearings,) [m]; a nominal length without one."""
+
+    @property
+    def row_names(self) -> Sequence[str]:
+        """Names of the rows, as those of a run."""
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether it turns with an unbalance."""
+
+    def guess(self) -> Array:
+        """Return the rows at rest, shape (rows,), or near it."""
+
+    def journal_series(self, series: Array) -> Array:
+        """Return the series of x and y of each bearing, shape (n_bearings, 2, 2 H + 1) [m]."""
+
+    def further(self, series: Array) -> dict[str, Array]:
+        """Return the series of the other rows by their names."""
+
+    def state(self, series: Array, frequency: float, periods: int) -> Array:
+        """Return the state of rotor and bearings at phase 0 of an orbit."""
+
+    def multipliers(self, series: Array, frequency: float) -> Complex:
+        """Return the Floquet multipliers of an orbit, the largest first."""
+
+
+class JournalPairs:
+    """The rows of bearings that react to x and y without states; it needs `clearances`."""
+
+    @property
+    def blocks(self: Any) -> list[slice]:
+        """Two rows for each bearing."""
+        return [slice(2 * k, 2 * k + 2) for k in range(len(self.clearances))]
+
+    @property
+    def units(self: Any) -> Array:
+        """Clearance of each row, shape (2 n_bearings,) [m]; a nominal length without one."""
+        sizes = self.clearances
+        return np.repeat(np.where(np.isfinite(sizes), sizes, NOMINAL_LENGTH), 2)
+
+    def gaps(self: Any, position: Array) -> Array:
+        """Return the clearance left to each journal, shape (n_bearings, samples) [m]."""
+        pairs = position.reshape(-1, 2, position.shape[1])
+        left: Array = self.clearances[:, None] - np.hypot(pairs[:, 0], pairs[:, 1])
+        return left
 
 
 R = TypeVar("R", bound=HarmonicRotor)
@@ -77,8 +146,8 @@ class Residual:
 
     Attributes
     ----------
-    values : ndarray, shape (2 n_bearings (2 H + 1),) [1]
-        In clearances.
+    values : ndarray, shape (rows (2 H + 1),) [1]
+        In the units of the rows.
     by_frequency : ndarray [s/rad]
         Derivatives by the frequency of free whirl; empty where the unbalance drives.
     derive : callable
@@ -127,9 +196,8 @@ class Balance(NamedTuple, Generic[R]):
 
     @property
     def units(self) -> Array:
-        """Clearance of each row of the series, shape (2 n_bearings,) [m]; a nominal length without one."""
-        sizes = self.rotor.clearances
-        return np.repeat(np.where(np.isfinite(sizes), sizes, NOMINAL_LENGTH), 2)
+        """Size of each row of the series; see `HarmonicRotor`."""
+        return self.rotor.units
 
     @property
     def frequency(self) -> float:
@@ -151,7 +219,7 @@ class Balance(NamedTuple, Generic[R]):
         value = series - apply(answer, spectrum) - self._external(frequency)
         by_frequency = np.zeros(0)
         if not self.periods and rates is not None:
-            turned = np.einsum("ijn,ijn->in", damping, _pairs(series @ self.basis.slopes.T))
+            turned = self._by_block(damping, series @ self.basis.slopes.T)
             change = apply(rates, spectrum) + apply(answer, turned @ self.basis.back.T)
             by_frequency = (-change / units[:, None]).ravel()
 
@@ -165,11 +233,11 @@ class Balance(NamedTuple, Generic[R]):
         units, terms = self.units, 2 * self.harmonics + 1
         rows = len(units)
         by_series = np.empty((rows, terms, rows, terms))
-        for j in range(rows):
-            pair = slice(j - j % 2, j - j % 2 + 2)
-            columns = slope_columns(stiffness[pair, j % 2], damping[pair, j % 2], self.harmonics)
-            moved = real_rows(answer[:, :, pair] @ columns)
-            by_series[:, :, j, :] = (-units[j] / units)[:, None, None] * moved
+        for block in self.rotor.blocks:
+            for k, j in enumerate(range(block.start, block.stop)):
+                columns = slope_columns(stiffness[block, k], damping[block, k], self.harmonics)
+                moved = real_rows(answer[:, :, block] @ columns)
+                by_series[:, :, j, :] = (-units[j] / units)[:, None, None] * moved
         flat = by_series.reshape(rows * terms, rows * terms)
         flat[np.arange(rows * terms), np.arange(rows * terms)] += 1.0
         return flat
@@ -186,9 +254,8 @@ class Balance(NamedTuple, Generic[R]):
         return change.reshape(len(self.units), -1) * self.units[:, None]
 
     def gaps(self, series: Array) -> Array:
-        """Return the clearance left to each journal at the samples, shape (n_bearings, samples) [m]."""
-        position = (series @ self.basis.values.T).reshape(-1, 2, self.samples)
-        return self.rotor.clearances[:, None] - np.hypot(position[:, 0], position[:, 1])
+        """Return the film left to each journal at the samples, shape (n_bearings, samples) [m]."""
+        return self.rotor.gaps(series @ self.basis.values.T)
 
     def _motion(self, series: Array, frequency: float) -> tuple[Array, Array]:
         """Return positions and velocities at the samples, (2 n, samples) each."""
@@ -197,10 +264,11 @@ class Balance(NamedTuple, Generic[R]):
     def _external(self, frequency: float) -> Array:
         return self.rotor.external(self.harmonics, self.periods, frequency)
 
-
-def _pairs(rows: Array) -> Array:
-    """Return, for each row, both rows of its bearing: (2 n, samples) to (2 n, 2, samples)."""
-    return np.repeat(rows.reshape(-1, 2, rows.shape[1]), 2, axis=0)
+    def _by_block(self, slopes: Array, change: Array) -> Array:
+        """Return what slopes (rows, widest, samples) make of a change of all rows (rows, samples)."""
+        blocks = self.rotor.blocks
+        parts = [np.einsum("ijn,jn->in", slopes[b, : b.stop - b.start], change[b]) for b in blocks]
+        return np.concatenate(parts)
 
 
 # Real Fourier series over one period: a_0, a_1 ... a_H of the cosines, b_1 ... b_H of the sines.
@@ -335,7 +403,7 @@ def real_rows(amplitudes: Complex) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class ModalFilms:
+class ModalFilms(JournalPairs):
     """A rotor in modes as the equations of an orbit see it.
 
     Attributes
@@ -383,11 +451,11 @@ class ModalFilms:
         """Return the forces of films and springs and their slopes."""
         return film_forces(self.modal, position, velocity, self.journals)
 
-    def loaded(self, part: float) -> ModalFilms:
+    def loaded(self, part: float) -> Self:
         """Return the same under a part of the unbalance."""
         push = self.modal.push.copy()
         push[:, -2:] *= part
-        return ModalFilms(self.modal._replace(push=push))
+        return replace(self, modal=self.modal._replace(push=push))
 
     @cached_property
     def _known(self) -> Callable[[range, float, bool], Receptance]:
@@ -639,13 +707,12 @@ def subharmonic(series: Array, ratio: int) -> Array:
 
 
 def end_of(
-    modal: ModalRotor, run: Trajectory, frequency: float | None, harmonics: int
+    rotor: PeriodicRotor, run: Trajectory, frequency: float | None, harmonics: int
 ) -> tuple[Array, float]:
     """Return the series of the last orbit of a run; without a frequency, that at which it comes back."""
-    keys = [f"{name}_" if name else "" for name in modal.parts.names]
-    motion = np.concatenate([np.stack([run[key + "x"], run[key + "y"]]) for key in keys])
+    motion = np.stack([run[name] for name in rotor.row_names])
     if frequency is None:
-        frequency = _recurrence(run.time, motion / np.repeat(modal.parts.lengths, 2)[:, None])
+        frequency = _recurrence(run.time, motion / rotor.units[:, None])
     begin = run.time[-1] - 2.0 * math.pi / frequency
     if begin < run.time[0]:
         raise InputError(f"start must last one orbit of {2.0 * math.pi / frequency:.6g} s at least")

@@ -137,7 +137,7 @@ def _rested(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
     return film, OperatingPoint(x=x, u=input_of(at.position, None, at.speed))
 
 
-# A film that remembers as a linear system for python-control, with its error over a range of frequencies.
+# A frequency-dependent film as a linear system for python-control, with its error over frequencies.
 
 
 ORDERS = (2, 4, 6, 8, 12, 16, 24, 32)
@@ -156,7 +156,7 @@ TOLERANCE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class FilmSystem(Readable):
-    """A film that remembers, as a linear system with few states.
+    """A frequency-dependent film, as a linear system with few states.
 
     Attributes
     ----------
@@ -208,7 +208,7 @@ def film_system(
     tolerance: float = TOLERANCE,
     name: str | None = None,
 ) -> FilmSystem:
-    """Return the small motion of a film that remembers as a stable system with few states.
+    """Return the small motion of a frequency-dependent film as a stable system with few states.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def film_system(
     """
     require_reaction("film", film, heavy=True, planar=True)
     if not states_rest(film):
-        raise InputError(f"film must be a film that remembers, such as a JFOFilm, got {brief(film)}")
+        raise InputError(f"film must be a frequency-dependent film, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     require_positive("tolerance", tolerance)
     coefficients: Any = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)

@@ -280,7 +280,7 @@ def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
     """
     exponent = _FIRST
     while len(rotor.assembly.weight) > WHOLE:
-        model = _remembered(rotor, exponent)
+        model = _cached_model(rotor, exponent)
         if model is None or model.space is None:
             break
         if len(model.space.frequencies) >= USUAL:
@@ -295,16 +295,16 @@ def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
     size = len(full.weight)
     if size > SMALL and frequency < ANY:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
-            model = _remembered(rotor, exponent)
+            model = _cached_model(rotor, exponent)
             if model is None or 2 * len(model.structure.coordinates) > len(full.coordinates):
                 break
             yield model
     yield Condensed(full, rotor.structure, None)
 
 
-def _remembered(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
+def _cached_model(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
     """Return the rotor in the modes below 2^exponent rad/s; None where its stiffness is not positive."""
-    known = rotor.remembered
+    known = rotor.cache
     if exponent not in known:
         try:
             space = shape_space(rotor.assembly, 2.0**exponent)
@@ -325,9 +325,9 @@ def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
     if not aside.any():
         return rotor
     key = ("whirling", aside.tobytes())
-    if key not in rotor.remembered:
-        rotor.remembered[key] = MatrixRotor(rotor, without(rotor.assembly, aside))
-    found: FlexibleRotor = rotor.remembered[key]
+    if key not in rotor.cache:
+        rotor.cache[key] = MatrixRotor(rotor, without(rotor.assembly, aside))
+    found: FlexibleRotor = rotor.cache[key]
     return found
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -22,19 +22,31 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import MOST_LEFT, Bearings, clearance_of, reach, static_force, static_slopes
+from ..core.port import (
+    MOST_LEFT,
+    Bearings,
+    amplitude_ratio,
+    clearance_of,
+    freedoms_of,
+    static_force,
+    static_slopes,
+    takes_steps,
+)
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
+from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
-from ..rotors.structure import Structure
+from ..rotors.structure import Structure, station_name
 from .coefficients import film_coefficients
-from .compiled_march import LONGEST_TURN, STAGES, March, ModalArrays, StepTable, radau_scheme
+from .compiled_march import LONGEST_TURN, March, ModalArrays
 from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
 from .harmonic_balance import (
     CONVERGED,
     Balance,
+    JournalPairs,
     ModalFilms,
+    PeriodicRotor,
     Receptance,
     Solution,
     basis,
@@ -51,6 +63,7 @@ from .harmonic_balance import (
     truncation_of,
     with_wave,
 )
+from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import second_order, with_hysteresis
 
@@ -80,6 +93,9 @@ class PeriodicOrbit(Drawable):
         Clearance of each bearing.
     series : ndarray, shape (n_bearings, 2, 2 H + 1) [m]
         Journal displacement x, y: mean, cosines, sines of the phase frequency * t.
+    further : dict of str to ndarray, shape (2 H + 1,)
+        Series of the other motions of the journals and of the states of bearings, by their names, as
+        left_tilt_x [rad]; empty where bearings react to x and y only.
     state : ndarray, shape (n_states,)
         State of the whole rotor at t = 0.
     multipliers : ndarray of complex, shape (n_states,)
@@ -98,6 +114,7 @@ class PeriodicOrbit(Drawable):
     stations: tuple[str, ...]
     lengths: Array
     series: Array
+    further: dict[str, Array]
     state: Array
     multipliers: Complex
     residual: float
@@ -165,7 +182,8 @@ def periodic_orbit(
     Parameters
     ----------
     mounted : MountedRotor
-        From `mount`, at constant speed.
+        From `mount`, at constant speed. Its bearings may react to any motions of the shaft and have states,
+        but no added mass; compiled loops serve those that react to x and y alone.
     start : PeriodicOrbit or Trajectory, optional
         An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the
         rest, which leads to the orbit of one turn.
@@ -187,89 +205,148 @@ def periodic_orbit(
     """
     require_count("periods", periods)
     require_positive("tolerance", tolerance)
-    modal = modal_rotor(parts := take_apart(mounted), parts.speed)
+    rotor = orbit_rotor(mounted)
     converged = max(CONVERGED, BALANCED * tolerance)
-    if bool(np.any(parts.structure.unbalance)) and parts.speed != 0.0:
-        found = _driven(mounted, modal, start, periods, converged)
+    if rotor.is_driven:
+        found = _driven(rotor, start, periods, converged)
     elif start is None:
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
     else:
-        series, frequency = _start_series(modal, start, None)
-        balance = Balance(rotor=ModalFilms(modal), harmonics=HARMONICS, periods=0)
+        series, frequency = _start_series(rotor, start, None)
+        balance = Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
         found = solve(balance, resized(series, HARMONICS), frequency, converged)
     return finished(lengthened(found, tolerance, converged), stability=stability)
 
 
+def orbit_rotor(mounted: MountedRotor) -> PeriodicRotor:
+    """Return a rotor with its bearings as the equations of an orbit see it, in C where its bearings allow.
+
+    Raises
+    ------
+    InputError
+        If the rotor has no orbits here: its speed must be constant, the ground still.
+    """
+    bare, bearings = mounted.bare, mounted.all_bearings.values()
+    aside = isinstance(bare, RigidRotor | FlexibleRotor) and bool(bare.structure.others)
+    if aside or any(freedoms_of(one) != PLANAR or (one.states and not takes_steps(one)) for one in bearings):
+        return PortRotor.of(mounted)
+    parts = take_apart(mounted)
+    return CompiledRotor(modal_rotor(parts, parts.speed), mounted)
+
+
 def _driven(
-    mounted: MountedRotor,
-    modal: ModalRotor,
-    start: PeriodicOrbit | Trajectory | None,
-    periods: int,
-    converged: float,
-) -> Solution[ModalFilms]:
+    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory | None, periods: int, converged: float
+) -> Solution[PeriodicRotor]:
     harmonics = HARMONICS * periods
-    balance = Balance(rotor=ModalFilms(modal), harmonics=harmonics, periods=periods)
+    balance = Balance(rotor=rotor, harmonics=harmonics, periods=periods)
     if start is not None:
-        series, _ = _start_series(modal, start, balance.frequency)
+        series, _ = _start_series(rotor, start, balance.frequency)
         return solve(balance, resized(series, harmonics), balance.frequency, converged)
-    rest = first_guess(mounted, modal)
+    rest = rotor.guess()
     return driven(balance, constant(rest, harmonics), rest, converged)
 
 
-def finished(solution: Solution[ModalFilms], *, stability: bool = True) -> PeriodicOrbit:
+def finished(solution: Solution[PeriodicRotor], *, stability: bool = True) -> PeriodicOrbit:
     """Return the orbit of a solution, with its multipliers if asked for."""
-    balance, series = solution.balance, solution.series
-    modal = balance.rotor.modal
-    parts = modal.parts
+    balance, series, frequency = solution.balance, solution.series, solution.frequency
+    rotor = balance.rotor
     return PeriodicOrbit(
-        frequency=solution.frequency,
-        speed=parts.speed,
+        frequency=frequency,
+        speed=rotor.speed,
         periods=balance.periods,
-        stations=parts.names,
-        lengths=parts.lengths,
-        series=series.reshape(len(parts.names), 2, -1),
-        state=state_at_start(modal, series, solution.frequency, balance.periods),
-        multipliers=multipliers(modal, series, solution.frequency)
-        if stability
-        else np.zeros(0, dtype=complex),
+        stations=rotor.names,
+        lengths=rotor.lengths,
+        series=rotor.journal_series(series),
+        further=rotor.further(series),
+        state=rotor.state(series, frequency, balance.periods),
+        multipliers=rotor.multipliers(series, frequency) if stability else np.zeros(0, dtype=complex),
         residual=solution.residual,
         truncation=truncation_of(solution),
         work={
-            "film_evaluations": (solution.iterations + 1) * balance.samples * len(parts.names),
+            "film_evaluations": (solution.iterations + 1) * balance.samples * len(rotor.names),
             "iterations": solution.iterations,
         },
     )
 
 
 def _start_series(
-    modal: ModalRotor, start: PeriodicOrbit | Trajectory, frequency: float | None
+    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory, frequency: float | None
 ) -> tuple[Array, float]:
     """Return the series of a start and its frequency; of a run, that of its end."""
-    if isinstance(start, PeriodicOrbit):
-        series = start.series.reshape(-1, start.series.shape[-1])
-        if len(series) != 2 * len(modal.parts.names):
-            raise InputError(
-                f"start must be an orbit of {len(modal.parts.names)} journals, got {len(series) // 2}"
-            )
-        if frequency is None or start.periods * frequency == 0.0:
-            return series, start.frequency
-        ratio = start.frequency / frequency
-        return subharmonic(series, round(ratio)), frequency
-    return end_of(modal, start, frequency, HARMONICS)
+    if not isinstance(start, PeriodicOrbit):
+        return end_of(rotor, start, frequency, HARMONICS)
+    series = series_of(rotor, start)
+    if frequency is None or start.periods * frequency == 0.0:
+        return series, start.frequency
+    return subharmonic(series, round(start.frequency / frequency)), frequency
+
+
+def series_of(rotor: PeriodicRotor, orbit: PeriodicOrbit) -> Array:
+    """Return the series of all rows of an orbit; raise InputError where it is that of another rotor."""
+    planar = [station_name(name, axis) for name in orbit.stations for axis in PLANAR]
+    known = {**dict(zip(planar, orbit.series.reshape(len(planar), -1), strict=True)), **orbit.further}
+    if missing := [name for name in rotor.row_names if name not in known]:
+        raise InputError(f"start must be an orbit of these bearings, got one without {missing}")
+    return np.array([known[name] for name in rotor.row_names])
+
+
+@dataclass(frozen=True, eq=False)
+class CompiledRotor(ModalFilms):
+    """A rotor in modes on bearings that react to x and y without states, whose forces are asked for in C.
+
+    Attributes
+    ----------
+    mounted : MountedRotor
+    """
+
+    mounted: MountedRotor
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The stations of its bearings."""
+        return self.modal.parts.names
+
+    @property
+    def lengths(self) -> Array:
+        """Clearance of each bearing, shape (n_bearings,) [m]; a nominal length without one."""
+        return self.modal.parts.lengths
+
+    @property
+    def row_names(self) -> list[str]:
+        """Names of the rows, as those of a run."""
+        return [station_name(name, axis) for name in self.names for axis in PLANAR]
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether it turns with an unbalance."""
+        return bool(np.any(self.modal.parts.structure.unbalance)) and self.speed != 0.0
+
+    def guess(self) -> Array:
+        """Return the positions of the journals at rest, or near it."""
+        return first_guess(self.mounted, self.modal)
+
+    def journal_series(self, series: Array) -> Array:
+        """Return the series of x and y of each bearing, shape (n_bearings, 2, 2 H + 1) [m]."""
+        return series.reshape(len(self.names), 2, -1)
+
+    def further(self, series: Array) -> dict[str, Array]:
+        """Return nothing."""
+        return {}
+
+    def state(self, series: Array, frequency: float, periods: int) -> Array:
+        """Return the state of the rotor at phase 0 of an orbit."""
+        return state_at_start(self.modal, series, frequency, periods)
+
+    def multipliers(self, series: Array, frequency: float) -> Complex:
+        """Return the Floquet multipliers of an orbit, the largest first."""
+        return multipliers(self.modal, series, frequency)
 
 
 # Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.
 
 
-STEPS_PER_HARMONIC = 2
-LEAST_STEPS = 64
-
-
 def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | None = None) -> Array:
     """Return how a small change of the state is mapped over one period, shape (2 N, 2 N).
-
-    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor on the mean slopes of its films
-    is exact, fast modes included, and over a step only what the films add to that is unknown.
 
     Parameters
     ----------
@@ -279,36 +356,18 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     steps : int, optional
         By default two for each harmonic.
     """
-    harmonics = series.shape[1] // 2
-    steps = steps or max(LEAST_STEPS, STEPS_PER_HARMONIC * harmonics)
-    slopes = _slopes(modal, series, frequency, steps)
-    mean = slopes.mean(axis=(0, 1))
-    modal, slopes = on_mean_films(modal, mean), slopes - mean
-    step = 2.0 * np.pi / (frequency * steps)
-    table = StepTable.of_step(ModalArrays.of(modal), radau_scheme(STAGES), step)
-    modes, count = len(modal.values), slopes.shape[2]
-    channels = np.arange(STAGES)[:, None] * (count + 2) + np.arange(count)
-    forced = table.forced[:modes, channels.ravel()] + 1j * table.forced[modes:, channels.ravel()]
-    z: Complex = modal.inverse.astype(complex)
-    identity = np.eye(STAGES * count)
-    for local_slopes in slopes:
-        moved = (table.move @ np.vstack([z.real, z.imag])).reshape(STAGES, -1, 4, z.shape[1])
-        local = local_slopes.reshape(STAGES, -1, 2, 4)
-        right = np.einsum("ibrk,ibkn->ibrn", local, moved).reshape(STAGES * count, -1)
-        by_force = table.gain[..., :count].reshape(STAGES, STAGES, -1, 4, count)
-        matrix = np.einsum("ibrk,ijbkc->ibrjc", local, by_force).reshape(STAGES * count, STAGES * count)
-        z = table.keep[:, None] * z + forced @ np.linalg.solve(identity - matrix, right)
-    return np.asarray((modal.shapes @ z).real)
-
-
-def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> Array:
-    """Return the films' slopes at the nodes of all steps, shape (steps, stages, 2 n_bearings, 4)."""
-    nodes = radau_scheme(STAGES).nodes
-    phase = (2.0 * np.pi / steps * (np.arange(steps)[:, None] + nodes)).ravel()
+    steps, phase = step_phases(series.shape[1] // 2, steps)
     values, rates = series_rows(series.shape[1] // 2, phase)
     _, stiffness, damping = film_forces(modal, series @ values.T, frequency * (series @ rates.T))
-    both = np.moveaxis(np.concatenate([stiffness, damping], axis=1), 2, 0)
-    return both.reshape(steps, STAGES, len(series), 4)
+    slopes = np.moveaxis(np.concatenate([stiffness, damping], axis=1), 2, 0)
+    mean = slopes.mean(axis=0)
+    modal, count = on_mean_films(modal, mean), len(modal.parts.names)
+    local = np.zeros((len(phase), count, 2, count, 4))
+    for k in range(count):
+        local[:, k, :, k] = (slopes - mean).reshape(-1, count, 2, 4)[:, k]
+    step = 2.0 * np.pi / (frequency * steps)
+    by_film = local.reshape(len(phase), 2 * count, 4 * count)
+    return carried_over(ModalArrays.of(modal), modal.shapes, modal.inverse, by_film, step)
 
 
 def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
@@ -316,7 +375,8 @@ def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
     A, B = shifted_matrix(modal), (modal.shapes @ modal.push).real
     size = len(A) // 2
     rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
-    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ _by_state(modal, slopes), rate)
+    scale = np.repeat([1.0, rate], size)
+    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ _by_state(modal, slopes), scale)
     return modal._replace(
         values=values,
         shapes=shapes,
@@ -552,7 +612,8 @@ def rotor_answers(
     )
 
 
-class DrivenRotor(NamedTuple):
+@dataclass(frozen=True)
+class DrivenRotor(JournalPairs):
     """A rotor on its bearings as the equations of a driven orbit see it.
 
     Attributes
@@ -615,7 +676,7 @@ class DrivenRotor(NamedTuple):
     def loaded(self, part: float) -> DrivenRotor:
         """Return the same under a part of the unbalance."""
         external = self.answers.external * np.array([[1.0], [part]])
-        return self._replace(answers=self.answers._replace(external=external))
+        return replace(self, answers=self.answers._replace(external=external))
 
 
 def rest_position(at: RotorEquilibrium, stations: Sequence[str]) -> Array:
@@ -659,10 +720,12 @@ def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None
     return balance.in_length(step), balance.in_length(other)
 
 
-def reach_of(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
-    """Return how far the journals go towards contact at the samples; see `reach`."""
+def orbit_amplitude_ratio(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
+    """Return how far the journals go towards contact at the samples; see `amplitude_ratio`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
-    return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
+    return max(
+        amplitude_ratio(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations)
+    )
 
 
 def _by_bearing(rows: Array) -> Array:

@@ -103,7 +103,7 @@ def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -
     return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
 
 
-def remembering(at: RotorEquilibrium) -> dict[str, FrequencyDependentCoefficients]:
+def frequency_dependent_films(at: RotorEquilibrium) -> dict[str, FrequencyDependentCoefficients]:
     """Return the films of a rotor whose stiffness is K(s) at every exponent, by station."""
     return {
         n: film for n, film in at.coefficients.items() if isinstance(film, FrequencyDependentCoefficients)
@@ -127,7 +127,9 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
     shapes : ndarray, shape (N, m)
         Of the coordinates of the rotor.
     """
-    films = {n: film for n, film in remembering(at).items() if hasattr(film.dynamic_stiffness, "at")}
+    films = {
+        n: film for n, film in frequency_dependent_films(at).items() if hasattr(film.dynamic_stiffness, "at")
+    }
     held, columns, felt, own = {}, [], [], []
     for name, film in films.items():
         A, B, C, D = film.dynamic_stiffness.at
@@ -156,14 +158,14 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
 
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
-    """Return an equilibrium with K(s) and its slope of the films that remember, for motion near e^(s t)."""
-    if not remembering(at):
+    """Return an equilibrium with K(s) and its slope of frequency-dependent films, for motion near e^(s t)."""
+    if not frequency_dependent_films(at):
         return at
     return replace(at, coefficients={n: coefficients_near(film, s) for n, film in at.coefficients.items()})
 
 
 def coefficients_near(film: Coefficients, s: complex) -> Coefficients:
-    """Return K(s) and its slope as K and C of a film that remembers; any other as it is."""
+    """Return K(s) and its slope as K and C of a frequency-dependent film; any other as it is."""
     return film.near(s) if isinstance(film, FrequencyDependentCoefficients) else film
 
 
@@ -171,7 +173,7 @@ def motion_near(
     structure: Structure, at: RotorEquilibrium, frequency: float
 ) -> Callable[[complex], SecondOrder]:
     """Return the equations of small motion about an equilibrium near an exponent, as a function of it."""
-    if remembering(at):
+    if frequency_dependent_films(at):
         return lambda s: small_motion(structure, rest_near(at, s), frequency)
     system = small_motion(structure, at, frequency)
     return lambda s: system
@@ -228,8 +230,8 @@ def whirl_near(
 ) -> tuple[complex, np.ndarray, np.ndarray]:
     """Return the eigenvalue of a rotor about its rest next to another one, and its right and left vector.
 
-    Its shape is like that under a load; hysteresis is that at a frequency [rad/s]. Films that remember have
-    K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
+    Its shape is like that under a load; hysteresis is that at a frequency [rad/s]. Frequency-dependent films
+    have K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
 
     Raises
     ------

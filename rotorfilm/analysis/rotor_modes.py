@@ -37,8 +37,8 @@ from .modal_reduction import (
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
     FullRotorModel,
+    frequency_dependent_films,
     joined_whirls,
-    remembering,
     rest_near,
     roundoff,
     small_motion,
@@ -261,8 +261,10 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     whole, lifted = FullRotorModel(model.whole, at, frequency), model.lifted(shapes)
     chosen = _is_held(whole, values, lifted) & (values.imag >= low) & (values.imag < high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
-    if remembering(at):
-        return _remembered(model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order]))
+    if frequency_dependent_films(at):
+        return _frequency_dependent_part(
+            model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order])
+        )
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
@@ -271,14 +273,14 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     return values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order]
 
 
-def _remembered(
+def _frequency_dependent_part(
     model: Condensed,
     at: RotorEquilibrium,
     frequency: float,
     known_to: float,
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> Part:
-    """Return the motions on films that remember next to those with K and C of one frequency.
+    """Return the motions on frequency-dependent films next to those with K and C of one frequency.
 
     Whirl in which the states of a film take part as much as the shaft, as that of a body between two
     reactions, is next to none of these, but known where the states are.
@@ -286,9 +288,15 @@ def _remembered(
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
     own, ways = joined_whirls(model.structure, at)
+    known = all(hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values())
     given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
-    for start, shape, rounding in given:
-        one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
+    for k, (start, shape, rounding) in enumerate(given):
+        try:
+            one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
+        except ConvergenceError:
+            if known and k < len(starts):  # those that matter are among the eigenvalues with all states
+                continue
+            raise
         if one is None or _is_among(one[0], one[1], found):
             continue
         s, *vectors = one
@@ -494,8 +502,8 @@ def critical_speeds(
 
     The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
     solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
-    as the parabola through both ends and the middle, and on films that remember, `JFOFilm`, for whirls with
-    |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
+    as the parabola through both ends and the middle, and on frequency-dependent films for whirls with |Re s|
+    up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
     is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
     rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
     is checked in all coordinates besides, by Sylvester's law of inertia.
@@ -663,8 +671,8 @@ def rotor_threshold(
         Rising or falling, of either sign, searched in this order; stability lost and regained within one step
         goes unseen.
     report : callable, optional
-        Told how far the search is, as the share of the speeds that are done and the next one: on films that
-        remember each takes seconds.
+        Told how far the search is, as the share of the speeds that are done and the next one: on
+        frequency-dependent films each takes seconds.
 
     Notes
     -----
@@ -674,8 +682,8 @@ def rotor_threshold(
     are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
     estimated. The speed is off by the error of s over the slope of Re s over the speed, `speed_error`.
 
-    On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
-    grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
+    On frequency-dependent films exponents are those with K(s). At each of the speeds given those that grow
+    are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
 
     Raises
     ------
@@ -795,7 +803,7 @@ class _Stability(NamedTuple):
         return self._counted(speed).growing
 
     def _counted(self, speed: float) -> _Growth:
-        """Return what grows at a speed, with a proof on films that remember that it is all."""
+        """Return what grows at a speed, with a proof on frequency-dependent films that it is all."""
         found = self.growth(speed)
         require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
         return found

@@ -70,7 +70,7 @@ def simulate(
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the `breakpoints` of the rotor.
     The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
-    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as
+    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; mass-conserving films, as
     `JFOFilm`, with the rotor in one Newton step, by differences of second order.
 
     Parameters
@@ -79,7 +79,7 @@ def simulate(
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
     reaction : Reaction, JFOFilm, or mapping of str to either
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
-        balance of its heat gets it as a state. Films that remember begin steady. A flexible rotor takes one
+        balance of its heat gets it as a state. Mass-conserving films begin steady. A flexible rotor takes one
         for each station by name; `mount` takes those of some stations where the last is of another kind.
     duration : float [s]
     samples : int
@@ -90,10 +90,10 @@ def simulate(
         State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
     rtol : float [1]
         Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
-        films that remember `max_step` says how exact it is, and `Trajectory.step_error` how exact it was.
+        mass-conserving films `max_step` says how exact it is, and `Trajectory.step_error` how exact it was.
     max_step : float [s]
-        Longest step of the integrator. With films that remember the length of all steps but those cut short;
-        by default 1/384 of a turn at the highest speed.
+        Longest step of the integrator. Mass-conserving films take steps of this length, unless cut short; by
+        default 1/384 of a turn at the highest speed.
     method : a class derived from scipy.integrate.OdeSolver, optional
         Stiff methods are given the exact Jacobian. By default the compiled integration where it takes rotor
         and film (`analysis.compiled_rotor`) and comes to the end, `scipy.integrate.Radau` otherwise.
@@ -104,7 +104,7 @@ def simulate(
         Signals: every output of the rotor, the film force on the journal [N], and of a film with states
         its further outputs and its states. Work:
         film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
-        integration also rejected (those and all others cut short); with films that remember steps,
+        integration also rejected (those and all others cut short); with mass-conserving films steps,
         newton_steps, film_solutions, restarts.
 
     Raises

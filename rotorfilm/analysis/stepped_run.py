@@ -1,4 +1,4 @@
-"""Motion of a rotor on films that remember, in steps of equal length, halved where they fail."""
+"""Motion of a rotor on mass-conserving films, in steps of equal length, halved where they fail."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def _cubic(last: Moment, now: Moment, s: float) -> Array:
     return np.asarray(cubic(last.state, now.state, dt * last.rate, dt * now.rate, s)[0])
 
 
-# A rotor and films that remember in one Newton step: both by differences of second order in time.
+# A rotor and mass-conserving films in one Newton step: both by differences of second order in time.
 
 
 CONVERGED = 1e-9
@@ -220,10 +220,10 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     outputs, inputs, found = names(rotor.outputs), names(rotor.inputs), []
     for name, film in films.items():
-        said = f"reaction[{name!r}]" if name else "reaction"
+        argument = f"reaction[{name!r}]" if name else "reaction"
         if not takes_steps(film):
             raise InputError(
-                f"{said} must be a film that steps, as a JFOFilm, as all others of it are, got {brief(film)}"
+                f"{argument} must be a film that steps, as a JFOFilm, since others do, got {brief(film)}"
             )
         motion, force = station_names(name)
         places = indices("rotor must have the outputs", outputs, [*motion, JOURNAL_INPUTS[-1]])
@@ -237,7 +237,7 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
 
 
 class SteppedLoop:
-    """Steps of a rotor on films that remember.
+    """Steps of a rotor on mass-conserving films.
 
     With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's
     method solves
@@ -357,7 +357,7 @@ class SteppedLoop:
         return Moment(t, x, rate, films, np.concatenate(outputs))
 
 
-# How far steps of a run on films that remember may be off: nothing controls them, so the run says it.
+# How far steps of a run on mass-conserving films may be off: nothing controls them, so the run says it.
 
 
 class StepError:

@@ -345,7 +345,7 @@ class CriticalMass(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class VerifiedCriticalMass(CriticalMass):
-    """The mass at the border of stability on a film that remembers, with what grows on both sides of it.
+    """The mass at the border of stability on a frequency-dependent film, with what grows on both sides of it.
 
     Attributes
     ----------
@@ -407,7 +407,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
 def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
     """Return the lightest mass with which nothing grows below, and something above."""
-    # Imported where a film remembers: with it come flexible rotors and sparse matrices.
+    # Imported where a film is frequency-dependent: with it come flexible rotors and sparse matrices.
     from .frequency_dependent import mass_borders, rigid_growing
 
     borders = mass_borders(film)
@@ -494,7 +494,7 @@ def _shifted_determinant(coefficients: Coefficients, k: float) -> float:
     return _determinant(coefficients.stiffness - k * np.eye(2))
 
 
-# The onset of whirl on a film that remembers, with the proof that no whirl was missed.
+# The onset of whirl on a frequency-dependent film, with the proof that no whirl was missed.
 
 
 BESIDE = 1e-3
@@ -507,7 +507,7 @@ most looks. K and C jump a little with the cells of the cavity: a border between
 
 @dataclass(frozen=True, kw_only=True)
 class VerifiedThreshold(WhirlThreshold):
-    """The onset of whirl of a rigid rotor on a film that remembers, with what grows on both sides of it.
+    """The onset of whirl of a rigid rotor on a frequency-dependent film, with what grows on both sides of it.
 
     Attributes
     ----------

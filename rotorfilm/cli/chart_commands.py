@@ -303,8 +303,8 @@ def bearings(
     headings = ("threshold [rpm] on", *(f"at {whirl.rungs[k]['load [N]']:.4g} N" for k in shown))
     rows = [(name, *(_speed(rungs[k].values) for k in shown)) for name, rungs in types.items()]
     met = dict.fromkeys(rung["whirl [-]"] for rung in whirl.rungs if rung["threshold [rad/s]"] is None)
-    said = [(outcome, studies.WHIRL_OUTCOMES[outcome]) for outcome in met]
-    show = partial(show_table, headings, rows, [("convention", film.reference), *said, *files])
+    remarks = [(outcome, studies.WHIRL_OUTCOMES[outcome]) for outcome in met]
+    show = partial(show_table, headings, rows, [("convention", film.reference), *remarks, *files])
     return CommandOutput({"coefficients": film, "thresholds": whirl}, show)
 
 

@@ -214,14 +214,14 @@ def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> 
     taking = {flag for each in (*parameters.values(), JSON) for flag in _add(parser, each)}
     given = vars(parser.parse_args(list(_joined(words, taking))))
     as_json = given.pop("json")
-    said = _followed(function, given, group.slow) if followed else function(**given)
+    answer = _followed(function, given, group.slow) if followed else function(**given)
     if as_json:
-        console.print_json(said.data)
+        console.print_json(answer.data)
     else:
-        said.show()
-    if said.failure:
-        console.complain("error", said.failure)
-    if said.failure is not None:
+        answer.show()
+    if answer.failure:
+        console.complain("error", answer.failure)
+    if answer.failure is not None:
         sys.exit(FAILED)
 
 
@@ -230,10 +230,10 @@ def _followed(function: Callable[..., CommandOutput], given: dict[str, Any], slo
     with console.progress_display() as report:
         if slow:
             report(0.0, "packages")
-        said = function(**given, report=report)
+        answer = function(**given, report=report)
         if slow:
             report(1.0, "done")
-    return said
+    return answer
 
 
 def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:

@@ -84,7 +84,7 @@ Work = Mapping[WorkUnit, int]
 """Units of work done."""
 
 
-class Found(NamedTuple):
+class RungResult(NamedTuple):
     """What a rung answers.
 
     Attributes
@@ -275,13 +275,13 @@ class Rung(Protocol):
     def shares(self) -> object:
         """What its error has a part of: rungs of the same object have the same part. None without."""
 
-    def answer(self, before: Found | None, /) -> Found:
+    def answer(self, before: RungResult | None, /) -> RungResult:
         """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
 
         NoAnswerError where none has.
         """
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float, /) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float, /) -> ErrorEstimate:
         """Return the error of its answer without running a richer model.
 
         A verified bound is enough where it is below the tolerance. `before` is the answer of a lower rung.

@@ -128,13 +128,13 @@ def require_each(owner: object, rule: Callable[[str, Any], object], *names: str)
         rule(name, getattr(owner, name))
 
 
-def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
+def require_kind(name: str, value: Any, kind: Any, expected: str) -> None:
     """Raise InputError unless `value` is an instance of a class, of one of a union, or obeys a protocol.
 
-    What `kind` is, `said` says in words. The message lists the members of a protocol that `value` lacks.
+    What `kind` is, `expected` says in words. The message lists the members of a protocol that `value` lacks.
     """
     if isinstance(value, type):
-        raise InputError(f"{name} must be {said}, got {brief(value)}")
+        raise InputError(f"{name} must be {expected}, got {brief(value)}")
     if not getattr(kind, "_is_protocol", False):
         missing = [] if isinstance(value, kind) else [""]
     else:
@@ -143,7 +143,7 @@ def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
         missing = [member for member in lacking(cls, kind) if not hasattr(value, member)]
     if missing:
         without = f" without {', '.join(missing)}" if missing[0] else ""
-        raise InputError(f"{name} must be {said}, got {brief(value)}{without}")
+        raise InputError(f"{name} must be {expected}, got {brief(value)}{without}")
 
 
 @cache

@@ -48,10 +48,10 @@ def optional(package: str, install: str) -> Any:
 
 def dimensions(name: str, shape: Iterable[str], count: int) -> tuple[str, ...]:
     """Return the names of the dimensions of an array, from its shape as its docstring has it."""
-    said = tuple(shape)
-    if len(said) != count:
+    shape_of = tuple(shape)
+    if len(shape_of) != count:
         return tuple(f"{name}_{k}" for k in range(count))
-    dims = [AXIS if text == "2" else re.sub(r"\W+", "_", text).strip("_") or name for text in said]
+    dims = [AXIS if text == "2" else re.sub(r"\W+", "_", text).strip("_") or name for text in shape_of]
     # Rows of a matrix are those of the force.
     dims = [f"force_{AXIS}" if dim == AXIS and AXIS in dims[k + 1 :] else dim for k, dim in enumerate(dims)]
     return tuple(f"{dim}_{k}" if dim in dims[:k] else dim for k, dim in enumerate(dims))

@@ -442,8 +442,8 @@ def is_object(kind: Any) -> bool:
 def require_allowed(checks: Mapping[str, Check], given: Iterable[tuple[str, Any]]) -> None:
     """Raise InputError where an argument does not pass its check."""
     for name, value in given:
-        if (check := checks.get(name)) and (said := check(value)):
-            raise InputError(f"{name} must be {said}, got {brief(value)}")
+        if (check := checks.get(name)) and (wording := check(value)):
+            raise InputError(f"{name} must be {wording}, got {brief(value)}")
 
 
 def require_sizes(given: Iterable[tuple[str, Any]]) -> None:
@@ -458,8 +458,8 @@ def require_named(error: InputError, checks: Mapping[str, Check], given: Iterabl
 
     What follows from that argument, as a ratio, may be all that a rule of a class speaks of.
     """
-    said = re.findall(r"\w+", str(error))
-    require_allowed(checks, [(name, value) for name, value in given if name not in said])
+    wording = re.findall(r"\w+", str(error))
+    require_allowed(checks, [(name, value) for name, value in given if name not in wording])
 
 
 def require_usual(given: Iterable[tuple[str, Any]]) -> None:
@@ -511,13 +511,13 @@ def _one_of(checks: Sequence[Check | None]) -> Check | None:
         return None
 
     def check(value: Any) -> str:
-        said: list[str] = []
+        wording: list[str] = []
         for one in known:
             words = one(value)
             if not words:
                 return ""
-            said.append(words)
-        return " or ".join(dict.fromkeys(said))
+            wording.append(words)
+        return " or ".join(dict.fromkeys(wording))
 
     return check
 
@@ -596,8 +596,8 @@ def _tuple(parts: tuple[Any, ...], strictly: bool) -> Check:
         if not many and len(value) != len(checks):
             return f"a tuple of {len(checks)}"
         every = checks * len(value) if many else checks
-        said = (one(entry) for one, entry in zip(every, value, strict=True) if one)
-        return next((f"a tuple, each {words}" for words in said if words), "")
+        wording = (one(entry) for one, entry in zip(every, value, strict=True) if one)
+        return next((f"a tuple, each {words}" for words in wording if words), "")
 
     return check
 
@@ -609,8 +609,8 @@ def _series(each: Check | None) -> Check:
         if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
             return "a list"
         entries = value if isinstance(value, list | tuple) and each else ()
-        said = (each(entry) for entry in entries) if each else iter(())
-        return next((f"a list, each {words}" for words in said if words), "")
+        wording = (each(entry) for entry in entries) if each else iter(())
+        return next((f"a list, each {words}" for words in wording if words), "")
 
     return check
 
@@ -621,30 +621,30 @@ def _mapping(each: Check | None) -> Check:
     def check(value: Any) -> str:
         if not isinstance(value, Mapping):
             return "a mapping such as {'left': ...}"
-        said = ((key, each(entry)) for key, entry in value.items()) if each else iter(())
-        return next((f"a mapping, {key!r} of it {words}" for key, words in said if words), "")
+        wording = ((key, each(entry)) for key, entry in value.items()) if each else iter(())
+        return next((f"a mapping, {key!r} of it {words}" for key, words in wording if words), "")
 
     return check
 
 
 def _instance(kind: type) -> Check:
-    said = f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
-    return lambda value: "" if isinstance(value, kind) else said
+    wording = f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
+    return lambda value: "" if isinstance(value, kind) else wording
 
 
 def _protocol(kind: type, strictly: bool) -> Check:
     """Check that a value has something of a protocol, or all of it."""
     members = [name for name in dir(kind) if not name.startswith("_")]
-    said = f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
+    wording = f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
 
     def check(value: Any) -> str:
         cls: Any = type(value)
         if isinstance(value, type):
-            return said
+            return wording
         missing = [name for name in lacking(cls, kind) if not hasattr(value, name)]
         if not missing or (len(missing) < len(members) and not strictly):
             return ""
-        return f"{said}, with {', '.join(missing)}"
+        return f"{wording}, with {', '.join(missing)}"
 
     return check
 

@@ -292,7 +292,7 @@ def minimum_film(reaction: Any, position: Array) -> Array:
     return np.asarray(clearance_of(reaction) - np.hypot(*_planar(reaction, position)))
 
 
-def reach(reaction: Any, positions: Array) -> float:
+def amplitude_ratio(reaction: Any, positions: Array) -> float:
     """Return how far the way of journals (n, ...) [m] goes towards contact: 1 - least film / clearance."""
     clearance = clearance_of(reaction)
     if has_wall(reaction) and clearance < np.inf:
@@ -454,9 +454,9 @@ def require_turned(reaction: Any, rotor: Any, signals: Mapping[str, Any]) -> Non
     """Warn, or raise InputError, where a run became faster than its rotor said beforehand, as by a motor."""
     heavy = inertial(reaction)
     if heavy is not None and "speed" in signals and len(signals["speed"]):
-        said = max(signal.nominal for signal in rotor.outputs if signal.name == "speed")
+        highest_signal = max(signal.nominal for signal in rotor.outputs if signal.name == "speed")
         highest = float(abs(signals["speed"]).max())
-        if highest > said:
+        if highest > highest_signal:
             heavy.require_range(highest)
 
 

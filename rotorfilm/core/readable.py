@@ -56,14 +56,16 @@ def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
         if name in unset:
             continue
-        held, said = getattr(value, name), explained(type(value), name)
+        held, wording = getattr(value, name), explained(type(value), name)
         if isinstance(held, Mapping) and any(_is_measured(one) for one in held.values()):
             for key, one in held.items():
                 below = key if name == SERIES else f"{name}_{key}"
-                yield Item(below, one, own.get(key, said.unit), said.shape)
+                yield Item(below, one, own.get(key, wording.unit), wording.shape)
         elif name != UNITS:
-            absolute = name.endswith("temperature") and "above ambient" not in said.meaning.lower()
-            yield Item(name, held, own.get(name, said.unit), said.shape, absolute and said.unit == "K")
+            absolute = name.endswith("temperature") and "above ambient" not in wording.meaning.lower()
+            yield Item(
+                name, held, own.get(name, wording.unit), wording.shape, absolute and wording.unit == "K"
+            )
 
 
 def _is_measured(value: Any) -> bool:
@@ -234,9 +236,9 @@ def _arrays(items: Iterable[Item]) -> tuple[frames.Arrays, dict[str, Any]]:
     notes: dict[str, Any] = {}
     for name, value, unit, shape, *_ in items:
         if isinstance(value, Readable):
-            inner, said = _arrays(items_of(value, value._shown))
+            inner, wording = _arrays(items_of(value, value._shown))
             found |= {f"{name}_{key}": one for key, one in inner.items()}
-            notes |= {f"{name}_{key}": one for key, one in said.items()}
+            notes |= {f"{name}_{key}": one for key, one in wording.items()}
         elif isinstance(value, tuple) and value and all(isinstance(one, Readable) for one in value):
             found |= _stacked(name, (*shape, name)[0], value)
         elif is_number(value) or (value is None and unit):
@@ -325,8 +327,8 @@ def explained(kind: type, name: str) -> Entry:
     """Return what is said of a field of a class, or of a property by its own docstring."""
     for one in kind.__mro__:
         found = vars(one).get(name)
-        if said := _fields(one).get(name):
-            return said
+        if wording := _fields(one).get(name):
+            return wording
         if hasattr(found, "__get__"):
             text = " ".join((found.__doc__ or "").split())
             return Entry(name, "".join(UNIT.findall(text)[-1:]), text, text, one.__name__)

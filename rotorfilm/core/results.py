@@ -181,7 +181,7 @@ class ReducedCoefficients(Coefficients):
 
 @dataclass(frozen=True, kw_only=True)
 class FrequencyDependentCoefficients(ReducedCoefficients):
-    """Stiffness and damping at one frequency of a film that remembers, which knows them at every other.
+    """Stiffness and damping at one frequency of a frequency-dependent film, which knows them at every other.
 
     Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
     of matrices that it shows.
@@ -270,7 +270,7 @@ class Trajectory(Drawable):
     units : dict of str to str
         SI unit of each signal, where it is known.
     step_error : float or None [1]
-        Of a run on films that remember: the local errors of its steps, added up over the clearance.
+        Of a run on mass-conserving films: the local errors of its steps, added up over the clearance.
     """
 
     time: Array

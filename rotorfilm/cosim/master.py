@@ -288,8 +288,8 @@ def _tried(
             taken, cost = True, f"{_calls(run):.3g} film calls per step"
             reason = f"stable, off by {error:.2g}, {cost}: the cheapest that will do"
     calls = None if run is None else _calls(run)
-    said = Trial(scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason)
-    return said, taken
+    outcome = Trial(scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason)
+    return outcome, taken
 
 
 def _failure(failure: PartialResultError) -> str:

@@ -403,7 +403,7 @@ def tangent_law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
     )
 
 
-# A linearly implicit scheme for films that remember: their drift is told from two points behind.
+# A linearly implicit scheme for mass-conserving films: their drift is told from two points behind.
 
 
 @dataclass(frozen=True)

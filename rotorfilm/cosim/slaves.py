@@ -364,7 +364,7 @@ class InProcessSlave(_Held, Integrated):
 
 
 class SteppedPartner(_Held):
-    """A film that remembers, stepped as its FMU would step it, which tells its slopes besides.
+    """A mass-conserving film, stepped as its FMU would step it, which tells its slopes besides.
 
     Parameters
     ----------

@@ -351,13 +351,13 @@ def _add_type(parent: Element, attributes: Mapping[str, str], second: bool) -> N
 
 
 def _add_variable(parent: Element, reference: int, variable: Variable, second: bool) -> None:
-    said, values = variable_attributes(variable, reference), value_attributes(variable)
+    described, values = variable_attributes(variable, reference), value_attributes(variable)
     if variable.state is not None:
         values["derivative"] = str(variable.state + second)
     if second:
-        SubElement(SubElement(parent, "ScalarVariable", said), "Real", values)
+        SubElement(SubElement(parent, "ScalarVariable", described), "Real", values)
     else:
-        SubElement(parent, "Float64", said | values)
+        SubElement(parent, "Float64", described | values)
 
 
 def _add_structure2(structure: Element, description: Description) -> None:
@@ -626,9 +626,9 @@ def terminals_and_icons(found: Terminals, icon: bool) -> bytes:
         SubElement(graphics, "Icon", corners)
     if found:
         parent = SubElement(root, "Terminals")
-        said = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
+        described = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
         for name, members in found.items():
-            element = SubElement(parent, "Terminal", {"name": name, "matchingRule": RULE, **said})
+            element = SubElement(parent, "Terminal", {"name": name, "matchingRule": RULE, **described})
             for member, variable in members.items():
                 own = {"variableName": variable, "memberName": member}
                 SubElement(element, "TerminalMemberVariable", {**own, "variableKind": "signal"})

@@ -242,8 +242,8 @@ def start_values(model: Model | Stepped, start: Mapping[str, float | str]) -> di
             raise InputError(
                 f"start must have keys from the inputs {list(found)}, got {name!r}{_state_hint(model, name)}"
             )
-        said = f"start[{name!r}]"
-        found[name] = float(require_finite(said, quantity(said, value, signals[name].unit)))
+        argument = f"start[{name!r}]"
+        found[name] = float(require_finite(argument, quantity(argument, value, signals[name].unit)))
     return found
 
 

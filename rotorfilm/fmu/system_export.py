@@ -242,8 +242,8 @@ def parameter_set(name: str, components: Sequence[Part]) -> bytes:
 
 def _add_component(elements: Element, component: Part) -> None:
     kind = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
-    said = {"name": component.name, "source": component.source, **kind}
-    connectors = SubElement(SubElement(elements, "ssd:Component", said), "ssd:Connectors")
+    attributes = {"name": component.name, "source": component.source, **kind}
+    connectors = SubElement(SubElement(elements, "ssd:Component", attributes), "ssd:Connectors")
     for variable in component.variables.values():
         connector = SubElement(connectors, "ssd:Connector", name=variable.name, kind=variable.causality)
         SubElement(connector, "ssc:Real", _unit(variable))

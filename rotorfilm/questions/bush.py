@@ -31,11 +31,11 @@ from ..bearings.bush import (
     wear_by_one_moment,
     wear_by_two_moments,
 )
-from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
 from ..core.model import Array
 from ..scenes.excitation_table import StepLoadTable
-from ..scenes.families import Remark, said
+from ..scenes.families import Remark, messages
 from .variants import FunctionRung
 
 if TYPE_CHECKING:
@@ -59,11 +59,11 @@ def speed_rung(bush: MeltingBush, load: float) -> FunctionRung:
         for name in ("exact" if is_exact else FLUX, "exact")
     )
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         at = bush.contact(load)
-        return Found(at.critical_speed, {unit: 1}, at)
+        return RungResult(at.critical_speed, {unit: 1}, at)
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return what the exact flux would change: the speed goes with the heat into shaft and liner."""
         if is_exact:
             return ErrorEstimate(EXACT_ERROR, "verified bound of the flux", bound=True)
@@ -282,8 +282,8 @@ ENDS, CRITICAL_SPEEDS = WorkUnit("ends of the wear"), WorkUnit("critical speeds"
 def wear_rung(
     run: BushRun,
     name: str,
-    answer: Callable[[Found | None], Found],
-    judge: Callable[[Found, Found | None], ErrorEstimate],
+    answer: Callable[[RungResult | None], RungResult],
+    judge: Callable[[RungResult, RungResult | None], ErrorEstimate],
     expected: Callable[[Work], Work],
     *,
     within: float = AT_CRITICAL,
@@ -296,7 +296,7 @@ def wear_rung(
     error is infinite.
     """
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         margin = run.margin(run.exact)
         if found.value != 0.0 and margin > within:
             return judge(found, before)
@@ -313,12 +313,12 @@ def moment_rung(run: BushRun, *, closed: bool, moments: int) -> FunctionRung:
     name = f"{'one moment' if moments == 1 else 'two moments'}{CLOSED if closed else ''}"
     unit = WorkUnit(f"rates of {name}", ("rates", moments, closed))
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         path = (wear_by_one_moment if moments == 1 else wear_by_two_moments)(own, run.stages)
         worn = own.settlement(float(path.moment[-1]), float(path.load_ratio[-1]))
-        return Found(run.require_liner(run.radius * worn), {unit: path.calls}, path)
+        return RungResult(run.require_liner(run.radius * worn), {unit: path.calls}, path)
 
-    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None) -> ErrorEstimate:
         path: Path = found.solution
         is_bound = moments == 2 and not closed
         defect, *slopes = flux_bound(own, path) if is_bound else moments_defect(own, run.exact, path)
@@ -370,12 +370,12 @@ def end_rung(run: BushRun) -> FunctionRung:
     """Return where the wear under a constant load ends: the critical speed has grown to the speed."""
     rich, own, stage = run.exact, run.closed, run.stages[-1]
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         moment, calls = end_of_wear(own, stage.load_ratio)
         worn = own.settlement(require_end(moment), stage.load_ratio)
-        return Found(run.require_liner(run.radius * worn), {CRITICAL_SPEEDS: calls}, moment)
+        return RungResult(run.require_liner(run.radius * worn), {CRITICAL_SPEEDS: calls}, moment)
 
-    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None) -> ErrorEstimate:
         """Return the wear still to come, at most, and what both moments with the exact flux would change.
 
         The rate of wear falls ever more slowly on the way to the end, so that what is to come lies below an
@@ -415,12 +415,12 @@ def local_end_rung(run: BushRun) -> FunctionRung:
     """Return where the wear under a constant load ends if each point melts by itself, in closed form."""
     stage = run.stages[0]
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         end = end_of_local_wear(run.exact, stage.load_ratio)
         require_end(end.angle)
-        return Found(run.require_liner(run.radius * end.settlement), {ENDS: 1}, end)
+        return RungResult(run.require_liner(run.radius * end.settlement), {ENDS: 1}, end)
 
-    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None) -> ErrorEstimate:
         """Return the wear still to come, at most: it decays ever more slowly, at the end by a known rate."""
         end = found.solution
         doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
@@ -444,16 +444,16 @@ def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> FunctionRung:
         work[profiles(count, why)] = found.calls
         return run.radius * found.settlement
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         if run.margin(own) < 0.0:
-            return Found(0.0, {CRITICAL_SPEEDS: len(run.stages)}, math.nan)
+            return RungResult(0.0, {CRITICAL_SPEEDS: len(run.stages)}, math.nan)
         reach, work = before.solution if before is not None else None, dict[WorkUnit, int]()
         if not (isinstance(reach, float) and math.isfinite(reach)):
             reach, calls = arc_of_wear(own, run.rule, run.stages, NODES[0])
             work = {profiles(NODES[0], ", first"): calls}
-        return Found(run.require_liner(worn(nodes, reach, work)), work, reach)
+        return RungResult(run.require_liner(worn(nodes, reach, work)), work, reach)
 
-    def judge(found: Found, before: Found | None) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None) -> ErrorEstimate:
         """Return the order increment from half the nodes, and what the exact flux would change by these."""
         reach, half, between = float(found.solution), nodes // 2, 3 * nodes // 4
         order, work = ORDER if run.local else SHARED_ORDER, dict[WorkUnit, int]()
@@ -616,7 +616,7 @@ def _cooled(run: BushRun) -> float:
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for the run of a bush."""
-    return said(REMARKS, bush_numbers(run))
+    return messages(REMARKS, bush_numbers(run))
 
 
 LADDERS = {

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..analysis import equilibrium
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Found, Ladder, Rung
+from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, Rung, RungResult
 from ..core.errors import InputError, RotorfilmError
 from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
@@ -124,8 +124,8 @@ def change_at_rest(question: Any, bearing: JournalBearing) -> Change:
 
 def with_change(
     about: ErrorEstimate,
-    found: Found,
-    change: Callable[[Found], Change],
+    found: RungResult,
+    change: Callable[[RungResult], Change],
     distance: Callable[[Any, Any], float],
 ) -> ErrorEstimate:
     """Return the error of a rung by Reynolds rupture with what the conservation of its oil would change.
@@ -186,7 +186,7 @@ def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
     token, change = object(), question.conservation(scene.journal_bearing)
 
     def ruptured(rung: Rung) -> FunctionRung:
-        def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
             return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
 
         return with_estimate(rung, estimate, token)
@@ -248,10 +248,10 @@ def conserved_rung(
     fewer = _other(around, 16), _other(along, 4)
     coarser = [replace(film, cells=cells) for cells in ((fewer[0], along), (around, fewer[1]), fewer)]
 
-    def solve(before: Found | None) -> tuple[Any, None]:
+    def solve(before: RungResult | None) -> tuple[Any, None]:
         return question.conserved(film, before), None
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         values = [question.conserved(other, found) for other in coarser]
         lines, cells, both = (question.distance(value, found.value) for value in values)
         error = max(lines + cells, both)

@@ -19,7 +19,7 @@ from ..bearings.contact import (
     ball_transient,
     reduce_contact,
 )
-from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array
 from ..scenes.contact_motions import (
@@ -91,12 +91,12 @@ def contact_rung(
         Errors of the companion, after which nothing tells the error.
     """
 
-    def answered(before: Found | None) -> Found:
+    def answered(before: RungResult | None) -> RungResult:
         work: dict[WorkUnit, int] = {}
         value, solution = answer(work)
-        return Found(value * films.ball.film_scale, work, solution)
+        return RungResult(value * films.ball.film_scale, work, solution)
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         work: dict[WorkUnit, int] = {}
         try:
             return judge(found.solution, work)
@@ -113,11 +113,11 @@ def formula_rung(films: StaticContactFilms, bound: float) -> FunctionRung:
     """
     ball = films.ball
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         film, dry = ball.published_films.nijenbanning_venner_moes, 2.0 * ball.film_scale
-        return Found(film if films.quantity == "central_film" else film - dry, {FORMULAS: 1})
+        return RungResult(film if films.quantity == "central_film" else film - dry, {FORMULAS: 1})
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         inside = all(
             low <= x <= high for (low, high), x in zip(FORMULA_RANGE, (ball.V, ball.Q0), strict=True)
         )

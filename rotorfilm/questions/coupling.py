@@ -11,7 +11,7 @@ import numpy as np
 
 from ..analysis import equilibrium
 from ..bearings.journal import ReynoldsFilm, fitted_bearing
-from ..core.answers import ISOTHERMAL, BaseRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.answers import ISOTHERMAL, BaseRung, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import CouplingError, InputError, RotorfilmError
 from ..core.units import CELSIUS
 from ..cosim import Scheme
@@ -77,7 +77,7 @@ class CouplingRung(BaseRung):
         """Half the predicted error."""
         return 0.5 * self.case.predicted(self.scheme, self.macro_angle)
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the estimated error of the coupled run [clearances].
 
         Raises
@@ -102,9 +102,9 @@ class CouplingRung(BaseRung):
         done = {FORCES: work["film_evaluations"]}
         if self.scheme.needs.derivatives:
             done[SLOPES] = work["film_jacobians"]
-        return Found(found.error, done, found)
+        return RungResult(found.error, done, found)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error, which is the answer itself."""
         about = found.solution
         method = "defect of the force law"

@@ -39,9 +39,9 @@ from ..core.answers import (
     ISOTHERMAL,
     CandidateRung,
     ErrorEstimate,
-    Found,
     Ladder,
     Rung,
+    RungResult,
     Work,
     WorkUnit,
 )
@@ -126,7 +126,7 @@ class DamperCurveRung(CandidateRung):
         """One force of this film."""
         return WorkUnit(f"forces of {self.name}", ("forces", self.film))
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
         made = self.film.prepare()
         counted = Counted(self.support)
@@ -136,7 +136,7 @@ class DamperCurveRung(CandidateRung):
             near = (value, radius) if self.search == self.support else self._from(counted, radius)
         if near is None:
             raise RotorfilmError(f"{self.name} has no orbit beside that of its map")
-        return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
+        return RungResult(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
 
     def _searched(self, reaction: Counted) -> tuple[float, float]:
         """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
@@ -144,9 +144,9 @@ class DamperCurveRung(CandidateRung):
         if self.is_fold:
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
-                reach = reaction.largest_eccentricity_ratio
+                amplitude_ratio = reaction.largest_eccentricity_ratio
                 why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
-                why += "" if reach >= 1.0 else f", up to {reach:.4g} of the clearance"
+                why += "" if amplitude_ratio >= 1.0 else f", up to {amplitude_ratio:.4g} of the clearance"
                 raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
             return folds[0].unbalance, folds[0].eccentricity_ratio
         found = orbits.at(self.rotor.unbalance)
@@ -170,7 +170,7 @@ class DamperCurveRung(CandidateRung):
             return unbalance_at(system, found), found
         return found * system.clearance, found
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change that one orbit of the richest film, of the same radius, would make.
 
         At a fold u(e) is level, so that the fold's unbalance changes by what u does at the same radius, and
@@ -183,9 +183,9 @@ class DamperCurveRung(CandidateRung):
         radius = float(found.solution)
         if rich is None:
             return self._by_bound(found.value, radius)
-        reach = rich.largest_eccentricity_ratio
-        if radius >= reach:
-            doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
+        limit = rich.largest_eccentricity_ratio
+        if radius >= limit:
+            doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {limit:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
         change = self._fold if self.is_fold else self._orbit
         richer = damped_orbit(self.rotor, sprung(rich, self.stiffness))
@@ -408,7 +408,7 @@ class DamperPeakRung(PeakRung):
         x, y = (self.rotor.unbalance_force(t) + self.rotor.static_load).tolist()
         return x, y
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
         if self.steps:
             return self.nonlinear(before)
@@ -417,17 +417,17 @@ class DamperPeakRung(PeakRung):
             raise FilmContactError("the linear motion leaves the clearance")
         half = self.linear(LINEAR_STEPS // 2)
         solved = PeakMotion(motion, peak(half.position), 0)
-        return Found(peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
+        return RungResult(peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, steps = found.solution.motion, self.increment(found)
         if self.film.rich_law is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
-        reach = float(np.hypot(*motion.position).max()) / self.support.clearance
+        amplitude_ratio = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
-        if reach >= limit:
-            return ErrorEstimate(math.inf, "defect", doubt=_beyond(reach, limit))
+        if amplitude_ratio >= limit:
+            return ErrorEstimate(math.inf, "defect", doubt=_beyond(amplitude_ratio, limit))
         if self.film.rich_law is None and self.steps:
             return self._by_bound(motion, found.value, steps)
         change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
@@ -463,11 +463,15 @@ class DamperPeakRung(PeakRung):
         states = self._sampled(motion)
         q, calls = states.position, states.position.shape[1]
         moved, doubt = self.by_defect(states, rich)
-        reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
-        if reach >= 1.0:
+        amplitude_ratio, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
+        if amplitude_ratio >= 1.0:
             doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
             return math.inf, doubt, calls
-        return (peak(q + moved) - peak(q)) / value, _beyond(reach, limit) if reach >= limit else doubt, calls
+        return (
+            (peak(q + moved) - peak(q)) / value,
+            _beyond(amplitude_ratio, limit) if amplitude_ratio >= limit else doubt,
+            calls,
+        )
 
     def expected(self, done: Work) -> Work:
         """Return three tangents for each step."""
@@ -478,10 +482,10 @@ def _reach(reaction: PlanarReaction) -> float:
     return min(0.999, largest_eccentricity_ratio(reaction))
 
 
-def _beyond(reach: float, limit: float) -> str:
+def _beyond(amplitude_ratio: float, limit: float) -> str:
     return (
-        f"the rotor goes to {reach:.4g} of the clearance and the film is known to {limit:.4g}: it may touch "
-        "the wall"
+        f"the rotor goes to {amplitude_ratio:.4g} of the clearance, the film is known to {limit:.4g}: it may "
+        "touch the wall"
     )
 
 
@@ -611,7 +615,7 @@ def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, 
         around, along = cells
         fewer = 2 * round(0.25 * around), 2 * round(0.25 * along)
 
-        def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
             others = run(cells, steps // 2), run(fewer, steps)
             error = sum(abs(other / found.value - 1.0) for other in others)
             return ErrorEstimate(error, "steps twice as long, half the cells", bound=True)

@@ -23,8 +23,8 @@ from ..analysis.equal_steps import (
 from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
 from ..analysis.periodic_orbit import (
     RotorAnswers,
+    orbit_amplitude_ratio,
     propagated,
-    reach_of,
     rest_on_film,
     rest_position,
     rotor_answers,
@@ -34,15 +34,15 @@ from ..core.answers import (
     SAFETY,
     CandidateRung,
     ErrorEstimate,
-    Found,
     Ladder,
+    RungResult,
     Work,
     WorkUnit,
     beside_bound,
 )
 from ..core.errors import InputError
 from ..core.model import Array
-from ..core.port import Reaction, reach
+from ..core.port import Reaction, amplitude_ratio
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
@@ -105,7 +105,7 @@ class OrbitRung(CandidateRung):
         """What is asked."""
         return OrbitPlace(quantity=self.quantity, places=("",), reference=self.rotor.unbalance_angle)
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
         made = self.film.prepare()
         # K0 and C0 of a lower rung's rest do as well, since the film's forces have them added.
@@ -118,20 +118,20 @@ class OrbitRung(CandidateRung):
             found = driven(answers.on({"": self.film.reaction}), start, rest)
             orbit, work = found.series, (found.iterations + 1) * self.samples
         solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
-        return Found(self.place.value(answers, orbit), {self.film.tangents: work, **made}, solved)
+        return RungResult(self.place.value(answers, orbit), {self.film.tangents: work, **made}, solved)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change that the richer film, at twice the samples, would make to first order.
 
         For the map the richer film is the map itself, as long as its own verified error is small enough.
         """
         turn: SolvedTurn = found.solution
-        reach = reach_of(turn.orbit, turn.answers.stations, {"": self.film.reaction})
-        if reach >= WALL:
+        amplitude_ratio = orbit_amplitude_ratio(turn.orbit, turn.answers.stations, {"": self.film.reaction})
+        if amplitude_ratio >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         calls = 2 * turn.answers.samples + 1
         doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
-        bound = self.film.motion_bound(reach)
+        bound = self.film.motion_bound(amplitude_ratio)
         if SAFETY * bound < tolerance:
             error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
@@ -364,7 +364,7 @@ class PeakRung(CandidateRung):
         """Return the motion by the film at rest."""
         return self.shaken.linear(self.at_rest, *self.grid(steps))
 
-    def nonlinear(self, before: Found | None) -> Found:
+    def nonlinear(self, before: RungResult | None) -> RungResult:
         """Return the peak, and with it that in steps twice as long, which the rung below may have."""
         made = self.film.prepare()
         motion, calls = self.shaken.nonlinear(*self.grid(self.steps))
@@ -374,9 +374,9 @@ class PeakRung(CandidateRung):
             other, more = self.shaken.nonlinear(*self.grid(self.steps // 2))
             coarse, calls = peak(other.position), calls + more
         solved = PeakMotion(motion, coarse, self.steps)
-        return Found(peak(motion.position), {self.tangents: calls, **made}, solved)
+        return RungResult(peak(motion.position), {self.tangents: calls, **made}, solved)
 
-    def increment(self, found: Found) -> float:
+    def increment(self, found: RungResult) -> float:
         """Return the relative error of the steps by their order, with its sign."""
         return float((found.value - found.solution.coarse) / (2.0**ORDER - 1.0) / found.value)
 
@@ -439,24 +439,24 @@ class BladeLossRung(PeakRung):
         """Return the length [s] and the number of steps, so many over a turn."""
         return 2.0 * math.pi / (abs(self.speed) * steps), math.ceil(steps * self.excitation.revolutions)
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the largest distance from the center of the bearing [m]."""
         if self.steps:
             return self.nonlinear(before)
         made, motion = self.film.prepare(), self.linear(LINEAR_STEPS)
         rates = np.gradient(motion.position, self.grid(LINEAR_STEPS)[0], axis=1, edge_order=2)
         solved = PeakMotion(replace(motion, velocity=rates), math.nan, 0)
-        return Found(peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
+        return RungResult(peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
 
     def _pull(self, t: float) -> tuple[float, float]:
         angle = self.speed * t + self.excitation.unbalance_angle
         force = self.excitation.unbalance * self.speed**2
         return self.load[0] + force * math.cos(angle), self.load[1] + force * math.sin(angle)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion: MarchMotion = found.solution.motion
-        near = reach(self.film.reaction, motion.position)
+        near = amplitude_ratio(self.film.reaction, motion.position)
         if near >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
         steps, how = (abs(self.increment(found)), "order increment; ") if self.steps else (0.0, "")

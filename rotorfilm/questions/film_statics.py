@@ -17,9 +17,9 @@ from ..core.answers import (
     SAFETY,
     CandidateRung,
     ErrorEstimate,
-    Found,
     Ladder,
     Rung,
+    RungResult,
     Work,
     WorkUnit,
     relative_change,
@@ -107,17 +107,17 @@ class FilmQuestion:
         return RestJudge(load=self.load, speed=self.speed, value=self.value, distance=self.distance)
 
     def uniform(
-        self, level: HeatLevel, film: FilmCandidate, count: int, before: Found | None
+        self, level: HeatLevel, film: FilmCandidate, count: int, before: RungResult | None
     ) -> WarmSolution:
         """Return the answer on a film at the temperature that it has with the journal at rest."""
         own = uniform_rest(film.reaction, self.load, self.speed, level.temperature(film.reaction))
         rung = self.make(film.at_temperature(own.temperature), count)
         return WarmSolution(level, rung.answer(answer_below(level, before)), rung, own)
 
-    def on_field(self, level: FieldLevel, film: FilmCandidate, before: Found | None) -> WarmSolution:
+    def on_field(self, level: FieldLevel, film: FilmCandidate, before: RungResult | None) -> WarmSolution:
         """Return the answer on a film with a temperature field."""
         own = level.rest(film.reaction, self.load, self.speed)
-        return WarmSolution(level, Found(self.value(own), {}), own=own, judge=self.judge)
+        return WarmSolution(level, RungResult(self.value(own), {}), own=own, judge=self.judge)
 
     def judged(self, solved: WarmSolution) -> RestJudge:
         """Return what judges rests by an answer."""
@@ -128,11 +128,11 @@ class FilmQuestion:
         own = uniform_rest(film.reaction, self.load, self.speed)
         return lambda other: self.judge.apart(own, uniform_rest(other, self.load, self.speed))
 
-    def conserved(self, film: JFOFilm, before: Found | None) -> Any:
+    def conserved(self, film: JFOFilm, before: RungResult | None) -> Any:
         """Return the answer on a film that conserves its oil, from that of a lower rung if there is one."""
         return self.value(rest_on(film, self.load, self.speed))
 
-    def conservation(self, bearing: JournalBearing) -> Callable[[Found], Change]:
+    def conservation(self, bearing: JournalBearing) -> Callable[[RungResult], Change]:
         """Return a call that takes an answer and returns what the conservation of oil changes in it."""
         known = cache(partial(change_at_rest, self, bearing))
         return lambda found: known()
@@ -200,7 +200,7 @@ class StaticRung(CandidateRung):
         film: FilmCandidate = self.film
         return film.position_prior if self.quantity.position else film.prior
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the quantity at the equilibrium of this film."""
         bearing, work = self.film.asked()
         at = equilibrium(bearing, self.load, self.speed)
@@ -208,9 +208,9 @@ class StaticRung(CandidateRung):
         own = FilmRest(
             at=at, film=self.film, bearing=self.film.reaction, position=at.position, matrices=matrices
         )
-        return Found(self.quantity.value(own), work(), at)
+        return RungResult(self.quantity.value(own), work(), at)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the verified bound if that is enough, else the change that the richer film would make."""
         film, quantity, at = self.film, self.quantity, found.solution
         bound = quantity.bound(film, at)
@@ -321,15 +321,15 @@ class WhirlRung(CandidateRung):
         """Order of magnitude of the film's error."""
         return self.film.speed_prior
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the speed at which the equilibrium loses stability [rad/s]."""
         bearing, work = self.film.asked(SPEEDS)
         absent = NoAnswerError if self.film.is_close else RotorfilmError
         threshold = self.around(bearing, before, absent)
-        return Found(threshold.speed, work(), threshold.equilibrium)
+        return RungResult(threshold.speed, work(), threshold.equilibrium)
 
     def around(
-        self, bearing: Any, before: Found | None, absent: type[RotorfilmError] = RotorfilmError
+        self, bearing: Any, before: RungResult | None, absent: type[RotorfilmError] = RotorfilmError
     ) -> WhirlThreshold:
         """Return the threshold in a bearing, around that of a lower rung first; an error without one."""
         around = None if before is None else (before.value / AROUND, before.value * AROUND)
@@ -340,7 +340,7 @@ class WhirlRung(CandidateRung):
             raise absent(f"no threshold: {threshold.reason}, by {self.name}")
         return threshold
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change of speed that undoes the growth which the richer film would bring.
 
         The whirl s = i nu of the cheap film becomes s' with the richer one; the speed changes by
@@ -425,15 +425,15 @@ class WhirlQuestion(FilmQuestion):
     field_rests: ClassVar[float] = 4.0
 
     def uniform(
-        self, level: HeatLevel, film: FilmCandidate, count: int, before: Found | None
+        self, level: HeatLevel, film: FilmCandidate, count: int, before: RungResult | None
     ) -> WarmSolution:
         """Return the threshold by one film, of T0 that of fresh oil at all speeds."""
         fresh = level.temperature(film.reaction)
         rung = self.make(film if fresh is None else film.at_temperature(fresh), count)
         threshold = rung.around(rung.film.reaction, before)
-        return WarmSolution(level, Found(threshold.speed, {}, threshold.equilibrium), rung)
+        return WarmSolution(level, RungResult(threshold.speed, {}, threshold.equilibrium), rung)
 
-    def on_field(self, level: FieldLevel, film: FilmCandidate, before: Found | None) -> WarmSolution:
+    def on_field(self, level: FieldLevel, film: FilmCandidate, before: RungResult | None) -> WarmSolution:
         """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
         rung = self.make(film, 0)
         speed = float((self.uniform(BALANCED, film, 0, None).found if before is None else before).value)
@@ -444,7 +444,7 @@ class WhirlQuestion(FilmQuestion):
 
         at = self.secants(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
         judge = self.growth(at.speed, at.slope)
-        return WarmSolution(level, Found(at.speed, {}), own=at.solution, judge=judge)
+        return WarmSolution(level, RungResult(at.speed, {}), own=at.solution, judge=judge)
 
     def growth(self, speed: float, per_speed: float) -> RestJudge:
         """Return what K and C of a rest at a threshold [rad/s] do to it, by d(growth)/d speed."""
@@ -466,7 +466,7 @@ class WhirlQuestion(FilmQuestion):
         found, rung = self.uniform(BALANCED, film, 0, None).found, self.make(film, 0)
         return lambda other: relative(rung.around(other, found).speed, found.value)
 
-    def conserved(self, film: JFOFilm, before: Found | None) -> float:
+    def conserved(self, film: JFOFilm, before: RungResult | None) -> float:
         """Return the threshold on a film that conserves its oil, at the frequency of the whirl."""
         if before is not None:
             start = float(before.value)
@@ -475,10 +475,10 @@ class WhirlQuestion(FilmQuestion):
             start = self.speed if found is None else found
         return conserved_threshold(film, self.load, self.mass, start)
 
-    def conservation(self, bearing: JournalBearing) -> Callable[[Found], Change]:
+    def conservation(self, bearing: JournalBearing) -> Callable[[RungResult], Change]:
         """Return a call that takes a threshold and returns what the conservation of oil changes in it."""
 
-        def change(found: Found) -> Change:
+        def change(found: RungResult) -> Change:
             reynolds, conserved = coarse_films(bearing)[-1]
             around = found.value / AROUND, found.value * AROUND
             own = whirl_threshold(reynolds, self.load, self.mass, around).speed or found.value

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..bearings.journal import JFOFilm, JournalBearing
-from ..core.answers import HEATED, SAFETY, ErrorEstimate, Found, Ladder, WorkUnit
+from ..core.answers import HEATED, SAFETY, ErrorEstimate, Ladder, RungResult, WorkUnit
 from ..core.errors import RotorfilmError
 from ..scenes.film_heat import (
     REFERENCE,
@@ -83,13 +83,13 @@ class WarmSolution(NamedTuple):
     """
 
     level: HeatLevel | FieldLevel
-    found: Found
+    found: RungResult
     rung: Any = None
     own: WarmRest | None = None
     judge: RestJudge | None = None
 
 
-def answer_below(level: HeatLevel | FieldLevel, before: Found | None) -> Found | None:
+def answer_below(level: HeatLevel | FieldLevel, before: RungResult | None) -> RungResult | None:
     """Return the answer of a lower rung on its film, if it is of the same level."""
     solved = None if before is None else before.solution
     return solved.found if isinstance(solved, WarmSolution) and solved.level is level else None
@@ -103,11 +103,11 @@ def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: in
     inner = question.make(film, count)
     name = f"{level.name}, {inner.name}"
 
-    def solve(before: Found | None) -> tuple[Any, WarmSolution]:
+    def solve(before: RungResult | None) -> tuple[Any, WarmSolution]:
         solved = question.uniform(level, film, count, before)
         return solved.found.value, solved
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         solved: WarmSolution = found.solution
         about = solved.rung.estimate(solved.found, None, tolerance)
         work = f"estimates of {name}"
@@ -186,11 +186,11 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Functio
     bearing = film.reaction
     name = f"{level.name}, JFO" if isinstance(bearing, JFOFilm) else level.name
 
-    def solve(before: Found | None) -> tuple[Any, WarmSolution]:
+    def solve(before: RungResult | None) -> tuple[Any, WarmSolution]:
         solved = question.on_field(level, film, before)
         return solved.found.value, solved
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         own, judge = found.solution.own, found.solution.judge
         lower = None if before is None else before.solution
 
@@ -227,12 +227,12 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[FunctionRung, ...]
         return replace(own, rich=own.reaction, rich_name="itself")
 
     def rung(count: int) -> FunctionRung:
-        def solve(before: Found | None) -> tuple[Any, WarmSolution]:
+        def solve(before: RungResult | None) -> tuple[Any, WarmSolution]:
             own = question.make(frozen(), count)
             found = own.answer(answer_below(REFERENCE, before))
             return found.value, WarmSolution(REFERENCE, found, own)
 
-        def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
             solved: WarmSolution = found.solution
             about: ErrorEstimate = solved.rung.estimate(solved.found, None, tolerance)
             grid = question.judge.apart(rest(REFERENCE.coarser), rest(REFERENCE))

@@ -24,7 +24,7 @@ from ..bearings.pads import (
     is_pad_mappable,
     lobe_share,
 )
-from ..core.answers import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array
 from ..core.port import at_balanced_temperature
@@ -79,7 +79,7 @@ class PadCandidate(FilmCandidate):
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
         return isinstance(bearing, PressureDamBearing) or isinstance(bearing.film, PadGridFilm)
 
-    def wedge(self, position: Array) -> float:
+    def curvature_distance(self, position: Array) -> float:
         """Return the distance [m] from the center of curvature of the pad that has the least film.
 
         With recesses from the farthest one.
@@ -433,7 +433,7 @@ class StatefulOrbitRung(OrbitRung):
         nominal = self.film.time(1)
         return WorkUnit(f"states of {self.film.name}", ("states", self.film), nominal=nominal)
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the quantity of the orbit, from that of a lower rung if there is one."""
         bearing = self.film.reaction
         if not self.samples:
@@ -441,9 +441,9 @@ class StatefulOrbitRung(OrbitRung):
         else:
             start = self._rest(bearing)[:, None] if before is None else before.solution.places
             turn, count = self._equations(bearing, self.samples).orbit(start), ORBIT_STEPS * self.samples
-        return Found(self._value(turn), {self.points: count}, turn)
+        return RungResult(self._value(turn), {self.points: count}, turn)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change by two steps with the richer film, at twice the samples, by this one's slopes."""
         places = found.solution.places
         samples = 2 * places.shape[1] + 1

@@ -19,7 +19,7 @@ from ..bearings.rolling import (
     palmgren_stiffness,
     stribeck_load,
 )
-from ..core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound, relative_change
+from ..core.answers import ErrorEstimate, Ladder, RungResult, WorkUnit, beside_bound, relative_change
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
 from ..scenes.rolling import (
@@ -188,14 +188,14 @@ ANGLES = "contacts at their running angles"
 def closed_rung(bearing: Balls, asked: BallQuestion) -> FunctionRung:
     """Return Stribeck's load and Palmgren's stiffness: a radial load, no clearance, no inertia."""
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         if not isinstance(bearing, BallBearing) or not is_radial(bearing) or not any(asked.load):
             raise InputError("closed forms are for one deep groove bearing without thrust, growth and tilts")
         if asked.row.closed_form is None:
             raise InputError(f"closed forms have no {asked.quantity}")
-        return Found(asked.row.closed_form(bearing, np.array(asked.load)), {CLOSED: 1})
+        return RungResult(asked.row.closed_form(bearing, np.array(asked.load)), {CLOSED: 1})
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         near = asked.rest(with_law(bearing, StaticBalls()))
         return asked.moved(bearing, found.value, near, CLOSED)
 
@@ -213,11 +213,11 @@ def is_radial(bearing: BallBearing) -> bool:
 def law_rung(bearing: Balls, asked: BallQuestion) -> FunctionRung:
     """Return the rest by the law of a bearing: static or running balls."""
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         rest = asked.rest(bearing)
-        return Found(asked.value(rest), {RESTS: 1}, rest)
+        return RungResult(asked.value(rest), {RESTS: 1}, rest)
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         if is_static(bearing) or asked.oil is not None:
             return asked.moved(bearing, found.value, found.solution, RESTS)
         return ErrorEstimate(asked.own_bound(found.solution), ANGLES, bound=True)
@@ -230,15 +230,15 @@ def films_rung(bearing: Balls, asked: BallQuestion, oil: RaceOil) -> FunctionRun
     """Return the rest by running balls, with the oil films of the most loaded one in all contacts."""
     rich = with_inertia(bearing)
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         dry = before.solution if before is not None else None
         if not isinstance(dry, BallEquilibriumCase) or dry.bearing != rich:
             dry = asked.rest(rich)
         wet = rest_near(on_films(dry, oil), dry, asked.load)
         wet = rest_near(on_films(wet, oil), wet, asked.load)
-        return Found(asked.value(wet), {RESTS: 3}, (dry, wet))
+        return RungResult(asked.value(wet), {RESTS: 3}, (dry, wet))
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         dry, wet = found.solution
         films = film_spread(wet) * asked.row.distance(asked.value(dry), found.value)
         return ErrorEstimate(asked.own_bound(wet) + films, f"{ANGLES}, films by load", bound=True)

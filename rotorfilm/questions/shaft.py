@@ -33,8 +33,8 @@ from ..core.answers import (
     DISAGREEMENT,
     SAFETY,
     ErrorEstimate,
-    Found,
     Ladder,
+    RungResult,
     Work,
     WorkUnit,
     beside_bound,
@@ -121,7 +121,7 @@ class ShaftSpeedRung(ShaftRung):
     event: SpeedEvent
     speeds: Array
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the speed [rad/s]: looked for, or followed from that of a lower rung."""
         made = self.films.prepare()
         known: ShaftSpeed | None = None if before is None else before.solution
@@ -135,7 +135,9 @@ class ShaftSpeedRung(ShaftRung):
         if not self.speeds[0] <= first <= self.speeds[-1]:
             raise AbsentError(f"the speed {first:.6g} rad/s is not in shaft.speeds")
         work = sum(count for _, count in found) + (0 if follow else len(self.speeds))
-        return Found(first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model))
+        return RungResult(
+            first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model)
+        )
 
     def _looked_for(self) -> list[Start]:
         """Return the first such speed by a reduced model, and those near it."""
@@ -151,7 +153,7 @@ class ShaftSpeedRung(ShaftRung):
             starts.append(Start(speed, value, seen))
         return starts
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change of the first critical speed in elements half as long, on richer films.
 
         Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
@@ -171,7 +173,7 @@ class ShaftSpeedRung(ShaftRung):
         is_bound = self.films.bounded and math.isfinite(bound) and own < 0.5 * error
         return ErrorEstimate(error, f"{method}, {self.films.rich_name}", steps, bound=is_bound, doubt=doubt)
 
-    def _change(self, found: Found, rates: list[float], *, trusted: bool) -> tuple[float, str]:
+    def _change(self, found: RungResult, rates: list[float], *, trusted: bool) -> tuple[float, str]:
         """Return the change of the first critical speed [1], with its roundoff, and why to doubt it.
 
         Critical speeds that are as near as the error are corrected too, and the lowest is the first.
@@ -209,12 +211,12 @@ class ShaftSpeedRung(ShaftRung):
         found = (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
         return self._stepped(whirl, rate, *found)
 
-    def rest(self, found: Found) -> RotorEquilibrium:
+    def rest(self, found: RungResult) -> RotorEquilibrium:
         """Return the rotor at rest at the first of the speeds."""
         at: RotorEquilibrium = found.solution.whirls[0].at
         return at
 
-    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+    def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the speed [rad/s] on these K and C, for small changes."""
         whirl: Whirl = found.solution.whirls[0]
         return self._stepped(whirl, self.rate(whirl), coefficients, "").speed
@@ -223,14 +225,14 @@ class ShaftSpeedRung(ShaftRung):
         """Return by how much what must vanish changes with the speed [1]."""
         return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
 
-    def moving(self, found: Found) -> float:
+    def moving(self, found: RungResult) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
         if self.event is not THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)
 
-    def mesh_error(self, found: Found) -> ErrorEstimate:
+    def mesh_error(self, found: RungResult) -> ErrorEstimate:
         """Return the change in elements half as long, on the same K and C."""
         rates = [self.rate(one) for one in found.solution.whirls]
         error, doubt = self._change(found, rates, trusted=True)
@@ -326,19 +328,19 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:
     name = f"{level.level}, {rung.model.name}, {level.grid}"
     seconds = 4.0 * len(rung.films.on_oil) * level.seconds
 
-    def solve(before: Found | None) -> tuple[float, tuple[Found, dict[str, WarmRest]]]:
+    def solve(before: RungResult | None) -> tuple[float, tuple[RungResult, dict[str, WarmRest]]]:
         uniform = before is not None and isinstance(before.solution, ShaftSpeed)
         whirl = rung.answer(before if uniform else None).solution.whirls[0]
         structure, event = rung.model.rotor.structure, rung.event
 
-        def lead_at(speed: float) -> tuple[float, tuple[Found, dict[str, WarmRest]]]:
+        def lead_at(speed: float) -> tuple[float, tuple[RungResult, dict[str, WarmRest]]]:
             nonlocal whirl
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
             rests = field_rests(rung.films, at, level)
             warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
             frequency = event.frequency(whirl.value, speed)
             whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
-            found = Found(speed, {}, ShaftSpeed(whirls=(whirl,), model=rung.model))
+            found = RungResult(speed, {}, ShaftSpeed(whirls=(whirl,), model=rung.model))
             return event.lead(whirl.value, speed), (found, rests)
 
         near = secant_speed(
@@ -346,7 +348,7 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:
         )
         return near.speed, near.solution
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         inner, rests = found.solution
         return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level))
 

@@ -17,9 +17,9 @@ from ..core.answers import (
     SAFETY,
     BaseRung,
     ErrorEstimate,
-    Found,
     Ladder,
     Rung,
+    RungResult,
     WorkUnit,
     relative_change,
 )
@@ -203,19 +203,19 @@ class ShaftRung(BaseRung):
         """One problem of its own."""
         return WorkUnit(f"problems of {self.name}", (self.how, id(self.model), id(self.films)))
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return its answer, from that of a lower rung or alone."""
         raise NotImplementedError
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error of its answer without running a richer model."""
         raise NotImplementedError
 
-    def rest(self, found: Found) -> RotorEquilibrium:
+    def rest(self, found: RungResult) -> RotorEquilibrium:
         """Return the rotor at rest, of an answer."""
         raise NotImplementedError
 
-    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+    def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the answer on these K and C of its bearings, for small changes."""
         raise NotImplementedError
 
@@ -223,7 +223,7 @@ class ShaftRung(BaseRung):
         """Return how far a value is from a better one, in the unit of the tolerance."""
         return relative_change(value, better)
 
-    def moving(self, found: Found) -> float:
+    def moving(self, found: RungResult) -> float:
         """Return the error by heat that moves with the motion."""
         return 0.0
 
@@ -289,13 +289,13 @@ def rests_of(rung: ShaftRung, at: RotorEquilibrium) -> dict[str, WarmRest]:
     return found
 
 
-def value_on(rung: ShaftRung, found: Found, rests: Mapping[str, WarmRest]) -> float:
+def value_on(rung: ShaftRung, found: RungResult, rests: Mapping[str, WarmRest]) -> float:
     """Return the answer on the films of other rests."""
     own = rung.rest(found).coefficients
     return rung.on(found, {**own, **{name: one.coefficients for name, one in rests.items()}})
 
 
-def steps_error(rung: ShaftRung, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatEffect:
+def steps_error(rung: ShaftRung, found: RungResult, own: float, rests: Mapping[str, WarmRest]) -> HeatEffect:
     """Return how far a value is off by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
     samples = {name: one.sample for name, one in steps.items()}
@@ -323,7 +323,7 @@ class RotorHeat:
     level: HeatLevel
     known: list[tuple[float, float, HeatEffect]] = field(default_factory=list)
 
-    def error(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatEffect:
+    def error(self, rung: ShaftRung, found: RungResult, tolerance: float) -> HeatEffect:
         """Return the error of an answer by heat; that of another rung next to it."""
         speed = rung.rest(found).speed
         for asked, at, heat in self.known:
@@ -333,7 +333,7 @@ class RotorHeat:
         self.known.append((tolerance, speed, heat))
         return heat
 
-    def _found(self, rung: ShaftRung, found: Found, tolerance: float) -> HeatEffect:
+    def _found(self, rung: ShaftRung, found: RungResult, tolerance: float) -> HeatEffect:
         rests = rests_of(rung, rung.rest(found))
         own = value_on(rung, found, rests)
         if self.level is FRESH:
@@ -350,7 +350,7 @@ def warm_rung(rung: ShaftRung, heat: RotorHeat) -> FunctionRung:
     """Return a rung on films of one temperature, whose error is also that by heat, which a level shares."""
     name = f"{heat.level.name}, {rung.name}"
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         about = rung.estimate(found, before, tolerance)
         return with_heat(about, lambda: heat.error(rung, found, tolerance), f"estimates of {name}")
 
@@ -426,7 +426,9 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
     return rests
 
 
-def field_error(rung: ShaftRung, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatEffect:
+def field_error(
+    rung: ShaftRung, found: RungResult, rests: dict[str, WarmRest], level: FieldLevel
+) -> HeatEffect:
     """Return the error by heat of an answer on temperature fields.
 
     Of T2 by steps towards T3, of T3 by coarser grids.
@@ -490,7 +492,7 @@ def field_orbit(
     name = f"{level.level}, {make(replace(films, journals={})).name}, {level.grid}"
     seconds = 2.0 * len(films.on_oil) * level.seconds
 
-    def solve(before: Found | None) -> tuple[float, tuple[Found, ShaftRung]]:
+    def solve(before: RungResult | None) -> tuple[float, tuple[RungResult, ShaftRung]]:
         frozen = {}
         for station, own in rests().items():
             film = films.journals[station].frozen(own.reaction)
@@ -499,7 +501,7 @@ def field_orbit(
         found = rung.answer(None)
         return found.value, (found, rung)
 
-    def judge(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         inner, rung = found.solution
         about = rung.estimate(inner, None, tolerance)
         return with_fields(about, field_error(uniform, uniform.answer(None), rests(), level))

@@ -12,10 +12,16 @@ import numpy as np
 
 from ..analysis import RotorEquilibrium, rotor_equilibrium, simulate_rotor
 from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
-from ..analysis.periodic_orbit import RotorAnswers, distance, reach_of, rest_position, rotor_answers
+from ..analysis.periodic_orbit import (
+    RotorAnswers,
+    distance,
+    orbit_amplitude_ratio,
+    rest_position,
+    rotor_answers,
+)
 from ..analysis.speed_events import on_films
 from ..bearings.seal import AnnularSeal
-from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Rung, Work, WorkUnit
+from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Ladder, Rung, RungResult, Work, WorkUnit
 from ..core.errors import ContactError, InputError
 from ..core.model import Array
 from ..core.port import Reaction
@@ -87,7 +93,7 @@ class ShaftOrbitRung(ShaftRung):
     def _reactions(self) -> dict[str, Reaction]:
         return self.films.reaction
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
         made = self.films.prepare()
         at = rotor_equilibrium(self.model.rotor, self._reactions, self.speed)
@@ -100,9 +106,9 @@ class ShaftOrbitRung(ShaftRung):
             found = driven(answers.on(self._reactions), start, rest)
             orbit, work = found.series, found.iterations + 1
         solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
-        return Found(self.place.value(answers, orbit), {self.unit: work, **made}, solved)
+        return RungResult(self.place.value(answers, orbit), {self.unit: work, **made}, solved)
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change that elements half as long, the richer films and twice the samples would make.
 
         It is the defect of the orbit in them, propagated by the slopes of the richer films; a second defect
@@ -110,7 +116,7 @@ class ShaftOrbitRung(ShaftRung):
         own richer film, and where its verified bound is too large the forces of a grid are compared.
         """
         turn: SolvedTurn = found.solution
-        if reach_of(turn.orbit, turn.answers.stations, self._reactions) >= WALL:
+        if orbit_amplitude_ratio(turn.orbit, turn.answers.stations, self._reactions) >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         value, fine = float(found.value), self.model.finer.structure
         bound = self._bound(turn)
@@ -133,12 +139,12 @@ class ShaftOrbitRung(ShaftRung):
         work = {WorkUnit(f"defects of {self.name}"): 1}
         return ErrorEstimate(error, method, work, bound=is_bound, doubt=doubt)
 
-    def rest(self, found: Found) -> RotorEquilibrium:
+    def rest(self, found: RungResult) -> RotorEquilibrium:
         """Return the rotor at rest."""
         at: RotorEquilibrium = found.solution.at
         return at
 
-    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+    def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the quantity of the linear orbit on these K and C."""
         at = self.rest(found)
         structure = self.model.rotor.structure
@@ -162,12 +168,12 @@ class ShaftOrbitRung(ShaftRung):
         balance, orbit = fine.on(films), resized(turn.orbit, fine.harmonics)
         step = newton_step(balance, orbit)
         orbit, size, doubt = orbit + step, rms(step), ""
-        if reach_of(orbit, fine.stations, films) >= WALL:
+        if orbit_amplitude_ratio(orbit, fine.stations, films) >= WALL:
             return math.inf, "the error is larger than the gap"
         if self.has_films:
             step = newton_step(balance, orbit)
             orbit, again = orbit + step, rms(step)
-            if reach_of(orbit, fine.stations, films) >= WALL:
+            if orbit_amplitude_ratio(orbit, fine.stations, films) >= WALL:
                 return math.inf, "the error is larger than the gap"
             if again > DISAGREEMENT * size and size > ROUNDOFF * rms(orbit):
                 doubt = f"what two defects say of the error differs by {again / size:.0%}: not linear"
@@ -183,14 +189,14 @@ class ShaftOrbitRung(ShaftRung):
 
         At the farthest point of the orbit the bounds are the widest.
         """
-        reach = reach_of(turn.orbit, turn.answers.stations, self._reactions)
+        amplitude_ratio = orbit_amplitude_ratio(turn.orbit, turn.answers.stations, self._reactions)
         moved = np.abs(first_wave(turn.orbit))
         rate, worst = abs(turn.answers.speed), np.zeros(len(moved))
         for name, film in self.films.journals.items():
             k = turn.answers.stations.index(name)
             pair, found = slice(2 * k, 2 * k + 2), turn.at.coefficients[name]
             slope = np.abs(found.stiffness).max() + rate * np.abs(found.damping).max()
-            worst[pair] = film.bound(reach, slopes=True) * slope * moved[pair].sum()
+            worst[pair] = film.bound(amplitude_ratio, slopes=True) * slope * moved[pair].sum()
         if not worst.any():
             return 0.0
         return self.place.largest_change(turn.answers, turn.orbit, worst)
@@ -347,11 +353,11 @@ def peak_rung(
     name = ShaftRung(model=model, films=films).name
     unit = WorkUnit(f"runs of {name}", ("runs", id(model), id(films)))
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         made = films.prepare()
-        return Found(shaken.peak(shaken.run(model.rotor, films.reaction, RTOL)), {unit: 1, **made})
+        return RungResult(shaken.peak(shaken.run(model.rotor, films.reaction, RTOL)), {unit: 1, **made})
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         method = f"run in {len(model.finer.elements)} elements"
         work = {WorkUnit(f"runs to judge {name}"): 1}
         try:
@@ -379,8 +385,8 @@ def _largest_bound(films: ShaftFilms, run: Trajectory) -> float:
     """Return the largest verified error of films over a motion [1]."""
     bounds = []
     for name, film in films.journals.items():
-        reach = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
-        bounds.append(film.bound(reach, slopes=True))
+        amplitude_ratio = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
+        bounds.append(film.bound(amplitude_ratio, slopes=True))
     return max(bounds)
 
 

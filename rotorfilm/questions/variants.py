@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.answers import ErrorEstimate, Found, Work, WorkUnit
+from ..core.answers import ErrorEstimate, RungResult, Work, WorkUnit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,8 +33,8 @@ class FunctionRung:
     """
 
     name: str
-    answer: Callable[[Found | None], Found]
-    estimate: Callable[[Found, Found | None, float], ErrorEstimate]
+    answer: Callable[[RungResult | None], RungResult]
+    estimate: Callable[[RungResult, RungResult | None, float], ErrorEstimate]
     expected: Callable[[Work], Work]
     prior: float = 0.0
     refines: tuple[object, ...] = ()
@@ -43,7 +43,9 @@ class FunctionRung:
 
 
 def with_estimate(
-    rung: Any, estimate: Callable[[Found, Found | None, float], ErrorEstimate], shares: object = None
+    rung: Any,
+    estimate: Callable[[RungResult, RungResult | None, float], ErrorEstimate],
+    shares: object = None,
 ) -> FunctionRung:
     """Return a rung with another estimate, as an effect makes it; `shares` counts where it has none."""
     return FunctionRung(
@@ -62,8 +64,8 @@ def counted_rung(
     name: str,
     key: Hashable,
     seconds: float,
-    ask: Callable[[Found | None], tuple[Any, Any]],
-    judge: Callable[[Found, Found | None, float], ErrorEstimate],
+    ask: Callable[[RungResult | None], tuple[Any, Any]],
+    judge: Callable[[RungResult, RungResult | None, float], ErrorEstimate],
     **known: Any,
 ) -> FunctionRung:
     """Return a rung whose units of work are whole answers and whole estimates.
@@ -84,11 +86,11 @@ def counted_rung(
     """
     unit, done = WorkUnit(f"answers of {name}", key, nominal=seconds), WorkUnit(f"estimates of {name}")
 
-    def answer(before: Found | None) -> Found:
+    def answer(before: RungResult | None) -> RungResult:
         value, solution = ask(before)
-        return Found(value, {unit: 1}, solution)
+        return RungResult(value, {unit: 1}, solution)
 
-    def estimate(found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         return judge(found, before, tolerance)._replace(work={done: 1})
 
     return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda work: {unit: 1}, **known)

@@ -18,11 +18,11 @@ import numpy as np
 from ..core.answers import (
     SAFETY,
     ErrorEstimate,
-    Found,
     Ladder,
     QuestionAnswer,
     Rung,
     RungReport,
+    RungResult,
     Work,
     WorkUnit,
     physics_within,
@@ -120,7 +120,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     reports: list[RungReport] = []
     failure: RotorfilmError | None = None
     absent = False
-    before: Found | None = None
+    before: RungResult | None = None
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
             break
@@ -152,7 +152,9 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     return _answer(quantity, ladder, meter, reports, tolerance, before or failure)
 
 
-def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> tuple[RungReport, Found]:
+def _tried(
+    rung: Rung, before: RungResult | None, meter: Meter, tolerance: float
+) -> tuple[RungReport, RungResult]:
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         # A rung outside its range is judged by its error, not by its warnings.
         found, seconds = meter.timed(lambda: rung.answer(before))
@@ -227,11 +229,11 @@ def _answer(
     meter: Meter,
     reports: list[RungReport],
     tolerance: float,
-    last: Found | RotorfilmError | None,
+    last: RungResult | RotorfilmError | None,
 ) -> QuestionAnswer:
     reports = _beside_richer(reports, ladder.distance)
     tried = [report for report in reports if report.error_estimate is not None]
-    if not isinstance(last, Found):
+    if not isinstance(last, RungResult):
         assert last is not None  # a ladder has at least one rung, and that was asked
         raise last
     best = tried[-1]

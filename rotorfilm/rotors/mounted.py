@@ -132,9 +132,9 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
     inputs, outputs = names(rotor.inputs), names(rotor.outputs)
     mounts, last = [], len(rotor.states)
     for station, bearing in bearings.items():
-        said = f"{name}[{station!r}]" if station else name
-        require_reaction(said, bearing, heavy=True, over_time=True)
-        require_terminals(said, bearing)
+        argument = f"{name}[{station!r}]" if station else name
+        require_reaction(argument, bearing, heavy=True, over_time=True)
+        require_terminals(argument, bearing)
         freedoms, states = freedoms_of(bearing), len(bearing.states)
         motion, force = station_names(station, freedoms)
         mounts.append(
@@ -532,7 +532,7 @@ def _matrices(model: Operators, carried: list[int], free: list[int], motion: lis
     n = len(model.weight) // 2
     return {
         "steady": model.steady[n:],
-        "spin": model.spin[n:],
+        "spin": model.by_speed[n:],
         "push": model.push[n:, free],
         "carry": model.push[n:, carried],
         "weight": model.weight[n:, None],

@@ -172,7 +172,7 @@ class RigidRotor(Turning):
         A, B, C, _ = self.linearization(0.0, self.initial_state, np.zeros(2))
         return Operators(
             steady=A,
-            spin=np.zeros_like(A),
+            by_speed=np.zeros_like(A),
             push=B,
             weight=B @ self._static_load,
             unbalance=B @ unbalance_columns(self.unbalance, self.unbalance_angle),

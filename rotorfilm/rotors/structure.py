@@ -111,7 +111,7 @@ class Operators(NamedTuple):
     """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w), r as in `Structure`."""
 
     steady: Array
-    spin: Array
+    by_speed: Array
     push: Array
     weight: Array
     unbalance: Array
@@ -148,7 +148,7 @@ class FlexibleRotor(Turning):
         return dense(self.assembly)
 
     @cached_property
-    def remembered(self) -> dict[Any, Any]:
+    def cache(self) -> dict[Any, Any]:
         """What analyses have worked out of the rotor, by their own keys."""
         return {}
 
@@ -206,7 +206,7 @@ class FlexibleRotor(Turning):
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
         state, force, model = np.asarray(x, dtype=float), np.asarray(u, dtype=float), self.operators
-        rate = model.steady @ state + self.profile.speed(t) * (model.spin @ state) + model.push @ force
+        rate = model.steady @ state + self.profile.speed(t) * (model.by_speed @ state) + model.push @ force
         total: Array = rate + model.weight + model.unbalance @ self.rotating(t)
         return total
 
@@ -218,7 +218,7 @@ class FlexibleRotor(Turning):
         """Return the exact derivatives, which depend on the speed only."""
         model = self.operators
         sense = np.vstack([model.sense, np.zeros(model.sense.shape[1])])
-        A = model.steady + self.profile.speed(t) * model.spin
+        A = model.steady + self.profile.speed(t) * model.by_speed
         return Linearization(A, model.push.copy(), sense, np.zeros((len(sense), model.push.shape[1])))
 
     @cached_property
@@ -270,7 +270,7 @@ def solved_equations(s: Structure) -> Operators:
     steady[:n, n:] = np.eye(n)
     return Operators(
         steady=steady,
-        spin=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
+        by_speed=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
         push=accelerations(force_rows(s).T),
         weight=accelerations(s.weight),
         unbalance=accelerations(s.unbalance),

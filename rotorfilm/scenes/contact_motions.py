@@ -22,7 +22,7 @@ from ..core.errors import ConvergenceError, InputError
 from ..core.limits import SWING_RATE, TRANSITS, require_at_most
 from .contact_table import ContactTable
 from .excitation_table import SineLoadTable, StepLoadTable
-from .families import Remark, said
+from .families import Remark, messages
 from .journal_tables import NOTABLE
 from .lubricant_table import Lubricant
 
@@ -366,4 +366,4 @@ def contact_remarks(
     ball: RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
-    return said(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))
+    return messages(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))

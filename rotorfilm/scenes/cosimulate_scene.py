@@ -160,7 +160,7 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
 
     with tempfile.TemporaryDirectory() as folder:
         rotor, film = resting_rotor(scene), scene.bearing
-        # A film that remembers couples by the slopes of its force, which its FMU does not tell.
+        # A mass-conserving film couples by the slopes of its force, which its FMU does not tell.
         native = not isinstance(film, Stepped) and isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
         return cosimulate(

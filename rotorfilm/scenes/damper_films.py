@@ -38,7 +38,7 @@ from ..core.results import CircularOrbit
 from ..rotors import RigidRotor
 from .damper_table import DamperTable
 from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable, require_kind
-from .families import Remark, SceneModels, said
+from .families import Remark, SceneModels, messages
 from .film_rungs import MAP_MADE
 from .journal_tables import ATMOSPHERE, NOTABLE
 from .lubricant_table import Lubricant
@@ -508,7 +508,7 @@ def damper_remarks(
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
     ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
-    return said((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)
+    return messages((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)
 
 
 # What a question about a damper leaves open: which of several orbits, and what the films leave out.
@@ -567,7 +567,7 @@ def built_remarks(
         numbers["feed_squeeze"] = feed_squeeze_number(
             damper, flow=table.feed_flow, amplitude=amplitude, frequency=abs(speed)
         )
-    return said((*told, *AIR), numbers)
+    return messages((*told, *AIR), numbers)
 
 
 def rotor_remarks(

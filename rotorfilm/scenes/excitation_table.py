@@ -286,7 +286,7 @@ class FilmTable(Protocol):
     def build(self) -> Any:
         """Return the bearing, a Reaction or a film at rest; InputError where a value breaks its rule."""
 
-    def echo(self, bearing: Any) -> tuple[Readable, str]:
+    def repeated_inputs(self, bearing: Any) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing that was built, and the name of its film."""
 
     def remarks(

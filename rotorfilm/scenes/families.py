@@ -153,7 +153,7 @@ class Remark(NamedTuple):
         return value < self.limit if self.below else value > self.limit
 
 
-def said(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:
+def messages(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:
     """Return the lines of the remarks whose limits the numbers pass."""
     return tuple(remark.line(numbers) for remark in remarks if remark.applies(numbers))
 

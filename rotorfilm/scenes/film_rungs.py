@@ -311,7 +311,7 @@ class FilmCandidate:
         """Make what the first force would make, and return the work of that."""
         if not self.makes_map:
             return {}
-        self.reaction.force([0.5 * room(self.reaction), 0.0], [0.0, 0.0], 1.0)
+        self.reaction.force([0.5 * minimum_radial_clearance(self.reaction), 0.0], [0.0, 0.0], 1.0)
         return {self.map_made: 1}
 
     def expected(self, tangents: int) -> dict[WorkUnit, int]:
@@ -341,13 +341,13 @@ class FilmCandidate:
     def units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
         """Return calls that do one unit of its work, at half the clearance."""
         own = self.reaction
-        x, y = 0.3 * room(own), 0.4 * room(own)
+        x, y = 0.3 * minimum_radial_clearance(own), 0.4 * minimum_radial_clearance(own)
         defects = {self.defects(smooth=k): one_defect(self, speed, smooth=k) for k in (False, True)}
         return {self.tangents: lambda: prepared_tangent(own)(x, y, 0.0, 0.0, speed), **defects}
 
     def batch_units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
         """Return the same for states all round a turn."""
-        position, still = np.array([0.3, 0.4]) * room(self.reaction), np.zeros(2)
+        position, still = np.array([0.3, 0.4]) * minimum_radial_clearance(self.reaction), np.zeros(2)
 
         def sampled(reaction: PlanarReaction) -> Callable[[], object]:
             return lambda: (
@@ -402,7 +402,7 @@ class FilmCandidate:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
         raise NotImplementedError
 
-    def wedge(self, position: Array) -> float:
+    def curvature_distance(self, position: Array) -> float:
         """Return the distance [m] by which the wedge of a journal at a position (2,) [m] is measured."""
         return float(np.hypot(*position))
 
@@ -421,7 +421,7 @@ class FilmCandidate:
         """Return the same of power loss and side flow, at an eccentricity ratio."""
         return math.inf
 
-    def motion_bound(self, reach: float) -> float:
+    def motion_bound(self, amplitude: float) -> float:
         """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
         return math.inf
 
@@ -605,7 +605,7 @@ def attitude(position: Array, load: Array, speed: float) -> float:
     return math.copysign(1.0, speed) * turned
 
 
-def room(bearing: PlanarReaction) -> float:
+def minimum_radial_clearance(bearing: PlanarReaction) -> float:
     """Return how far a journal may go from the center in any direction [m]."""
     return float(minimum_film(bearing, np.zeros(2)))
 
@@ -659,8 +659,8 @@ class FilmRung(FilmCandidate):
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
         if self.bounded:
-            for reach, position, slope in MAP_BOUNDS:
-                if eccentricity_ratio <= reach:
+            for amplitude, position, slope in MAP_BOUNDS:
+                if eccentricity_ratio <= amplitude:
                     return slope if slopes else position
         film = self.reaction.fitted_film if isinstance(self.reaction, JournalBearing) else None
         if isinstance(film, GroovedMapFilm):
@@ -669,12 +669,12 @@ class FilmRung(FilmCandidate):
 
     def loss_bound(self, eccentricity_ratio: float) -> float:
         """Return the same of power loss and side flow."""
-        within = (bound for reach, bound in LOSS_BOUNDS if eccentricity_ratio <= reach)
+        within = (bound for amplitude, bound in LOSS_BOUNDS if eccentricity_ratio <= amplitude)
         return next(within, math.inf) if self.bounded else math.inf
 
-    def motion_bound(self, reach: float) -> float:
+    def motion_bound(self, amplitude: float) -> float:
         """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
-        return MAP_BOUNDS[0][2] if self.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
+        return MAP_BOUNDS[0][2] if self.bounded and amplitude <= MAP_BOUNDS[0][0] else math.inf
 
 
 # What the richer film of a candidate makes of an equilibrium: its tangent there, and a few linear steps.
@@ -693,7 +693,12 @@ NEUTRAL = 1e-9
 
 
 def tangent(
-    bearing: PlanarReaction, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
+    bearing: PlanarReaction,
+    position: Array,
+    speed: float,
+    *,
+    smooth: bool,
+    curvature_distance: float | None = None,
 ) -> tuple[Array, Array]:
     """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
 
@@ -704,14 +709,14 @@ def tangent(
     speed : float [rad/s]
     smooth : bool
         Whether the derivatives in the source are taken from differences, `STEP`: of a film on a grid.
-    wedge : float [m]
+    curvature_distance : float [m]
         By which the wedge is measured; None for the distance from the center.
     """
     rest = np.zeros(2)
     slopes = bearing.jacobian(position, rest, speed)[:, :4]
     if not smooth:
         return bearing.force(position, rest, speed), slopes
-    distance = float(np.hypot(*position)) if wedge is None else wedge
+    distance = float(np.hypot(*position)) if curvature_distance is None else curvature_distance
     thin = math.sqrt(relative_film(bearing, position))
     rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
     velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
@@ -786,13 +791,15 @@ def _step(slopes: Array, force: Array) -> Array:
 def rich_tangent(film: FilmCandidate, position: Array, speed: float) -> tuple[Array, Array]:
     """Return force and slopes of the richer film, smooth where it lives on a grid."""
     smooth = film.on_grid(film.rich)
-    return tangent(film.rich, position, speed, smooth=smooth, wedge=film.wedge(position))
+    return tangent(
+        film.rich, position, speed, smooth=smooth, curvature_distance=film.curvature_distance(position)
+    )
 
 
 def one_defect(film: FilmCandidate, speed: float, *, smooth: bool) -> Callable[[], object]:
     """Return a call that does the work of `corrected` for one candidate."""
     bearing = film.rich
-    position = np.array([0.3, 0.4]) * room(bearing)
+    position = np.array([0.3, 0.4]) * minimum_radial_clearance(bearing)
 
     def one() -> None:
         tangent(bearing, position, speed, smooth=False)

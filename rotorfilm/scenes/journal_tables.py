@@ -29,7 +29,7 @@ from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarnin
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, said
+from .families import Remark, messages
 from .lubricant_table import Lubricant, OiledTable
 from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
 
@@ -183,7 +183,7 @@ class JournalTable(OiledTable):
         bearing = self.bearing()
         return self.conserved(bearing) if self.conserves else bearing
 
-    def echo(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
+    def repeated_inputs(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         if isinstance(bearing, JFOFilm):
             return bearing_data(bearing.bearing), f"JFOFilm(cells={bearing.cells})"
@@ -423,7 +423,7 @@ def film_remarks(
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
         warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
         bearing, film = warm, film and film.at_temperature(warm.temperature)
-    return said(remarks, journal_numbers(bearing, oil, speed, load, film))
+    return messages(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 
 def warmed(bearing: Any, quick: Any, speed: float, load: tuple[float, float]) -> Any:

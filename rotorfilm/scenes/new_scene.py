@@ -164,8 +164,8 @@ def new_scene(name: str) -> str:
 
 def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
     """Yield the lines of a table: the keys that have values, then all others as comments."""
-    said = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
-    yield from _wrapped(said[:1].upper() + said[1:])
+    wording = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
+    yield from _wrapped(wording[:1].upper() + wording[1:])
     yield f"[{name}]"
     readers = keyed(table).readers
     defaults = {field.name: field for field in dataclasses.fields(table)}
@@ -180,10 +180,10 @@ def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
 
 def comment(table: type, field: str, *, twice: bool = False) -> str:
     """Return the unit and the meaning of a key, and what may stand in it."""
-    said, reader = explained(table, field), keyed(table).readers[field]
-    meaning = " ".join(said.meaning.split()).replace("`", "")
+    wording, reader = explained(table, field), keyed(table).readers[field]
+    meaning = " ".join(wording.meaning.split()).replace("`", "")
     parts = [f"twice the {field}" if twice else "", meaning.rstrip("."), _inside(reader)]
-    unit = f"[{said.unit}] " if said.unit and said.unit != "1" else ""
+    unit = f"[{wording.unit}] " if wording.unit and wording.unit != "1" else ""
     return f"{unit}{'; '.join(part for part in parts if part)}".strip()
 
 
@@ -222,20 +222,22 @@ def _placeholder(reader: Reader, field: dataclasses.Field[Any]) -> str:
     return toml(default) if plain and isinstance(default, int | str) else "..."
 
 
-def _line(entry: str, said: str) -> Iterator[str]:
+def _line(entry: str, wording: str) -> Iterator[str]:
     """Yield a line with its comment, above it where there is no room behind."""
-    behind = f"{entry}  # {said}"
-    if not said:
+    behind = f"{entry}  # {wording}"
+    if not wording:
         yield entry
     elif len(behind) <= WIDTH and "\n" not in entry:
         yield behind
     else:
-        yield from _wrapped(said)
+        yield from _wrapped(wording)
         yield entry
 
 
-def _wrapped(said: str) -> list[str]:
-    return textwrap.wrap(said, WIDTH, initial_indent="# ", subsequent_indent="#   ", break_on_hyphens=False)
+def _wrapped(wording: str) -> list[str]:
+    return textwrap.wrap(
+        wording, WIDTH, initial_indent="# ", subsequent_indent="#   ", break_on_hyphens=False
+    )
 
 
 def toml(value: Any, *, inline: bool = False) -> str:

@@ -26,8 +26,8 @@ from ..bearings.pads import (
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, said
-from .film_rungs import room
+from .families import Remark, messages
+from .film_rungs import minimum_radial_clearance
 from .journal_tables import NOTABLE, REMARKS, film_numbers, warmed
 from .lubricant_table import Lubricant, OiledTable
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
@@ -97,7 +97,7 @@ class PadTable(OiledTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         raise NotImplementedError
 
-    def echo(self, bearing: AnyPads) -> tuple[PadData, str]:
+    def repeated_inputs(self, bearing: AnyPads) -> tuple[PadData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         film: Any = bearing if isinstance(bearing, PressureDamBearing) else bearing.film
         return echo_of_pads(self.data, bearing), pad_film_name(film)
@@ -255,7 +255,7 @@ def pad_numbers(
         extent/(density heat capacity c^2), or between cold walls viscosity U^2/(8 conductivity), the lesser.
         thinning : relative loss of viscosity by that.
     """
-    R, c, mu, omega = bearing.radius, room(bearing), bearing.film_viscosity, abs(speed)
+    R, c, mu, omega = bearing.radius, minimum_radial_clearance(bearing), bearing.film_viscosity, abs(speed)
     carried = 2.0 * mu * omega * R**2 * max(bearing.extents) / (oil.density * oil.heat_capacity * c**2)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     warming = min(carried, conducted)
@@ -276,7 +276,7 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
     if bearing.oil is not None:
         remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
         bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
-    return said(remarks, pad_numbers(bearing, oil, speed, load))
+    return messages(remarks, pad_numbers(bearing, oil, speed, load))
 
 
 def quick_pads(bearing: AnyPads) -> AnyPads:

@@ -85,11 +85,13 @@ def _parameters(home: Callable[..., Any]) -> dict[str, Any]:
 def _entry(home: Callable[..., Any], name: str) -> str:
     """Return what is said of a parameter as an entry of an indented docstring."""
     if isinstance(home, type):
-        said = explained(home, name)
+        wording = explained(home, name)
     else:
-        said = next(one for one in entries(home.__doc__ or "", name) if one.name == name)
-    unit = f" [{said.unit}]" if said.unit else ""
-    return f"\n    {name} : {said.kind}{unit}" + (f"\n        {said.meaning}" if said.meaning else "")
+        wording = next(one for one in entries(home.__doc__ or "", name) if one.name == name)
+    unit = f" [{wording.unit}]" if wording.unit else ""
+    return f"\n    {name} : {wording.kind}{unit}" + (
+        f"\n        {wording.meaning}" if wording.meaning else ""
+    )
 
 
 class Taking:
@@ -500,14 +502,14 @@ class Several:
         Of an entry.
     least, most : int
         How many there may be.
-    said : str
+    wording : str
         What the list must be, for messages; empty for quantities.
     """
 
     each: Reader
     least: int
     most: int
-    said: str = ""
+    wording: str = ""
 
     @property
     def takes(self) -> tuple[Any, ...]:
@@ -521,7 +523,7 @@ class Several:
             if isinstance(self.each, Quantity) and self.each.unit != "1":
                 unit = f" in {self.each.unit}"
             usual = "two quantities [x, y]" if self.most == 2 else "a list of quantities"
-            raise SceneError(f"{where} must be {self.said or usual + unit}, got {brief(value)}")
+            raise SceneError(f"{where} must be {self.wording or usual + unit}, got {brief(value)}")
         return tuple(self.each(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 

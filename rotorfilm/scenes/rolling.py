@@ -28,7 +28,7 @@ from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarnin
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, said
+from .families import Remark, messages
 from .lubricant_table import Lubricant, LubricantTable
 from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
 
@@ -218,7 +218,7 @@ class BallTable:
         pair = ARRANGEMENTS[self.arrangement](one, distance=self.distance, preload=self.preload)
         return replace(pair, **place)
 
-    def echo(self, bearing: Balls) -> tuple[Readable, str]:
+    def repeated_inputs(self, bearing: Balls) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing, and the name of the law of its balls."""
         name = law_name(bearing)
         if isinstance(bearing, BearingPair):
@@ -554,7 +554,7 @@ def ball_remarks(
             rest = rest_under(bearing, load, speed)
         except RotorfilmError as error:
             return (f"rest: none found, {error}",)
-        return said(REMARKS, ball_numbers(rest, oil, roughness))
+        return messages(REMARKS, ball_numbers(rest, oil, roughness))
 
 
 def _idle(rest: BallEquilibriumCase) -> Array:

@@ -291,7 +291,7 @@ class Scene:
         from .solve_journal import film_answer  # which a scene with a question does not need
 
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        given = self.film_table.echo(bearing)
+        given = self.film_table.repeated_inputs(bearing)
         answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=self._remarks_of(bearing))
 

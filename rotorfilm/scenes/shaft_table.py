@@ -312,8 +312,8 @@ class CompressorTable:
         if not given:
             return {"as given": {one.name: one.build() for one in bearings}}
         if all(one.journal is None for one in bearings):
-            said = " and ".join(name.replace(" ", "_") for name in given)
-            raise InputError(f"{said} must be left out without a journal bearing, got none with journal")
+            names = " and ".join(name.replace(" ", "_") for name in given)
+            raise InputError(f"{names} must be left out without a journal bearing, got none with journal")
         return {
             name: {one.name: _with_clearance(one, clearance).build() for one in bearings}
             for name, clearance in given.items()

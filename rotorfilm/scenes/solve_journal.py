@@ -68,20 +68,20 @@ def film_answer(
     """
     at = equilibrium(bearing, load, speed)
     derivatives = film_coefficients(bearing, at.position, speed)
-    remembers = isinstance(bearing, JFOFilm)
+    frequency_dependent = isinstance(bearing, JFOFilm)
     return Answer(
         bearing=given[0],
         model=given[1],
         equilibrium=at,
         coefficients=derivatives,
         losses=at.losses,
-        critical_mass=_whirling_mass(derivatives) if remembers else critical_mass(derivatives),
-        whirl_threshold=None if mass is None or remembers else whirl_threshold(bearing, load, mass),
+        critical_mass=_whirling_mass(derivatives) if frequency_dependent else critical_mass(derivatives),
+        whirl_threshold=None if mass is None or frequency_dependent else whirl_threshold(bearing, load, mass),
     )
 
 
 def _whirling_mass(film: Coefficients) -> CriticalMass:
-    """Return the critical mass on a film that remembers, by K(s); the reason where the count refutes it."""
+    """Return the critical mass by K(s) of the film; the reason where the count of exponents refutes it."""
     try:
         return critical_mass(film)
     except ConvergenceError as error:

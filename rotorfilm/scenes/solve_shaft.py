@@ -35,7 +35,7 @@ from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
 from .excitation_table import GroundTable, UnbalanceTable, oil_remarks, require_kind
-from .families import Remark, prefixed, said
+from .families import Remark, messages, prefixed
 from .journal_tables import film_remarks
 from .lubricant_table import Lubricant
 
@@ -255,12 +255,14 @@ def level_one_remarks(scene: Scene) -> tuple[str, ...]:
     """
     shaft, table = _compressor(scene)
     rotor, oil = shaft.build(), scene.lubricant.properties
-    said = {
+    messages = {
         name: shaft_remarks(rotor, bearings, oil, table.speed)
         for name, bearings in table.cases(shaft.bearings).items()
     }
-    common = [line for line in next(iter(said.values())) if all(line in lines for lines in said.values())]
-    own = [f"{name}: {line}" for name, lines in said.items() for line in lines if line not in common]
+    common = [
+        line for line in next(iter(messages.values())) if all(line in lines for lines in messages.values())
+    ]
+    own = [f"{name}: {line}" for name, lines in messages.items() for line in lines if line not in common]
     return (*oil_remarks(scene.tables, scene.lubricant), *common, *own)
 
 
@@ -338,7 +340,7 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         return ()
     length, diameters = sum(piece.length for piece in pieces), [piece.outer_diameter for piece in pieces]
     largest = max((max(a, b) / min(a, b) for a, b in pairwise(diameters)), default=1.0)
-    return said(BEAM, {"slenderness": length / max(diameters), "step": largest})
+    return messages(BEAM, {"slenderness": length / max(diameters), "step": largest})
 
 
 def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float) -> tuple[str, ...]:
@@ -351,4 +353,4 @@ def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed:
     if not growth.size:
         return ()
     k = int(np.argmax(growth))
-    return said([UNSTABLE], {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})
+    return messages([UNSTABLE], {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})

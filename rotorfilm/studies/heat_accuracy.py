@@ -49,7 +49,7 @@ class HeatModel(StrEnum):
     LAYERS = "T3"
 
     @property
-    def said(self) -> str:
+    def label(self) -> str:
         """Return the model in words."""
         return f"{self.value[:2]}, {_SAID[self]}"
 
@@ -243,7 +243,7 @@ HEAT_MODELS = (
         StudyModel(
             name=model.value,
             family=model,
-            label=model.said,
+            label=model.label,
             law=model,
             repeats=ROUNDS if model in ONE_TEMPERATURE else 1,
         )

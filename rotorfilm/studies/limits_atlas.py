@@ -421,14 +421,14 @@ COMPARED = (HeatModel.SUPPLY, HeatModel.HOUSING, HeatModel.BUSH)
 def heat_rise() -> Iterator[Curve]:
     """Yield what the models err by as oil thins more."""
     for model in COMPARED:
-        yield model.said, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
+        yield model.label, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
 
 
 @panel("heat", f"models, E = {AT_RISE:g}", "Peclet number Pe", "error of the position", logarithmic=True)
 def heat_peclet() -> Iterator[Curve]:
     """Yield what the models err by as oil conducts less."""
     for model in COMPARED:
-        yield model.said, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
+        yield model.label, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
 
 
 @panel(

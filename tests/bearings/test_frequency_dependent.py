@@ -10,12 +10,17 @@ from scipy.linalg import block_diag, expm
 
 from rotorfilm import (
     ConvergenceError,
+    Disk,
+    ElasticMaterial,
     Equilibrium,
     FrequencyDependentReaction as Reaction,
     InputError,
     JeffcottRotor,
     OperatingPoint,
     RigidRotor,
+    ShaftElement,
+    ShaftRotor,
+    Station,
     ValidityWarning,
     coefficients,
     export_fmu,
@@ -475,3 +480,30 @@ def test_a_tolerance_out_of_reach_says_what_is_the_least_error():
 def test_a_system_that_grows_is_taken_as_it_is():
     grows = control.ss(np.diag([5.0, -10.0]), np.eye(2), np.eye(2), -np.eye(2))
     assert response(Reaction.from_system(grows), 3j) == pytest.approx(-grows(3j), rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", [12, 17, 30])
+def test_whirls_on_random_systems_are_those_of_the_joined_matrix(seed):
+    """With seed 12 the search from one exponent of the rotor with K and C of one frequency does not end."""
+    rng = np.random.default_rng(seed)
+    size = rng.integers(2, 5)
+    A = rng.normal(size=(size, size)) * 300.0
+    A -= (np.linalg.eigvals(A).real.max() + rng.uniform(20.0, 300.0)) * np.eye(size)
+    B, C = rng.normal(size=(size, 2)) * 100.0, rng.normal(size=(2, size)) * 1e6 * rng.uniform(0.1, 3.0)
+    bearing = Reaction.from_system(control.ss(A, B, -C, -rng.uniform(5e6, 5e7) * np.eye(2)))
+    steel = ElasticMaterial(young_modulus=2.11e11, shear_modulus=8.12e10, density=7810.0)
+    shaft = ShaftRotor(
+        elements=ShaftElement(length=1.5, outer_diameter=0.05, material=steel).split(6),
+        disks=(Disk(node=3, mass=30.0, polar_inertia=0.2, diametral_inertia=0.1),),
+        stations=(Station(node=0, name="left"), Station(node=6, name="right")),
+        speed=300.0,
+    )
+    bearings = {"left": bearing, "right": bearing}
+    whole = mount(shaft, bearings)
+    joined = whole.linearization(0.0, np.zeros(len(whole.states)), np.zeros(len(whole.inputs))).A
+    poles = np.linalg.eigvals(joined)
+    light = poles[(poles.imag > 0.0) & (-poles.real < 0.3 * abs(poles)) & (abs(poles) < 5e3)]
+    found = rotor_modes(shaft, bearings, 300.0).eigenvalues
+    assert len(light) > 4
+    assert all(np.abs(found - pole).min() < 1e-6 * abs(pole) for pole in light)
+    assert all(np.abs(poles - value).min() < 1e-6 * abs(value) for value in found if abs(value) < 5e3)

@@ -96,7 +96,7 @@ def test_ladder_has_a_panel_for_each_bearing():
         StudyRow(
             name=model,
             family=model,
-            label=model.said,
+            label=model.label,
             case=case.name,
             values={
                 "error of the position [1]": 0.5 / k,
@@ -113,4 +113,4 @@ def test_ladder_has_a_panel_for_each_bearing():
     np.testing.assert_allclose([line.get_xdata()[0] for line in filled], 1e-3 * np.arange(1.0, 7.0))
     np.testing.assert_allclose([line.get_ydata()[0] for line in filled], 0.5 / np.arange(1.0, 7.0))
     assert [axes.get_title() for axes in shown] == [case.name for case in HEAT_CASES]
-    assert {text.get_text() for text in shown[0].texts} == {model.said for model in HeatModel}
+    assert {text.get_text() for text in shown[0].texts} == {model.label for model in HeatModel}

@@ -215,6 +215,9 @@ MADE = [
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
     rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT),
     rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT, axial=True),
+    rf.bearings.MomentCarryingJournal(
+        bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
+    ),
     rf.VariableComplianceBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
     rf.FiveDegreeBalls(bearing=ANGULAR_CONTACT),
     rf.bearings.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),

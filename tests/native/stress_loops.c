@@ -78,6 +78,8 @@ static void read_ring(const char *path, rf_ring *ring)
     ring->turning = next_number(file) != 0.0;
     ring->extrapolated = next_number(file) != 0.0;
     ring->spans = (int32_t)next_number(file);
+    ring->levels = RF_LEVELS;
+    ring->recess = -1;
     ring->pad = ring->spans == 2 && uniform() < 0.5;
     ring->start = numbers_of(file, (size_t)ring->spans);
     ring->extent = numbers_of(file, (size_t)ring->spans);
@@ -288,7 +290,7 @@ static int plain(const void *of, const double *state, double *f, double *jacobia
 
 int stress_loops(const char *path, long count)
 {
-    rf_ring ring;
+    rf_ring ring = {0};
     const rf_short thin = {1.44};
     const double none[8] = {0.0};
     read_ring(path, &ring);

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from rotorfilm import FilmContactError, InputError, RotorfilmError
-from rotorfilm.core.answers import ErrorEstimate, Found, Ladder, WorkUnit, beside_bound
+from rotorfilm.core.answers import ErrorEstimate, Ladder, RungResult, WorkUnit, beside_bound
 from rotorfilm.questions.walk import Meter, walk
 
 CALLS, MAPS, GRIDS = WorkUnit("calls"), WorkUnit("maps", nominal=7.0), WorkUnit("grids")
@@ -33,7 +33,7 @@ class Made:
         self.asked += 1
         if self.fails:
             raise self.fails if isinstance(self.fails, RotorfilmError) else RotorfilmError("the film cannot")
-        return Found(1.0 + self.error, {CALLS: self.work})
+        return RungResult(1.0 + self.error, {CALLS: self.work})
 
     def estimate(self, found, before, tolerance):
         return ErrorEstimate(self.error, "by construction", doubt=self.doubt)
@@ -170,7 +170,7 @@ class Apart(Made):
         self.value = value
 
     def answer(self, before):
-        return Found(self.value, {CALLS: self.work})
+        return RungResult(self.value, {CALLS: self.work})
 
 
 def test_a_refused_rung_keeps_no_estimate_that_a_richer_one_contradicts():

@@ -129,8 +129,8 @@ def truth(scene, finest):
         matrices = finest.at_rest().matrices(at.position, speed, smooth_slopes)
         return getattr(matrices.reduced(abs(speed)), quantity)
     if QUANTITIES[quantity].slopes:
-        wedge = ladder_of(scene).rungs[-1].film.wedge(at.position)
-        slopes = -tangent(finest, at.position, speed, smooth=True, wedge=wedge)[1]
+        curvature_distance = ladder_of(scene).rungs[-1].film.curvature_distance(at.position)
+        slopes = -tangent(finest, at.position, speed, smooth=True, curvature_distance=curvature_distance)[1]
         return slopes[:, :2] if quantity == "stiffness" else slopes[:, 2:]
     if quantity == "attitude_angle":
         return attitude(at.position, load, speed)

@@ -223,7 +223,7 @@ def test_the_planes_of_a_rotor_stay_as_they_are(steel):
         "outputs": [names(rotor.outputs).index(name) for name in names(planar.outputs)[:-1]],
     }
     few, many = planar.operators, rotor.operators
-    for name in ("steady", "spin"):
+    for name in ("steady", "by_speed"):
         one, other = getattr(many, name), getattr(few, name)
         assert_allclose(one[np.ix_(states, states)], other, rtol=0.0, atol=1e-14 * np.abs(other).max())
         assert not np.delete(one[states], states, axis=1).any()

@@ -10,11 +10,12 @@ on the state but the angles, so a grid is made once.
 
 from __future__ import annotations
 
-from ctypes import byref, c_double, c_size_t
+from collections.abc import Callable, Sequence
+from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_size_t, c_void_p, cast
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -95,6 +96,10 @@ class Grid(NamedTuple):
         That pressure, 0 elsewhere.
     film : ndarray, shape (N,)
         Share of half the length that is film between a line and the next one.
+    place, wall : ndarray, shape (2 M + 3,), or None
+        Of cells over the whole length, widths and conductances then being those of all of it: the axial
+        coordinates, from -1 to 1, of the end, of faces and nodes in turn, and of the end, and the gap of the
+        centered journal there, in clearances.
     """
 
     span: np.ndarray
@@ -105,6 +110,8 @@ class Grid(NamedTuple):
     held: np.ndarray
     value: Array
     film: Array
+    place: Array | None = None
+    wall: Array | None = None
 
     @property
     def nodes(self) -> Array:
@@ -253,6 +260,26 @@ def _held(
     return held, value
 
 
+def over_whole_length(grid: Grid, profile: Callable[[Array], Array] = np.ones_like) -> Grid:
+    """Return a grid over half the length with its image in the middle plane.
+
+    Parameters
+    ----------
+    grid : Grid
+    profile : callable
+        Gap of the centered journal in clearances, of axial coordinates from -1 to 1; 1 of a straight bore.
+    """
+    nodes = np.concatenate([-grid.nodes[:0:-1], grid.nodes])
+    place = np.empty(2 * len(nodes) - 1)
+    place[::2], place[1::2] = nodes, 0.5 * (nodes[1:] + nodes[:-1])
+    return grid._replace(
+        width=0.5 * np.concatenate([grid.width[:0:-1], 2.0 * grid.width[:1], grid.width[1:]]),
+        conductance=0.5 * np.concatenate([grid.conductance[-2::-1], grid.conductance]),
+        place=place,
+        wall=np.asarray(profile(place), dtype=float),
+    )
+
+
 def _distance(first: float, second: float) -> float:
     gap = (first - second) % TURN
     return min(gap, TURN - gap)
@@ -284,6 +311,31 @@ class RingPotential(NamedTuple):
     lines: int
 
 
+@runtime_checkable
+class Mobility(Protocol):
+    """How easily oil flows where the film is thick or thin: turbulent, thinning, or with porous walls."""
+
+    def __call__(self, thickness: float) -> tuple[Sequence[float], Sequence[float]]:
+        """Return three factors, 1 in a laminar film, and their derivatives by the thickness.
+
+        They are factors of H^3 in the flow that pressure drives, of H in the Couette flow and of 1/H in the
+        shear, at a thickness H [1] in clearances.
+        """
+
+
+_MOBILITY = CFUNCTYPE(None, c_void_p, c_double, POINTER(c_double), POINTER(c_double))
+
+
+def _compiled_mobility(mobility: Mobility) -> Any:
+    """Return a mobility as a function of the C library calls it."""
+
+    def told(_: int, thickness: float, factors: Any, slopes: Any) -> None:
+        for row, numbers in zip((factors, slopes), mobility(thickness), strict=True):
+            row[0], row[1], row[2] = numbers
+
+    return _MOBILITY(told)
+
+
 class RingKernel(FilmKernel):
     """A film on the grids of a ring.
 
@@ -299,6 +351,9 @@ class RingKernel(FilmKernel):
         Whether the force is that extrapolated from the finest grid and the next.
     pad : bool
         Whether the second of two spans is a pad of its own, which the journal touches on its arc only.
+    mobility : Mobility or None
+    resting : bool
+        Whether the lines rest, uniform on every span, where the journal moves.
     """
 
     _function = "rf_ring_film"
@@ -311,34 +366,41 @@ class RingKernel(FilmKernel):
         cavitation: Cavitation,
         extrapolated: bool = False,
         pad: bool = False,
+        mobility: Mobility | None = None,
+        resting: bool = False,
     ) -> None:
-        self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad)
+        self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad, mobility, resting)
         self.grids = grids
         self._kept: list[Array] = []
+        self._mobility = None if mobility is None else _compiled_mobility(mobility)
         self.struct = structure("rf_ring")(
-            (structure("rf_grid") * len(grids))(*map(self._grid, grids)),
-            self._place(spans.start),
-            self._place(spans.extent),
-            slenderness,
-            len(spans.start),
-            spans.pinned,
-            spans.turning,
-            cavitation.searched,
-            cavitation.clipped,
-            extrapolated,
-            pad,
+            grids=(structure("rf_grid") * len(grids))(*map(self._grid, grids)),
+            start=self._place(spans.start),
+            extent=self._place(spans.extent),
+            slenderness=slenderness,
+            mobility=None if self._mobility is None else cast(self._mobility, c_void_p).value,
+            spans=len(spans.start),
+            recess=-1,
+            whole=grids[0].place is not None,
+            levels=len(grids),
+            resting=resting,
+            pinned=spans.pinned,
+            turning=spans.turning,
+            ruptured=cavitation.searched,
+            clipped=cavitation.clipped,
+            extrapolated=extrapolated,
+            pad=pad,
         )
 
     def _grid(self, grid: Grid) -> Any:
-        floats = grid.line, grid.face, grid.value
+        floats = "line", "face", "value", "width", "conductance", "place", "wall"
+        rows = {name: getattr(grid, name) for name in floats}
         return structure("rf_grid")(
-            len(grid.span),
-            len(grid.width),
-            self._place(grid.span, np.int32),
-            *map(self._place, floats),
-            self._place(grid.held, np.int32),
-            self._place(grid.width),
-            self._place(grid.conductance),
+            lines=len(grid.span),
+            nodes=len(grid.width),
+            span=self._place(grid.span, np.int32),
+            held=self._place(grid.held, np.int32),
+            **{name: self._place(row) for name, row in rows.items() if row is not None},
         )
 
     def _place(self, numbers: Array, kind: Any = np.float64) -> int:
@@ -385,6 +447,38 @@ class RingKernel(FilmKernel):
         status = loops()["rf_ring_field"](byref(self.struct), *places, byref(side_flow))
         self._report(status, e, w)
         return theta, face, pressure, side_flow.value
+
+    def least(self, place: Array) -> float:
+        """Return the least gap [1] at a place (4,): eccentricity, and what the end lies beside the middle."""
+        return float(
+            loops()["rf_least_film"](byref(self.struct), _float(place).ctypes.data, (c_double * 2)())
+        )
+
+    def wrench(self, place: Array, drive: Array, *, differentiated: bool = True) -> tuple[Array, Array]:
+        """Return force and moment (4,) on the finest grid, or extrapolated, and their derivatives (4, 9).
+
+        The derivatives are 0 where they are not asked for.
+
+        Parameters
+        ----------
+        place : ndarray, shape (4,)
+            Eccentricity e of the middle of the journal, and tau, what its end z = 1 lies beside that, in
+            clearances.
+        drive : ndarray, shape (5,) [1/s]
+            w = de/dt + rate (e_y, -e_x), the same of tau, and the rate, half the speed. The derivatives are
+            by place and drive.
+
+        Raises
+        ------
+        FilmContactError, UndefinedDerivativeError, ConvergenceError
+            As of a force, and its derivative, of a `FilmLaw`.
+        """
+        force, slopes = np.zeros(4), np.zeros((4, 9))
+        q, w = _float(place), _float(drive)
+        places = [numbers.ctypes.data for numbers in (q, w, force)]
+        by = slopes.ctypes.data if differentiated else None
+        self._report(loops()["rf_ring_wrench"](byref(self.struct), *places, by), q[:2], w[:2])
+        return force, slopes
 
     def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
         """Return the losses of states (2, n), (3 + 2 openings, n), the oil running along at `rate` (n) [1/s].
@@ -480,7 +574,7 @@ def reference(film: RingKernel, e: Array, w: Array) -> Array:
     return np.concatenate([force, slopes.reshape(8, -1)])
 
 
-# Reynolds' equation with a conductance for every face of a ring of cells (`native/grids/stencil.h`).
+# Reynolds' equation with a conductance for every face of a ring of cells (`native/grids/search.h`).
 
 
 class Stencil(NamedTuple):
@@ -543,7 +637,8 @@ def solve_stencil(
     held = np.ascontiguousarray(stencil.held, dtype=np.uint8)
     pressure, full = np.array(value, dtype=float), np.array(guess, dtype=np.uint8)
     answers = np.array(others, dtype=float)
-    struct = structure("rf_stencil")(lines, nodes, *(row.ctypes.data for row in (*rows, held)))
+    around, along, source, shut = (row.ctypes.data for row in (*rows, held))
+    struct = structure("rf_stencil")(lines, nodes, around, along, None, source, shut)
     places = pressure.ctypes.data, full.ctypes.data, len(answers), answers.ctypes.data
     status = loops()["rf_stencil_film"](byref(struct), *places)
     if status == Status.NO_MEMORY:

@@ -1,4 +1,4 @@
-"""The linear equations of the heat in a bearing: oil cell by cell, openings that mix, bush and journal.
+"""The temperature of the oil in a film: cell by cell, openings that mix, bush and journal.
 
 Temperatures are above that of the supply [K]; flows of oil and heat are in units of clearance x radius x
 length/2, that is in 1/s and K/s.
@@ -6,19 +6,25 @@ length/2, that is in 1/s and K/s.
 
 from __future__ import annotations
 
+from ctypes import byref
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
-from scipy.sparse import coo_matrix
-from scipy.sparse.linalg import splu
 
-from ...core.errors import InputError, require_count, require_each, require_non_negative, require_positive
+from ...core.errors import (
+    ConvergenceError,
+    InputError,
+    require_count,
+    require_each,
+    require_non_negative,
+    require_positive,
+)
 from ...core.inputs import quantities
 from ...core.model import Array
-from ..films.mass_conserving import Fluidity
-from ..oil.heated_bearing import carried_share
+from ...native.library import loops
+from ...native.structs import structure
+from ..films.mass_conserving import Fluidity, contiguous
 from .film_flow import FilmFlow
 
 # What holds a warm film: walls without heat, of given temperature, or a bush that conducts it away.
@@ -153,19 +159,26 @@ class BushRing:
                 f"outer_radius must be above the bearing's radius {radius!r}, got {self.outer_radius!r}"
             )
         n = np.arange(1.0, HARMONICS + 1.0)
-        ends = np.exp(1j * np.outer(start + extent, n)) - np.exp(1j * np.outer(start, n))
-        mean = ends / (1j * np.outer(extent, n))
-        spread = np.real((mean / self.wave_transfer(radius, n)) @ mean.conj().T) / (np.pi * radius)
+        before, after = (_waves(angle, HARMONICS) for angle in (start, start + extent))
+        size = n * np.sqrt(np.pi * radius * self.wave_transfer(radius, n))
+        mean = (after - before) / (extent[:, None] * size)
+        parts = np.hstack([mean.real, mean.imag])
+        spread = parts @ parts.T
         give = 2.0 * np.pi * radius * self.mean_transfer(radius)
         shaft = self.shaft_conductance, 1.0, self.ambient_temperature
         return WallResponse(spread, give, 1.0, self.ambient_temperature, *shaft)
+
+
+def _waves(angle: Array, count: int) -> Array:
+    """Return exp(i n angle), n = 1, 2, ..., of angles (N,), shape (N, count)."""
+    return np.cumprod(np.repeat(np.exp(1j * angle)[:, None], count, axis=1), axis=1)
 
 
 Walls = AdiabaticWalls | HeldWalls | BushRing
 """The bush around a film and the journal in it, as the heat of the film sees them."""
 
 
-# The linear equations of the heat in a bearing: oil cell by cell, openings that mix, bush and journal.
+# The heat in a film, in compiled code (`native/heat/energy.h`).
 
 
 class Heating(NamedTuple):
@@ -204,23 +217,6 @@ class Heating(NamedTuple):
     carry_over: float | None
     walls: WallResponse | None
 
-    @property
-    def film(self) -> np.ndarray:
-        """Which cells are film, shape (N, M)."""
-        return self.opening < 0
-
-    @property
-    def openings(self) -> int:
-        """Openings, that all round at mid-length the last."""
-        return int(self.opening.max()) + 1 + (self.flow.central is not None)
-
-    def unknowns(self, *layers: int) -> np.ndarray:
-        """Return the number of the unknown of each cell; openings have one each, after those of the cells."""
-        shape = (*self.opening.shape, *layers)
-        own, count = np.arange(np.prod(shape)).reshape(shape), int(np.prod(shape))
-        opening = self.opening.reshape(*self.opening.shape, *(1 for _ in layers))
-        return np.where(opening < 0, own, count + opening)
-
 
 class HeatSolution(NamedTuple):
     """Temperatures above that of the supply [K], and where the heat goes [K/s].
@@ -254,233 +250,78 @@ class HeatSolution(NamedTuple):
     to_journal: float
 
 
-Carried = tuple[np.ndarray, np.ndarray, Array]
-"""Oil that goes from one unknown to another: those that give it and get it, and how much [1/s], (F,) each."""
+class FilmProfile:
+    """What a film knows of the temperature across it: a number of `layers`, each with its own velocity.
 
-
-def carried(*faces: Carried) -> Carried:
-    """Return what flows through faces, each the unknowns before and behind it and the flow, of any sign."""
-    rows = [[np.ravel(part) for part in np.broadcast_arrays(*face)] for face in faces]
-    before, behind, flow = (np.concatenate(parts) for parts in zip(*rows, strict=True))
-    through = (flow != 0.0) & (before != behind)
-    before, behind, flow = before[through], behind[through], flow[through]
-    onward = flow > 0.0
-    donor, receiver = np.where(onward, before, behind), np.where(onward, behind, before)
-    return donor, receiver, np.abs(flow)
-
-
-def from_center(heating: Heating, cells: np.ndarray, flow: Array | None) -> list[Carried]:
-    """Return the faces through which a groove at mid-length feeds cells (N, ...); none without one."""
-    if flow is None:
-        return []
-    groove = heating.unknowns(*flow.shape[1:]).size + heating.openings - 1
-    return [(np.full(cells.shape, groove), cells, flow)]
-
-
-Terms = list[tuple[np.ndarray | int, Array]]
-"""A flow of heat [K/s] as a sum of unknowns times coefficients [1/s]."""
-
-
-class HeatEquations:
-    """Equations in the temperatures of oil (`cells` unknowns, then openings), bush, its heat, and journal.
-
-    Parameters
-    ----------
-    cells : int
-    heating : Heating
-    """
-
-    def __init__(self, cells: int, heating: Heating) -> None:
-        self.openings = heating.openings
-        self.lines, size, self._heating = len(heating.opening), cells + self.openings, heating
-        self.size = size
-        self.bush = size + np.arange(self.lines)
-        self.to_bush = self.bush + self.lines
-        self.mean, self.journal = size + 2 * self.lines, size + 2 * self.lines + 1
-        self.right = np.zeros(size + 2 * self.lines + 2)
-        self._entries: list[list[Array]] = []
-
-    def add(self, rows: ArrayLike, columns: ArrayLike, values: ArrayLike) -> None:
-        """Add entries of the matrix, broadcast."""
-        self._entries.append([np.ravel(part) for part in np.broadcast_arrays(rows, columns, values)])
-
-    def warm_film(self, index: np.ndarray, oil: Carried, through: Array, made: Array) -> None:
-        """Let oil bring its heat to the cells of a film, which lose `through` T [K/s] and get what is made.
-
-        The others, in openings, have no temperature of their own. All are of shape (N, M, ...).
-        """
-        film = self._heating.film
-        own, layers = index[film], (self.size - self.openings) // film.size
-        self._carry(oil)
-        self.add(own, own, np.where(through > 0.0, through, 1.0)[film])
-        places = np.flatnonzero(np.repeat(~film.ravel(), layers))
-        self.add(places, places, 1.0)
-        self.right[own] = made[film]
-
-    def _carry(self, oil: Carried) -> None:
-        """Let oil bring its heat along, and mix in openings with fresh oil."""
-        (donor, receiver, amount), lam = oil, self._heating.carry_over
-        opening = self.size - self.openings
-        taken, given = (
-            np.asarray(np.bincount(ends, amount, self.size)[opening:], dtype=float)
-            for ends in (receiver, donor)
-        )
-        if lam is None:
-            share = np.divide(taken, given, out=np.ones(taken.shape), where=given > 0.0)
-        else:
-            share, _, _ = carried_share(given, taken, lam)
-        kept = np.append(np.ones(opening), share)[receiver]
-        self.add(receiver, donor, -kept * amount)
-        places = np.arange(opening, self.size)
-        self.add(places, places, np.where(taken > 0.0, taken, 1.0))
-
-    def lose(
-        self, rows: tuple[np.ndarray, np.ndarray], bush: Terms, journal: Terms, line: np.ndarray
-    ) -> None:
-        """Let oil lose heat to the walls: the equations of the oil, and the line on which each lies."""
-        walls = self._heating.walls
-        if walls is None:
-            return
-        for column, value in bush:
-            self.add(rows[0], column, value)
-            self.add(self.to_bush[line], column, -value)
-        for column, value in journal:
-            self.add(rows[1], column, value)
-            self.add(self.journal, column, -walls.shaft_take * value)
-
-    def solve(self) -> Array:
-        """Return all unknowns."""
-        self._close_walls()
-        rows, columns, values = (np.concatenate(parts) for parts in zip(*self._entries, strict=True))
-        count = len(self.right)
-        matrix = coo_matrix((values, (rows, columns)), shape=(count, count)).tocsc()
-        # The matrix is nearly an M-matrix of a nearly symmetric pattern: hardly a pivot is off the diagonal.
-        factors = splu(
-            matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True}
-        )
-        return np.asarray(factors.solve(self.right))
-
-    def total(self, terms: Terms, x: Array) -> float:
-        """Return a sum of flows of heat [K/s]; 0 where the walls take none."""
-        if self._heating.walls is None:
-            return 0.0
-        return float(sum(np.sum(value * x[column]) for column, value in terms))
-
-    def solution(
-        self,
-        index: np.ndarray,
-        oil: Carried,
-        walls: tuple[Terms, Terms],
-        made: Array,
-        less: Array,
-        leaked: Array,
-    ) -> HeatSolution:
-        """Return the temperatures, with the heat that is made, less what warming leaves out, and leaks.
-
-        Parameters
-        ----------
-        index : ndarray of int, shape (N, M, ...)
-            Unknown of each cell.
-        oil : Carried
-        walls : (Terms, Terms)
-            Heat into bush and journal.
-        made, less, leaked : ndarray, shape (N, M, ...)
-        """
-        x, film, opening = self.solve(), self._heating.film, self.size - self.openings
-        T, (donor, receiver, amount) = x[index], oil
-        heat, conducted = amount * x[donor], self._heating.walls is not None
-        return HeatSolution(
-            oil=T,
-            openings=x[opening : self.size],
-            bush=x[self.bush] if conducted else None,
-            journal=float(x[self.journal]) if conducted else None,
-            made=float(np.sum((made - less * (T - self._heating.temperature))[film])),
-            leaked=float(np.sum((leaked * T)[film])),
-            drained=float(heat[receiver >= opening].sum() - heat[donor >= opening].sum()),
-            to_bush=self.total(walls[0], x),
-            to_journal=self.total(walls[1], x),
-        )
-
-    def _close_walls(self) -> None:
-        walls = self._heating.walls
-        self.add(self.to_bush, self.to_bush, 1.0)
-        self.add(self.bush, self.bush, 1.0)
-        if walls is None:
-            self.add([self.mean, self.journal], [self.mean, self.journal], 1.0)
-            return
-        self.add(self.bush, self.mean, -1.0)
-        if walls.spread.any():
-            self.add(self.bush[:, None], self.to_bush[None, :], -walls.spread)
-        self.add(self.mean, self.mean, walls.give)
-        self.add(self.mean, self.to_bush, -walls.take)
-        self.right[self.mean] = walls.give * walls.ambient
-        self.add(self.journal, self.journal, walls.shaft_give)
-        self.right[self.journal] = walls.shaft_give * walls.shaft_ambient
-
-
-# The temperature over a film: one mean across it, by finite volumes on the cells of the pressure (T2).
-
-
-@dataclass(frozen=True)
-class MeanTemperature:
-    """One temperature across the film, a parabola between the walls with that mean.
-
-    With q the flow per length, alpha the share of the gap that oil fills and h the thickness,
+    With q the flow per length, alpha the share of the gap that oil fills and h the thickness, one layer is
 
         C div(q T) = mu U^2 alpha/h + h^3 |grad p|^2/(12 mu) - (k alpha/h) (12 T - 6 T_bush - 6 T_journal),
 
-    of which (k alpha/h) (6 T - 4 T_bush - 2 T_journal) goes into the bush. Fluxes are those of the pressure
-    itself, upwind: heat is accounted for to the last digit on any grid.
-    """
-
-    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
-        """Return the shape of a temperature of cells (N, M)."""
-        return cells
-
-    def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity (N, M) flows."""
-        return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5), viscosity)
-
-    def warm(self, heating: Heating) -> HeatSolution:
-        """Return the temperature of a film, from one sparse solution."""
-        flow, index = heating.flow, heating.unknowns()
-        oil = carried(
-            (index, np.roll(index, -1, axis=0), flow.around),
-            (index[:, :-1], index[:, 1:], flow.axial[:, :-1]),
-            *from_center(heating, index[:, 0], flow.central),
-        )
-        equations = HeatEquations(index.size, heating)
-        made = heating.heat_scale * (heating.speed**2 * heating.viscosity * flow.shear + flow.dissipation)
-        less = made * heating.thinning
-        through = np.maximum(flow.entering, flow.leaving) + less
-        equations.warm_film(index, oil, through, made + less * heating.temperature)
-        walls = _into_walls(equations, heating.diffusion * flow.shear, index)
-        line = np.broadcast_to(np.arange(len(index))[:, None], index.shape)
-        equations.lose((index, index), *walls, line)
-        return equations.solution(index, oil, walls, made, less, flow.leaked)
-
-
-def _into_walls(equations: HeatEquations, into: Array, index: np.ndarray) -> tuple[Terms, Terms]:
-    """Return the heat into bush and journal of each cell, of a parabola across the film."""
-    at_bush = np.broadcast_to(equations.bush[:, None], index.shape)
-    at_journal = np.full(index.shape, equations.journal)
-    bush: Terms = [(index, 6.0 * into), (at_bush, -4.0 * into), (at_journal, -2.0 * into)]
-    journal: Terms = [(index, 6.0 * into), (at_bush, -2.0 * into), (at_journal, -4.0 * into)]
-    return bush, journal
-
-
-# The temperature over and across a film: layers between bush and journal (T3).
-
-
-@quantities
-@dataclass(frozen=True)
-class LayeredTemperature:
-    """The temperature in layers of equal share of the gap, each with its own velocity (Dowson, 1962).
+    of which (k alpha/h) (6 T - 4 T_bush - 2 T_journal) goes into the bush, and several are (Dowson, 1962)
 
         C (u T_x + u_z T_z + u_y T_y) = k T_yy + mu (u_y^2 + u_z,y^2)
 
     with the flow of the pressure itself shared by the layers as their viscosities have it, u_y from the
-    balance of each layer, upwind, and the walls by one-sided differences of second order.
+    balance of each layer, and the walls by one-sided differences of second order. Fluxes are those of the
+    pressure itself, upwind: heat is accounted for to the last digit on any grid.
+    """
+
+    layers: int = 1
+
+    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
+        """Return the shape of a temperature of cells (N, M)."""
+        return cells if self.layers == 1 else (*cells, self.layers)
+
+    def fluidity(self, viscosity: Array) -> Fluidity:
+        """Return how easily oil of a relative viscosity, of `shape`, flows."""
+        shares = layer_shares(1.0 / viscosity.reshape(*viscosity.shape[:2], self.layers))
+        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
+
+    def warm(self, heating: Heating) -> HeatSolution:
+        """Return the temperature of a film, from one linear system.
+
+        Raises
+        ------
+        ConvergenceError
+            If it is singular.
+        """
+        flow, shape = heating.flow, heating.viscosity.shape
+        film = np.expand_dims(heating.opening < 0, -1)
+        viscosity, thinning, start = (
+            field.reshape(*film.shape[:2], self.layers)
+            for field in (heating.viscosity, heating.thinning, heating.temperature)
+        )
+        shares = layer_shares(1.0 / viscosity)
+        central, around, axial, fresh = _layer_flows(flow, shares)
+        made = heating.heat_scale * layer_heat(heating, shares) * film
+        less = made * thinning
+        lost = np.maximum(-fresh, 0.0)
+        lost[:, -1] += np.maximum(axial[:, -1], 0.0)
+        conducted = self.layers * heating.diffusion * flow.shear
+        fields = around, axial, fresh, made + less * start, less, conducted
+        oil, openings, bush, account = _solve(heating, central, fields)
+        return HeatSolution(
+            oil=oil.reshape(shape),
+            openings=openings,
+            bush=None if heating.walls is None else bush,
+            journal=None if heating.walls is None else float(account[3]),
+            made=float(np.sum(made - less * (oil - start))),
+            leaked=float(np.sum(film * lost * oil)),
+            drained=float(account[0]),
+            to_bush=float(account[1]),
+            to_journal=float(account[2]),
+        )
+
+
+@dataclass(frozen=True)
+class MeanTemperature(FilmProfile):
+    """One temperature across the film, a parabola between the walls with that mean; see `FilmProfile`."""
+
+
+@quantities
+@dataclass(frozen=True)
+class LayeredTemperature(FilmProfile):
+    """The temperature in layers of equal share of the gap, each with its own velocity; see `FilmProfile`.
 
     Parameters
     ----------
@@ -493,80 +334,45 @@ class LayeredTemperature:
     def __post_init__(self) -> None:
         require_count("layers", self.layers, 2)
 
-    def shape(self, cells: tuple[int, int]) -> tuple[int, ...]:
-        """Return the shape of a temperature of cells (N, M)."""
-        return (*cells, self.layers)
 
-    def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity (N, M, layers) flows."""
-        shares = layer_shares(1.0 / viscosity)
-        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
-
-    def warm(self, heating: Heating) -> HeatSolution:
-        """Return the temperature of a film, from one sparse solution."""
-        flow, film, index = heating.flow, heating.film, heating.unknowns(self.layers)
-        shares = layer_shares(1.0 / heating.viscosity)
-        around, axial, central = _layer_flows(heating, shares)
-        dragged = shares.dragged / shares.dragged.sum(axis=-1, keepdims=True)
-        fresh, lost = (amount[..., None] * dragged for amount in (flow.fresh, flow.lost))
-        inward = np.pad(axial, ((0, 0), (1, 0), (0, 0)))[:, :-1]
-        if central is not None:
-            inward[:, 0] = central
-        net = np.roll(around, 1, axis=0) - around + inward - axial + fresh - lost
-        upward = np.cumsum(net, axis=-1)[..., :-1]
-        oil = carried(
-            (index, np.roll(index, -1, axis=0), around),
-            (index[:, :-1], index[:, 1:], axial[:, :-1]),
-            (index[film][..., :-1], index[film][..., 1:], upward[film]),
-            *from_center(heating, index[:, 0], central),
-        )
-        equations = HeatEquations(index.size, heating)
-        made = heating.heat_scale * layer_heat(heating, shares)
-        less = made * heating.thinning
-        drawn = np.zeros(made.shape)
-        drawn[:, -1] = np.maximum(-axial[:, -1], 0.0)
-        arriving = np.bincount(oil[1], oil[2], equations.size)[index]
-        through = arriving + fresh + drawn + less
-        equations.warm_film(index, oil, through, made + less * heating.temperature)
-        walls = self._conduct(equations, heating, index)
-        leaked = lost
-        leaked[:, -1] += np.maximum(axial[:, -1], 0.0)
-        return equations.solution(index, oil, walls, made, less, leaked)
-
-    def _conduct(self, equations: HeatEquations, heating: Heating, index: np.ndarray) -> tuple[Terms, Terms]:
-        """Add what layers conduct to each other and to the walls; return the latter."""
-        film = heating.film
-        each = self.layers * (heating.diffusion * heating.flow.shear)[film]
-        layer, line = index[film], np.nonzero(film)[0]
-        below, above = layer[..., :-1], layer[..., 1:]
-        for here, there in ((below, above), (above, below)):
-            equations.add(here, here, each[..., None])
-            equations.add(here, there, -each[..., None])
-        journal_column = np.full(each.shape, equations.journal)
-        bush: Terms = [(layer[..., 0], 3.0 * each), (layer[..., 1], -each / 3.0)]
-        journal: Terms = [(layer[..., -1], 3.0 * each), (layer[..., -2], -each / 3.0)]
-        bush.append((equations.bush[line], -8.0 / 3.0 * each))
-        journal.append((journal_column, -8.0 / 3.0 * each))
-        equations.lose((layer[..., 0], layer[..., -1]), bush, journal, line)
-        return bush, journal
+def _solve(
+    heating: Heating, central: Array | None, fields: tuple[Array, ...]
+) -> tuple[Array, Array, Array, Array]:
+    """Return temperatures of oil, openings and bush, and an account, from what rf_energy has of the cells."""
+    opening, walls = np.ascontiguousarray(heating.opening, dtype=np.int32), heating.walls
+    kept = [None if of is None else contiguous(of) for of in (central, *fields, walls and walls.spread)]
+    *places, spread = (None if of is None else of.ctypes.data for of in kept)
+    shape, openings = fields[0].shape, int(opening.max()) + 1 + (central is not None)
+    struct = structure("rf_energy")(
+        *shape,
+        openings,
+        walls is not None,
+        heating.speed < 0.0,
+        -1.0 if heating.carry_over is None else heating.carry_over,
+        opening.ctypes.data,
+        *places,
+        spread,
+        *(walls[1:] if walls else ()),
+    )
+    answers = np.empty(shape), np.empty(openings), np.empty(len(opening)), np.empty(4)
+    status = loops()["rf_solve_energy"](byref(struct), *(answer.ctypes.data for answer in answers))
+    if status:
+        raise ConvergenceError(f"the heat of a film must have a solution, got status {status}")
+    return answers
 
 
-FilmProfile = MeanTemperature | LayeredTemperature
-"""What a film knows of the temperature across it."""
-
-
-def _layer_flows(heating: Heating, shares: LayerShares) -> tuple[Array, Array, Array | None]:
-    """Return flows around, along and from the center, layer by layer, through faces as in `FilmFlow`."""
-    flow = heating.flow
+def _layer_flows(flow: FilmFlow, shares: LayerShares) -> tuple[Array | None, Array, Array, Array]:
+    """Return flows from the center, around, along and from outside as in `FilmFlow`, layer by layer."""
     dragged, pressed = (
         _normalized(field + np.roll(field, -1, axis=0)) for field in (shares.dragged, shares.pressed)
     )
-    around = flow.dragged[..., None] * dragged + flow.pressed[..., None] * pressed
-    sideways = np.concatenate(
-        [shares.pressed[:, 1:] + shares.pressed[:, :-1], shares.pressed[:, -1:]], axis=1
+    onward = np.concatenate([shares.pressed[:, 1:], shares.pressed[:, -1:]], axis=1)
+    return (
+        None if flow.central is None else flow.central[:, None] * _normalized(shares.pressed[:, 0]),
+        flow.dragged[..., None] * dragged + flow.pressed[..., None] * pressed,
+        flow.axial[..., None] * _normalized(shares.pressed + onward),
+        (flow.leaving - flow.entering)[..., None] * _normalized(shares.dragged),
     )
-    central = None if flow.central is None else flow.central[:, None] * _normalized(shares.pressed[:, 0])
-    return around, flow.axial[..., None] * _normalized(sideways), central
 
 
 def _normalized(layers: Array) -> Array:

@@ -21,6 +21,7 @@ from ..films.finite_volumes import (
     ORDER,
     FilmField,
     Grid,
+    Mobility,
     RingKernel,
     Spans,
     film_field,
@@ -29,7 +30,7 @@ from ..films.finite_volumes import (
     ring_grids,
     ring_spans,
 )
-from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset
+from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset, FullFilm
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 
 
@@ -65,6 +66,9 @@ class ReynoldsFilm(KernelFilm):
     film_start : FilmOnset
         Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can be;
         `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the bearing.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film, hashable; None for laminar flow. Its factor
+        of the Couette flow acts on moments of tilted journals only: a film law knows no speed.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
 
@@ -84,10 +88,12 @@ class ReynoldsFilm(KernelFilm):
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
     film_start: FilmOnset = field(default_factory=FreeOnset)
+    mobility: Mobility | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
+        require_kind("mobility", self.mobility, Mobility | None, "a function of the thickness, or None")
         require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
         require_kind("film_start", self.film_start, FilmOnset, "such as FreeOnset()")
@@ -167,15 +173,22 @@ class ReynoldsFilm(KernelFilm):
         # Nothing flows out of the line at which a film starts, if it starts at one.
         inflow, arriving = np.array(openings).reshape(2, -1, *shape)[:, self.film_start != FREE :]
         film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
-        return FilmLosses(film, streamers, gap_shear(e, self.geometry), flow, inflow, arriving)
+        if self.mobility is None:
+            gap = gap_shear(e, self.geometry)
+        else:
+            full = dataclasses.replace(self, cavitation=FullFilm())
+            gap = full._kernel(slenderness).losses(*flat, along)[0].reshape(shape)
+        return FilmLosses(film, streamers, gap, flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
         """Return the edges and the grids, finest first, for a length/diameter."""
         grids = ring_grids(self.geometry, *self.cells, max(slenderness, LONG), self.film_start)
         return ring_spans(self.geometry, self.film_start), grids
 
-    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables; see `law.FilmOptions.native`."""
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]] | None:
+        """Return the kernel and its tables; see `law.FilmOptions.native`. A mobility is in no kernel."""
+        if self.mobility is not None:
+            return None
         spans, grids = self.grids(slenderness)
         tables = {"spans": np.stack([spans.start, spans.extent])}
         for level, grid in enumerate(grids):
@@ -196,7 +209,9 @@ class ReynoldsFilm(KernelFilm):
 @lru_cache(maxsize=64)
 def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> RingKernel:
     """Return the compiled film of a bearing, on the grid of the film or extrapolated from it."""
-    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation, extrapolated)
+    return RingKernel(
+        slenderness, *film.grids(slenderness), film.cavitation, extrapolated, mobility=film.mobility
+    )
 
 
 # The two-dimensional film extrapolated from two grids.
@@ -238,9 +253,12 @@ class ExtrapolatedFilm(KernelFilm):
         """Return this film in a bearing of the given geometry."""
         return ExtrapolatedFilm(film=self.film.fitted(geometry))
 
-    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]] | None:
         """Return the kernel and its tables; see `law.FilmOptions.native`."""
-        kernel, tables = self.film.native(slenderness)
+        found = self.film.native(slenderness)
+        if found is None:
+            return None
+        kernel, tables = found
         return kernel, {**tables, "ring": np.append(tables["ring"][:-1], 1.0)}
 
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:

@@ -157,12 +157,12 @@ class TiltingPadBearing(Called, PadBearing):
         return (self.extent,)
 
     @property
-    def room(self) -> float:
+    def travel_limit(self) -> float:
         """Distance [m] that the journal center stays within: the farthest corner that rigid pivots leave.
 
         Pivots on springs may give way: twice that. The pads themselves say where they are touched.
         """
-        return self.bore_clearance * reach(self.pivots) * self._yielding
+        return self.bore_clearance * relative_travel_limit(self.pivots) * self._yielding
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least gap at a pivot [m], shape (...), of journals at positions (2, ...) [m].
@@ -395,7 +395,7 @@ def even_pivots(
     return tuple(first + (k + 0.5 * between_pads) * pitch for k in range(pads))
 
 
-def reach(pivots: Sequence[float]) -> float:
+def relative_travel_limit(pivots: Sequence[float]) -> float:
     """Return how far a journal may go where each pivot lets it go to 1: the farthest corner, at most `OPEN`.
 
     Parameters
@@ -606,7 +606,7 @@ class StaticTiltingPads:
     @property
     def clearance(self) -> float:
         """Distance [m] that the journal stays within; see `TiltingPadBearing.room`."""
-        return self.bearing.room
+        return self.bearing.travel_limit
 
     def force_noise(self, speed: float) -> float:
         """Return what roundoff leaves of the force [N]; see `PadBearing.force_noise`."""

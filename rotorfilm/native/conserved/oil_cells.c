@@ -8,30 +8,25 @@ static size_t after(const rf_oil_cells *cells, size_t i)
     return i + 1 < cells->lines ? i + 1 : 0;
 }
 
-static double carried(const rf_oil_cells *cells, size_t i, size_t j, const double *theta)
-{
-    const size_t up = cells->backward ? after(cells, i) : i;
-    return cells->wedge[i * cells->nodes + j] * cells->width[j] * theta[up * cells->nodes + j];
-}
-
 void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta, double *outflow)
 {
     const size_t nodes = cells->nodes, lines = cells->lines;
     for (size_t q = 0; q < lines * nodes; ++q)
-        outflow[q] = cells->store[q / nodes] * cells->width[q % nodes] * theta[q] - (cells->old ? cells->old[q] : 0.0);
+        outflow[q] = cells->store[q] * theta[q] - (cells->old ? cells->old[q] : 0.0);
     for (size_t i = 0; i < lines; ++i) {
-        const double *p = pressure + i * nodes, *c = cells->conductance + i * nodes, along = cells->along[i];
-        double *out = outflow + i * nodes, *next = outflow + after(cells, i) * nodes;
+        const size_t here = i * nodes, beyond = after(cells, i) * nodes;
+        const double *p = pressure + here, *up = theta + (cells->backward ? beyond : here);
+        const double *wedge = cells->wedge + here, *around = cells->around + here, *along = cells->along + i * (nodes + 1);
+        double *out = outflow + here, *next = outflow + beyond;
         for (size_t j = 0; j < nodes; ++j) {
-            const double fall = p[j] - pressure[after(cells, i) * nodes + j];
-            const double flow = carried(cells, i, j, theta) + cells->around[i * nodes + j] * cells->width[j] * fall;
-            const double outward = along * c[j] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->end_pressure));
+            const double flow = wedge[j] * up[j] + around[j] * (p[j] - pressure[beyond + j]);
+            const double outward = along[j + 1] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->last_pressure));
             out[j] += flow + outward;
             next[j] -= flow;
             if (j + 1 < nodes)
                 out[j + 1] -= outward;
         }
-        out[0] += along * cells->center[i] * (p[0] - cells->center_pressure);
+        out[0] += along[0] * (p[0] - cells->first_pressure);
     }
 }
 
@@ -114,22 +109,22 @@ static void add_line(const rf_oil_parts *parts, size_t i, const double *by_press
 {
     const rf_oil_cells *cells = parts->cells;
     const size_t nodes = cells->nodes;
+    const double *along = cells->along + i * (nodes + 1);
     for (size_t j = 0; j < nodes; ++j) {
         const size_t here = i * nodes + j, beyond = after(cells, i) * nodes + j;
         const size_t up = cells->backward ? beyond : here, down = cells->backward ? here : beyond;
-        const double around = cells->around[here] * cells->width[j], along = cells->along[i] * cells->conductance[here];
-        add_flow(parts, here, beyond, by_pressure[here] * around);
-        add_flow(parts, beyond, here, by_pressure[beyond] * around);
-        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[here]) * cells->width[j]);
+        add_flow(parts, here, beyond, by_pressure[here] * cells->around[here]);
+        add_flow(parts, beyond, here, by_pressure[beyond] * cells->around[here]);
+        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[here]));
         if (j + 1 < nodes) {
-            add_flow(parts, here, here + 1, by_pressure[here] * along);
-            add_flow(parts, here + 1, here, by_pressure[here + 1] * along);
+            add_flow(parts, here, here + 1, by_pressure[here] * along[j + 1]);
+            add_flow(parts, here + 1, here, by_pressure[here + 1] * along[j + 1]);
         } else {
-            add(parts, here, here, by_pressure[here] * along);
+            add(parts, here, here, by_pressure[here] * along[nodes]);
         }
-        add(parts, here, here, by_theta[here] * cells->store[i] * cells->width[j]);
+        add(parts, here, here, by_theta[here] * cells->store[here]);
     }
-    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * cells->along[i] * cells->center[i]);
+    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * along[0]);
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */

@@ -1,34 +1,43 @@
 /* The coefficients of a ring of cells at one place of the journal.
 
-   Integrated over the cells of line i the equation needs one number for every line or face: `around` =
-   H^3/distance at the face after it, `along` = (L/D)^-2 H^3 width, and `normal`, the integral of n, exactly. */
+   Integrated over a cell the equation needs a conductance for each of its faces, `around` = m H^3 width/distance to
+   the next line and `along` = (L/D)^-2 m H^3 width/distance to the next node, the integral of n, exactly, and what the
+   walls drag through the face after a line beyond that of the smooth wall. */
 #ifndef ROTORFILM_CELLS_H
 #define ROTORFILM_CELLS_H
 
 #include "ring.h"
 
 typedef struct rf_cells {
-    double *theta, *face;                 /* N: angles of lines and of the faces after them [rad] */
-    double *around, *along;               /* N */
-    double *around_slope[2], *along_slope[2]; /* N: derivatives in e, the lines held */
-    double *normal[2];                    /* N */
+    const rf_ring *ring;
+    const rf_grid *grid;
+    double *theta, *face;                   /* N: angles of lines and of the faces after them [rad] */
+    double *at_line[2], *at_face[2];        /* N: n there */
+    double *normal[2];                      /* N: integral of n over the cell */
+    double *entry, *entry_slope;            /* N: conductance out of the first node */
+    double *around, *along;                 /* N x M */
+    double *around_slope, *along_slope;     /* N x M: derivatives by the thickness, the lines held */
+    double *dragged, *dragged_slope;        /* N x M: per rate; NULL where walls drag H alone */
+    double *deep;                           /* M: width of the cell within the recess */
 } rf_cells;
 
-#define RF_CELL_ROWS 10
+/* How many numbers the cells of a grid take, and where they begin. */
+size_t rf_cells_size(const rf_ring *ring, const rf_grid *grid);
+void rf_open_cells(rf_cells *cells, const rf_ring *ring, const rf_grid *grid, double *memory);
 
-/* Take the rows of n from `memory` of RF_CELL_ROWS x n. */
-void rf_place_cells(rf_cells *cells, double *memory, size_t n);
+/* Put the journal at q = (e, tau). */
+void rf_set_cells(rf_cells *cells, const double *q);
 
-void rf_set_cells(const rf_ring *ring, const rf_grid *grid, const double *e, rf_cells *cells);
+/* Depth of the recess behind a line, within its share of the length. */
+double rf_depth_behind(const rf_cells *cells, size_t i);
 
-/* w times the integral of n over the cells, N x M. */
-void rf_set_source(const rf_grid *grid, const rf_cells *cells, const double *w, double *source);
+/* What drive[5] = (w of e, w of tau, rate) drives out of each cell, N x M. */
+void rf_set_source(const rf_cells *cells, const double *drive, double *source);
 
-/* -12 times the integral of P n. */
-void rf_set_film_force(const rf_grid *grid, const rf_cells *cells, const double *pressure, double *f);
+/* The products of x, N x M, with the sources of unit drives. */
+void rf_multiply(const rf_cells *cells, const double *x, double products[RF_DRIVES]);
 
-/* A P, the flow out of each cell, for the coefficients `around` and `along`. */
-void rf_set_flow(const rf_grid *grid, const double *around, const double *along, const double *pressure,
-                 double *flow);
+/* d (x.(A P - b))/d(e, tau), pressure and rate held. */
+void rf_bend(const rf_cells *cells, const double *x, const double *pressure, double rate, double bent[RF_FREEDOMS]);
 
 #endif

@@ -1,48 +1,32 @@
 #include "recess.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../films/film.h"
 #include "../films/map_frame.h"
-#include "recess_cells.h"
+#include "recess_pad.h"
 
-/* Add a share of what a pad does to the force and, unless NULL, to its derivatives by the state. */
-static void add_plate(const rf_plate *at, const rf_recess *bearing, double share, double *force, double *jacobian)
+/* Add what a pad does to the force and, unless NULL, to its derivatives by the state. */
+static void add_pad(const rf_recess *bearing, const rf_over_pad *at, const double *wrench, const double *by,
+                    double *force, double *jacobian)
 {
-    const double r = bearing->radius;
-    const double scale = share * bearing->viscosity * bearing->length * (r * r * r) / (at->own * at->own);
-    double f[2], by[2 * RF_PLATE_COLUMNS];
-    rf_take_plate(at, f, jacobian ? by : NULL);
+    const double r = bearing->radius, own = bearing->clearance, *e = at->q;
+    const double scale = bearing->viscosity * bearing->length * (r * r * r) / (own * own), per = scale / own;
     for (int k = 0; k < 2; ++k) {
-        force[k] += scale * f[k];
+        force[k] += scale * wrench[k];
         if (!jacobian)
             continue;
-        const double *d = by + RF_PLATE_COLUMNS * k, per = scale / at->own;
+        const double *slope = by + RF_COLUMNS * k, *d = slope + RF_FREEDOMS;
         double *row = jacobian + 5 * k;
         /* w = v/c + rate (e_y, -e_x) */
-        row[0] += per * (d[0] - at->rate * d[3]);
-        row[1] += per * (d[1] + at->rate * d[2]);
-        row[2] += per * d[2];
-        row[3] += per * d[3];
-        row[4] += 0.5 * scale * (d[2] * at->e[1] - d[3] * at->e[0] + d[4]);
+        row[0] += per * (slope[0] - at->drive[4] * d[1]);
+        row[1] += per * (slope[1] + at->drive[4] * d[0]);
+        row[2] += per * d[0];
+        row[3] += per * d[1];
+        row[4] += 0.5 * scale * (d[0] * e[1] - d[1] * e[0] + d[4]);
     }
-}
-
-/* The same of one pad on its grids. */
-static int add_pad(rf_plate *at, const rf_recess *bearing, double *force, double *jacobian)
-{
-    const int extrapolated = bearing->extrapolated != 0;
-    int status = rf_open_plate(at);
-    for (int level = 1; level >= 0 && status == RF_OK; --level) {
-        const double share = level == 1 ? -1.0 / 3.0 : extrapolated ? 4.0 / 3.0 : 1.0;
-        const int taken = level == 0 || extrapolated;
-        status = rf_solve_plate(at, level, taken && jacobian);
-        if (status == RF_OK && taken)
-            add_plate(at, bearing, share, force, jacobian);
-    }
-    rf_close_plate(at);
-    return status;
 }
 
 int rf_recess_at(const rf_recess *bearing, const double *state, double *f, double *jacobian)
@@ -57,12 +41,14 @@ int rf_recess_at(const rf_recess *bearing, const double *state, double *f, doubl
     if (jacobian)
         memset(jacobian, 0, 10 * sizeof(double));
     for (size_t k = 0; k < bearing->count && status == RF_OK; ++k) {
-        rf_plate plate;
-        rf_place_plate(&plate, bearing, bearing->pads + k, state);
-        if (rf_plate_rests(&plate))
+        double wrench[RF_FREEDOMS], by[RF_FREEDOMS * RF_COLUMNS];
+        rf_over_pad at;
+        status = rf_open_pad(&at, bearing, bearing->pads + k, state);
+        if (rf_pad_rests(&at))
             rests = 1;
-        else
-            status = add_pad(&plate, bearing, f, jacobian);
+        else if (status == RF_OK && (status = rf_take_film(&at.film, at.drive, wrench, jacobian ? by : NULL)) == RF_OK)
+            add_pad(bearing, &at, wrench, by, f, jacobian);
+        rf_close_pad(&at);
     }
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 10);
@@ -88,29 +74,27 @@ int rf_recess_batch(const rf_recess *bearing, size_t n, const double *state, dou
 
 int rf_recess_field(const rf_recess *bearing, size_t pad, const double *state, double *pressure)
 {
-    rf_plate plate;
-    rf_place_plate(&plate, bearing, bearing->pads + pad, state);
-    if (!(rf_plate_least(&plate) > 0.0))
-        return RF_AT_WALL;
-    int status = rf_open_plate(&plate);
-    for (int level = 1; level >= 0 && status == RF_OK; --level)
-        status = rf_solve_plate(&plate, level, 0);
-    const double slope = bearing->radius / plate.own;
-    for (size_t q = 0; q < plate.stencil.lines * plate.stencil.nodes; ++q)
-        pressure[q] = 12.0 * bearing->viscosity * slope * slope * plate.pressure[q];
-    rf_close_plate(&plate);
+    rf_over_pad at;
+    int status = rf_open_pad(&at, bearing, bearing->pads + pad, state);
+    if (status == RF_OK)
+        status = rf_solve_down_to(&at.film, 0, at.drive);
+    const double slope = bearing->radius / bearing->clearance;
+    const size_t nodes = at.ring.grids[0].nodes, all = (at.ring.grids[0].lines - RF_GAP_LINES) * nodes;
+    for (size_t q = 0; q < all && status == RF_OK; ++q)
+        pressure[q] = 12.0 * bearing->viscosity * slope * slope * at.film.pressure[RF_GAP_LINES * nodes + q];
+    rf_close_pad(&at);
     return status;
 }
 
 double rf_recess_least(const rf_recess *bearing, const double *position, size_t *pad)
 {
     const double state[5] = {position[0], position[1], 0.0, 0.0, 0.0};
-    double least = HUGE_VAL;
+    double least = HUGE_VAL, place[2];
     *pad = 0;
     for (size_t k = 0; k < bearing->count; ++k) {
-        rf_plate plate;
-        rf_place_plate(&plate, bearing, bearing->pads + k, state);
-        const double thickness = plate.own * rf_plate_least(&plate);
+        rf_over_pad at;
+        rf_place_over_pad(&at, bearing, bearing->pads + k, state);
+        const double thickness = bearing->clearance * rf_least_film(&at.ring, at.q, place);
         if (thickness < least) {
             least = thickness;
             *pad = k;

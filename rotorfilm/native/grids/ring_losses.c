@@ -8,17 +8,18 @@
 #define MOST_STARTS 1000 /* times that the film is solved while its first nodes are shut */
 #define EXCESS 1e-9      /* of the flow that a film may take beyond what arrives */
 
-double rf_flow_out_of_ends(const rf_search *search, const rf_grid *grid)
+double rf_flow_out_of_ends(const rf_levels *film)
 {
+    const rf_grid *grid = &film->ring->grids[0];
     const size_t last = grid->nodes - 1;
     double rest = 1.0, flow = 0.0;
     for (size_t j = 0; j < grid->nodes; ++j)
         rest -= grid->width[j];
     for (size_t i = 0; i < grid->lines; ++i) {
         const size_t at = i * grid->nodes + last;
-        const double inward = search->cells[0].along[i] * grid->conductance[last] * search->pressure[at];
-        const double made = search->source[at] / grid->width[last] * rest;
-        if (search->pressure[at] > 0.0 && (size_t)grid->held[i] <= last)
+        const double inward = film->cells[0].along[at] * film->pressure[at];
+        const double made = film->source[at] / grid->width[last] * rest;
+        if (film->pressure[at] > 0.0 && (size_t)grid->held[i] <= last)
             flow += fmax(inward + made, 0.0);
     }
     return flow;
@@ -38,7 +39,7 @@ static void add_shear(rf_stream *oil, double *film, double *streamers)
 }
 
 /* Shut every node at which the film takes more than the oil brings; return whether there was one. */
-static int shut_starts(rf_stream *oil, rf_search *search)
+static int shut_starts(rf_stream *oil, rf_levels *film)
 {
     const size_t nodes = oil->grid->nodes;
     int shut = 0;
@@ -57,7 +58,7 @@ static int shut_starts(rf_stream *oil, rf_search *search)
                 const double come = oil->rate * oil->brought[j] * oil->grid->width[j];
                 if (k >= oil->grid->lines && j >= rf_held(oil, last) && !rf_is_film(oil, last * nodes + j)
                     && taken > come * (1.0 + EXCESS)) {
-                    search->shut[at] = 1;
+                    film->held[at] = 1;
                     shut = 1;
                 }
                 oil->brought[j] = out;
@@ -92,8 +93,8 @@ static void cross_end(const rf_stream *oil, size_t i, double *out, double *in)
     const size_t held = rf_held(oil, i), nodes = oil->grid->nodes;
     if (held == 0 || held == nodes)
         return;
-    const double *p = oil->search->pressure + i * nodes + held;
-    const double flow = oil->search->cells[0].along[i] * oil->grid->conductance[held - 1] * (p[-1] - p[0]);
+    const double *p = oil->film->pressure + i * nodes + held;
+    const double flow = oil->film->cells[0].along[i * nodes + held - 1] * (p[-1] - p[0]);
     *(flow > 0.0 ? out : in) += fabs(flow);
 }
 
@@ -166,47 +167,46 @@ static int is_fed(const rf_grid *grid)
     return fed && !ends;
 }
 
-static int solve(rf_stream *oil, rf_search *search, const double *e, const double *w)
+static int solve(rf_stream *oil, rf_levels *film, const double *q, const double *drive)
 {
-    const int fed = is_fed(oil->grid) && search->ring->ruptured;
-    rf_place_journal(search, e);
-    rf_place_stream(oil, e);
-    for (size_t q = 0; q < oil->grid->lines * oil->grid->nodes; ++q)
-        search->shut[q] = 0;
-    int status = rf_search_down_to(search, 0, w);
-    for (int k = 0; fed && k < MOST_STARTS && status == RF_OK && shut_starts(oil, search); ++k)
-        status = rf_search_without(search);
-    for (size_t q = 0; search->ring->clipped && q < oil->grid->lines * oil->grid->nodes; ++q)
-        search->pressure[q] = fmax(search->pressure[q], 0.0);
+    const int fed = is_fed(oil->grid) && film->ring->ruptured;
+    double f[RF_FREEDOMS];
+    rf_place_journal(film, q);
+    rf_place_stream(oil, q);
+    int status = rf_solve_down_to(film, 0, drive);
+    for (int k = 0; fed && k < MOST_STARTS && status == RF_OK && shut_starts(oil, film); ++k)
+        status = rf_solve_again(film);
+    rf_take_force(film, f);
     return status;
 }
 
 int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double *w, const double *rate, double *losses,
                    size_t *first)
 {
-    rf_search search;
+    rf_levels film;
     rf_stream oil;
     oil.line = NULL;
-    int status = rf_open_search(&search, ring);
+    int status = rf_open_levels(&film, ring);
     if (status == RF_OK)
-        status = rf_open_stream(&oil, &search);
+        status = rf_open_stream(&oil, &film);
     const size_t openings = openings_of(ring->grids);
     *first = 0;
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
-        const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
+        const double q[RF_FREEDOMS] = {e[i], e[n + i], 0.0, 0.0};
+        const double drive[RF_DRIVES] = {w[i], w[n + i], 0.0, 0.0, rate[i]};
         *first = i;
-        status = rf_judge_state(ring, here, source);
+        status = rf_judge_state(ring, q, drive);
         if (status != RF_OK)
             break;
         oil.rate = fabs(rate[i]);
         oil.backward = rate[i] < 0.0;
-        status = solve(&oil, &search, here, source);
+        status = solve(&oil, &film, q, drive);
         add_shear(&oil, &losses[i], &losses[n + i]);
-        losses[2 * n + i] = rf_flow_out_of_ends(&search, oil.grid);
+        losses[2 * n + i] = rf_flow_out_of_ends(&film);
         add_flows(&oil, n, openings, &losses[RF_RING_LOSSES * n + i],
                   &losses[(RF_RING_LOSSES + openings) * n + i]);
     }
     free(oil.line);
-    rf_close_search(&search);
+    rf_close_levels(&film);
     return status;
 }

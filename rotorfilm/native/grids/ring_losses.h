@@ -2,7 +2,7 @@
 #ifndef ROTORFILM_RING_LOSSES_H
 #define ROTORFILM_RING_LOSSES_H
 
-#include "search.h"
+#include "levels.h"
 
 /* Shear integral of the film and of the streamers, flow out of both ends; then the flow that leaves each opening, and
    what arrives at each. */
@@ -20,6 +20,6 @@ RF_EXPORT_LOOP int rf_ring_losses(const rf_ring *ring, size_t n, const double *e
                              double *losses, size_t *first);
 
 /* By the balance of the half cells that end the film, without openings and what a film in tension draws in. */
-double rf_flow_out_of_ends(const rf_search *search, const rf_grid *grid);
+double rf_flow_out_of_ends(const rf_levels *film);
 
 #endif

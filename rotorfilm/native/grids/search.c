@@ -4,39 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_SETS 200     /* each step of a monotone search moves the edge of the film, so few are needed */
-#define THRESHOLD 1e-13   /* of the largest source, above which a node that is empty fills */
+#include "clones.h"
 
-int rf_open_search(rf_search *search, const rf_ring *ring)
+#define MOST_SETS 400   /* each step of a monotone search moves the edge of the film, by a line at least */
+#define THRESHOLD 1e-13 /* of the largest source, above which a node that is empty fills */
+
+int rf_open_search(rf_search *search, size_t lines, size_t nodes)
 {
-    const size_t m = ring->grids[0].nodes, all = ring->grids[0].lines * m;
-    size_t lines = 0;
-    for (int level = 0; level < RF_LEVELS; ++level)
-        lines += ring->grids[level].lines;
-    const size_t numbers = RF_CELL_ROWS * lines + 4 * all + all * (m + 1) + all * m + m * m;
-    double *next = malloc(numbers * sizeof(double) + 3 * all + 2 * ring->grids[0].lines);
-    search->ring = ring;
+    const size_t all = lines * nodes;
+    double *next = malloc((2 * all + all * (nodes + 1) + all * nodes + nodes * nodes) * sizeof(double) + 2 * lines);
     search->memory = next;
     search->work.solutions = search->work.lines = 0;
     if (!next)
         return RF_MEMORY;
-    for (int level = 0; level < RF_LEVELS; ++level) {
-        rf_place_cells(&search->cells[level], next, ring->grids[level].lines);
-        next += RF_CELL_ROWS * ring->grids[level].lines;
-    }
-    search->source = next;
-    search->pressure = search->source + all;
-    search->flow = search->pressure + all;
-    search->chained = search->flow + all;
+    search->flow = next;
+    search->chained = next + all;
     search->chain.band = search->chained + all;
-    search->chain.border = search->chain.band + all * (m + 1);
-    search->chain.corner = search->chain.border + all * m;
-    search->free = (uint8_t *)(search->chain.corner + m * m);
-    search->known = search->free + all;
-    search->shut = search->known + all;
-    search->moved = search->shut + all;
-    search->chain.state = search->moved + ring->grids[0].lines;
-    memset(search->shut, 0, all);
+    search->chain.border = search->chain.band + all * (nodes + 1);
+    search->chain.corner = search->chain.border + all * nodes;
+    search->moved = (uint8_t *)(search->chain.corner + nodes * nodes);
+    search->chain.state = search->moved + lines;
     return RF_OK;
 }
 
@@ -45,105 +32,106 @@ void rf_close_search(rf_search *search)
     free(search->memory);
 }
 
-void rf_place_journal(rf_search *search, const double *e)
+static size_t line_before(const rf_stencil *film, size_t i)
 {
-    for (int level = 0; level < RF_LEVELS; ++level)
-        rf_set_cells(search->ring, &search->ring->grids[level], e, &search->cells[level]);
+    return i > 0 ? i - 1 : film->lines - 1;
 }
 
-/* Begin with the nodes where the source drives pressure, or the whole film. */
-static void guess_free(rf_search *search, const rf_grid *grid)
+static size_t line_after(const rf_stencil *film, size_t i)
 {
-    const size_t nodes = grid->nodes;
-    for (size_t i = 0; i < grid->lines; ++i) {
-        const size_t held = (size_t)grid->held[i];
-        memset(search->free + i * nodes, 0, held);
-        memset(search->free + i * nodes + held, !search->ring->ruptured || search->source[i * nodes] > 0.0,
-               nodes - held);
-    }
+    return i + 1 < film->lines ? i + 1 : 0;
 }
 
-/* Begin with all nodes that see a free one of the next coarser grid. */
-static void refine_free(rf_search *search, const rf_grid *grid)
+RF_CLONES
+static void set_outflow(const rf_stencil *film, const double *pressure, double *flow)
 {
-    const rf_grid *coarser = grid + 1;
-    const size_t nodes = grid->nodes, few = coarser->nodes;
-    for (size_t i = 0; i < grid->lines; ++i) {
-        const uint8_t *left = search->known + (i / 2) * few;
-        const uint8_t *right = search->known + ((i + 1) / 2 % coarser->lines) * few;
-        for (size_t j = 0; j < nodes; ++j) {
-            const size_t near = j / 2, far = (j + 1) / 2 < few ? (j + 1) / 2 : few - 1;
-            search->free[i * nodes + j] =
-                j >= (size_t)grid->held[i] && (left[near] || right[near] || left[far] || right[far]);
+    const size_t lines = film->lines, nodes = film->nodes;
+    for (size_t i = 0; i < lines; ++i) {
+        const size_t back = line_before(film, i) * nodes;
+        const double *here = pressure + i * nodes, *after = pressure + line_after(film, i) * nodes;
+        const double *before = pressure + back, *out = film->around + i * nodes, *in = film->around + back;
+        const double *along = film->along + i * nodes;
+        double *q = flow + i * nodes;
+        for (size_t j = 0; j < nodes; ++j)
+            q[j] = out[j] * (here[j] - after[j]) + in[j] * (here[j] - before[j]);
+        for (size_t j = 0; j + 1 < nodes; ++j) {
+            const double axial = along[j] * (here[j] - here[j + 1]);
+            q[j] += axial;
+            q[j + 1] -= axial;
         }
+        q[nodes - 1] += along[nodes - 1] * here[nodes - 1];
+        if (film->entry)
+            q[0] += film->entry[i] * here[0];
     }
+}
+
+void rf_set_outflow(const rf_stencil *film, const double *pressure, double *flow)
+{
+    set_outflow(film, pressure, flow);
 }
 
 /* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
-static void set_line(const rf_search *search, int level, size_t i, size_t stride, double *diagonal,
-                     double *along, double *after)
+static void set_line(const rf_search *search, size_t i, double *diagonal, double *along, double *after)
 {
-    const rf_grid *grid = &search->ring->grids[level];
-    const rf_cells *cells = &search->cells[level];
-    const size_t lines = grid->lines, nodes = grid->nodes, next = i + 1 < lines ? i + 1 : 0;
-    const double both = cells->around[i] + cells->around[i > 0 ? i - 1 : lines - 1];
-    const uint8_t *free = search->free + i * nodes, *beyond = search->free + next * nodes;
+    const rf_stencil *film = search->film;
+    const size_t nodes = film->nodes, stride = nodes + 1;
+    const double *out = film->around + i * nodes, *in = film->around + line_before(film, i) * nodes;
+    const double *axial = film->along + i * nodes;
+    const uint8_t *full = search->full + i * nodes, *beyond = search->full + line_after(film, i) * nodes;
+    double inward = film->entry ? film->entry[i] : 0.0;
     for (size_t j = 0; j < nodes; ++j) {
-        const double inward = j > 0 ? grid->conductance[j - 1] : 0.0;
-        diagonal[j * stride] =
-            free[j] ? both * grid->width[j] + cells->along[i] * (grid->conductance[j] + inward) : 1.0;
-        if (j + 1 < nodes && free[j] && free[j + 1])
-            along[j * stride] = -cells->along[i] * grid->conductance[j];
-        if (after && free[j] && beyond[j])
-            after[j * stride] = -cells->around[i] * grid->width[j];
+        diagonal[j * stride] = full[j] ? out[j] + in[j] + (axial[j] + inward) : 1.0;
+        if (j + 1 < nodes && full[j] && full[j + 1])
+            along[j * stride] = -axial[j];
+        if (after && full[j] && beyond[j])
+            after[j * stride] = -out[j];
+        inward = axial[j];
     }
 }
 
-static int has_film(const rf_search *search, const rf_grid *grid, size_t line)
+static int has_film(const rf_search *search, size_t line)
 {
-    return memchr(search->free + line * grid->nodes, 1, grid->nodes) != NULL;
+    return memchr(search->full + line * search->film->nodes, 1, search->film->nodes) != NULL;
 }
 
 /* Tell which lines of the chain are to be factorized: all of them, or those that a moved one reaches. The ring
    is cut at an empty line if there is one, and stays so as long as that is empty. */
-static void set_states(rf_search *search, const rf_grid *grid, int all)
+static void set_states(rf_search *search, int all)
 {
-    const size_t lines = grid->lines;
+    const rf_stencil *film = search->film;
     const uint8_t *moved = search->moved;
     rf_chain *chain = &search->chain;
-    if (all || chain->bordered || has_film(search, grid, search->cut)) {
+    if (all || chain->bordered || has_film(search, search->cut)) {
         size_t empty = 0;
-        while (empty < lines && has_film(search, grid, empty))
+        while (empty < film->lines && has_film(search, empty))
             ++empty;
-        chain->bordered = empty == lines;
-        search->cut = empty % lines;
+        chain->bordered = empty == film->lines;
+        search->cut = empty % film->lines;
         all = 1;
     }
-    for (size_t k = 0; k < lines - 1; ++k) {
-        const size_t i = (search->cut + 1 + k) % lines, before = i > 0 ? i - 1 : lines - 1;
-        const int reached = all || moved[i] || moved[before] || moved[i + 1 < lines ? i + 1 : 0]
+    for (size_t k = 0; k < film->lines - 1; ++k) {
+        const size_t i = (search->cut + 1 + k) % film->lines;
+        const int reached = all || moved[i] || moved[line_before(film, i)] || moved[line_after(film, i)]
                             || (k > 0 && chain->state[k - 1] == RF_LINE_NEW);
-        chain->state[k] = !has_film(search, grid, i) ? RF_LINE_EMPTY : reached ? RF_LINE_NEW : RF_LINE_KEPT;
+        chain->state[k] = !has_film(search, i) ? RF_LINE_EMPTY : reached ? RF_LINE_NEW : RF_LINE_KEPT;
     }
 }
 
 /* Set up what is to be factorized. */
-static void assemble(rf_search *search, int level, int all)
+static void assemble(rf_search *search, int all)
 {
-    const rf_grid *grid = &search->ring->grids[level];
-    const size_t lines = grid->lines, nodes = grid->nodes;
-    const size_t half = nodes, stride = half + 1;
+    const rf_stencil *film = search->film;
+    const size_t lines = film->lines, half = film->nodes, stride = half + 1;
     rf_chain *chain = &search->chain;
     chain->half = half;
     chain->lines = lines - 1;
-    set_states(search, grid, all);
+    set_states(search, all);
     for (size_t k = 0; k < lines - 1; ++k) {
         double *rows = chain->band + k * half * stride;
         if (chain->state[k] != RF_LINE_NEW)
             continue;
         memset(rows, 0, half * stride * sizeof(double));
-        const size_t i = (search->cut + 1 + k) % lines;
-        set_line(search, level, i, stride, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
+        set_line(search, (search->cut + 1 + k) % lines, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
         ++search->work.lines;
     }
     if (!chain->bordered)
@@ -151,94 +139,74 @@ static void assemble(rf_search *search, int level, int all)
     memset(chain->border, 0, (lines - 1) * half * half * sizeof(double));
     memset(chain->corner, 0, half * half * sizeof(double));
     /* Row p of the border couples to its column j: the line after the cut is the first of the band. */
-    set_line(search, level, search->cut, stride, chain->corner, chain->corner + half, chain->border);
-    const size_t before = search->cut > 0 ? search->cut - 1 : lines - 1;
+    set_line(search, search->cut, chain->corner, chain->corner + half, chain->border);
+    const size_t before = line_before(film, search->cut) * half;
     double *last = chain->border + (lines - 2) * half * half;
-    for (size_t j = 0; j < nodes; ++j)
-        if (search->free[before * nodes + j] && search->free[search->cut * nodes + j])
-            last[j * stride] = -search->cells[level].around[before] * grid->width[j];
+    for (size_t j = 0; j < half; ++j)
+        if (search->full[before + j] && search->full[search->cut * half + j])
+            last[j * stride] = -film->around[before + j];
 }
 
-void rf_solve_free(const rf_search *search, const double *flow, double *answer)
+void rf_solve_film(const rf_search *search, const double *right, double *answer)
 {
-    rf_solve_ring(&search->chain, search->cut, search->free, flow, search->chained, answer);
+    rf_solve_ring(&search->chain, search->cut, search->full, right, search->chained, answer);
 }
 
-/* Free every node that is full and every one that fills; return whether any changed. */
-static int move_edge(rf_search *search, const rf_grid *grid, const double *outflow, double threshold)
+/* Keep every node that is full under pressure, and fill every one that gets too much; whether any changed. */
+static int move_edge(rf_search *search, const double *pressure, double threshold)
 {
+    const rf_stencil *film = search->film;
     int changed = 0;
-    for (size_t i = 0; i < grid->lines; ++i) {
+    set_outflow(film, pressure, search->flow);
+    for (size_t i = 0; i < film->lines; ++i) {
         search->moved[i] = 0;
-        for (size_t j = (size_t)grid->held[i]; j < grid->nodes; ++j) {
-            const size_t at = i * grid->nodes + j;
-            const int keep = grid == search->ring->grids && search->shut[at] ? 0
-                             : search->free[at] ? search->pressure[at] > 0.0
-                                                  : search->source[at] - outflow[at] > threshold;
-            search->moved[i] |= keep != search->free[at];
-            search->free[at] = (uint8_t)keep;
+        for (size_t q = i * film->nodes; q < (i + 1) * film->nodes; ++q) {
+            const int keep = film->held[q] ? 0 : search->full[q] ? pressure[q] > 0.0
+                                                 : film->source[q] - search->flow[q] > threshold;
+            search->moved[i] |= keep != search->full[q];
+            search->full[q] = (uint8_t)keep;
         }
         changed |= search->moved[i];
     }
     return changed;
 }
 
-static int search_from_here(rf_search *search, int level)
+int rf_search_film(rf_search *search, const rf_stencil *film, int ruptured, double *pressure, uint8_t *full)
 {
-    const rf_grid *grid = &search->ring->grids[level];
-    const rf_cells *cells = &search->cells[level];
-    const size_t nodes = grid->nodes, all = grid->lines * nodes;
-    double *pressure = search->pressure, *flow = search->flow, largest = 0.0;
-    for (size_t q = 0; q < all; ++q)
-        largest = fmax(largest, fabs(search->source[q]));
+    const size_t all = film->lines * film->nodes;
+    double *flow = search->flow, largest = 0.0;
+    search->film = film;
+    search->full = full;
+    for (size_t q = 0; q < all; ++q) {
+        largest = fmax(largest, fabs(film->source[q]));
+        full[q] = full[q] && !film->held[q];
+    }
     for (int set = 0; set < MOST_SETS; ++set) {
-        for (size_t i = 0; i < grid->lines; ++i)
-            for (size_t j = 0; j < nodes; ++j)
-                pressure[i * nodes + j] = j < (size_t)grid->held[i] ? grid->value[i] : 0.0;
-        rf_set_flow(grid, cells->around, cells->along, pressure, flow);
         for (size_t q = 0; q < all; ++q)
-            flow[q] = search->source[q] - flow[q];
-        assemble(search, level, set == 0);
+            pressure[q] = film->held[q] ? pressure[q] : 0.0;
+        set_outflow(film, pressure, flow);
+        for (size_t q = 0; q < all; ++q)
+            flow[q] = film->source[q] - flow[q];
+        assemble(search, set == 0);
         ++search->work.solutions;
         rf_factorize_chain(&search->chain);
-        rf_solve_free(search, flow, flow);
+        rf_solve_film(search, flow, flow);
         for (size_t q = 0; q < all; ++q)
             pressure[q] += flow[q];
-        if (!search->ring->ruptured)
-            return RF_OK;
-        rf_set_flow(grid, cells->around, cells->along, pressure, flow);
-        if (!move_edge(search, grid, flow, THRESHOLD * largest))
+        if (!ruptured || !move_edge(search, pressure, THRESHOLD * largest))
             return RF_OK;
     }
     return RF_STUCK;
 }
 
-int rf_search_film(rf_search *search, int level, const double *w)
+int rf_stencil_film(const rf_stencil *film, double *pressure, uint8_t *full, size_t count, double *answers)
 {
-    const rf_grid *grid = &search->ring->grids[level];
-    const size_t all = grid->lines * grid->nodes;
-    rf_set_source(grid, &search->cells[level], w, search->source);
-    if (level + 1 < RF_LEVELS && search->ring->ruptured)
-        refine_free(search, grid);
-    else
-        guess_free(search, grid);
-    const int status = search_from_here(search, level);
-    if (level > 0)
-        memcpy(search->known, search->free, all);
+    rf_search search;
+    int status = rf_open_search(&search, film->lines, film->nodes);
+    if (status == RF_OK)
+        status = rf_search_film(&search, film, 1, pressure, full);
+    for (size_t k = 0; k < count && status == RF_OK; ++k)
+        rf_solve_film(&search, answers + k * film->lines * film->nodes, answers + k * film->lines * film->nodes);
+    rf_close_search(&search);
     return status;
-}
-
-int rf_search_down_to(rf_search *search, int level, const double *w)
-{
-    int status = RF_OK;
-    for (int k = search->ring->ruptured ? RF_LEVELS - 1 : level; k >= level && status == RF_OK; --k)
-        status = rf_search_film(search, k, w);
-    return status;
-}
-
-int rf_search_without(rf_search *search)
-{
-    for (size_t q = 0; q < search->ring->grids[0].lines * search->ring->grids[0].nodes; ++q)
-        search->free[q] = search->free[q] && !search->shut[q];
-    return search_from_here(search, 0);
 }

@@ -22,19 +22,25 @@ static rf_section section_at(const double *e, double chi, double angle)
     const double gap = (1.0 - chi) * (1.0 + chi), h = 1.0 + chi * cos(t), root = sqrt(fabs((1.0 - chi) / (1.0 + chi)));
     const double bent = gap > 0.0 ? atan2(root * sin(0.5 * t), cos(0.5 * t)) : atanh(root * tan(0.5 * t));
     const double film = 2.0 * bent / sqrt(fabs(gap));
-    const rf_section at = {h, film, (film - chi * sin(t) / h) / gap};
+    const rf_section at = {h, film, (film - chi * sin(t) / h) / gap, 1.0};
     return at;
 }
 
 void rf_place_stream(rf_stream *oil, const double *e)
 {
     const rf_grid *grid = oil->grid;
+    const rf_ring *ring = oil->film->ring;
     const double chi = off_unit(e), gap = (1.0 - chi) * (1.0 + chi);
     oil->turn = gap > 0.0 ? 2.0 * PI / sqrt(gap) : 0.0;
     oil->square_turn = oil->turn / gap;
     for (size_t i = 0; i < grid->lines; ++i) {
-        oil->face[i] = section_at(e, chi, oil->search->cells[0].face[i]);
-        oil->line[i] = section_at(e, chi, oil->search->cells[0].theta[i]);
+        oil->face[i] = section_at(e, chi, oil->film->cells[0].face[i]);
+        oil->line[i] = section_at(e, chi, oil->film->cells[0].theta[i]);
+        if (ring->mobility) {
+            double factor[3], slope[3];
+            ring->mobility(ring->mobile, oil->line[i].thickness, factor, slope);
+            oil->line[i].sheared = factor[2];
+        }
     }
 }
 
@@ -60,31 +66,30 @@ size_t rf_held(const rf_stream *oil, size_t i)
 
 int rf_is_film(const rf_stream *oil, size_t at)
 {
-    return oil->search->ring->clipped ? oil->search->pressure[at] > 0.0 : oil->search->free[at];
+    return oil->film->ring->clipped ? oil->film->pressure[at] > 0.0 : oil->film->full[at];
 }
 
 double rf_drawn(const rf_stream *oil, size_t i, size_t j, int after)
 {
     const size_t nodes = oil->grid->nodes, face = rf_next_face(oil, i, after);
-    const double *p = oil->search->pressure;
-    return oil->search->cells[0].around[face] * oil->grid->width[j] * (p[rf_next_line(oil, i, after) * nodes + j]
-                                                                       - p[i * nodes + j]);
+    const double *p = oil->film->pressure;
+    return oil->film->cells[0].around[face * nodes + j] * (p[rf_next_line(oil, i, after) * nodes + j] - p[i * nodes + j]);
 }
 
 /* The pressure flow into a node along the film. */
 static double drawn_along(const rf_stream *oil, size_t i, size_t j)
 {
     const size_t nodes = oil->grid->nodes, at = i * nodes + j;
-    const double *p = oil->search->pressure, *c = oil->grid->conductance, along = oil->search->cells[0].along[i];
-    const double inner = j > 0 ? c[j - 1] * (p[at - 1] - p[at]) : 0.0;
-    return along * (inner + (j + 1 < nodes ? c[j] * (p[at + 1] - p[at]) : 0.0));
+    const double *p = oil->film->pressure, *along = oil->film->cells[0].along;
+    const double inner = j > 0 ? along[at - 1] * (p[at - 1] - p[at]) : 0.0;
+    return inner + (j + 1 < nodes ? along[at] * (p[at + 1] - p[at]) : 0.0);
 }
 
 void rf_reach(const rf_stream *oil, size_t i, size_t j, double share[3])
 {
-    const double taken = -oil->search->source[i * oil->grid->nodes + j];
+    const double taken = -oil->film->source[i * oil->grid->nodes + j];
     const double inflow[3] = {rf_drawn(oil, i, j, 0), rf_drawn(oil, i, j, 1), drawn_along(oil, i, j)};
-    double left = oil->search->ring->ruptured ? 1.0 : 0.0;
+    double left = oil->film->ring->ruptured ? 1.0 : 0.0;
     for (int k = 0; k < 3; ++k) {
         share[k] = taken > 0.0 ? fmin(fmax(inflow[k] / taken, 0.0), left) : 0.0;
         left -= share[k];
@@ -94,7 +99,7 @@ void rf_reach(const rf_stream *oil, size_t i, size_t j, double share[3])
 /* Integrals from one place on the ring to the next. */
 static rf_section over(const rf_stream *oil, const rf_section *from, const rf_section *to)
 {
-    rf_section at = {0.0, to->film - from->film, to->square - from->square};
+    rf_section at = {0.0, to->film - from->film, to->square - from->square, 1.0};
     if (at.film < 0.0) {
         at.film += oil->turn;
         at.square += oil->square_turn;
@@ -125,7 +130,8 @@ static void cross_held(rf_stream *oil, size_t i, size_t j, double *film, double 
         const size_t held = its < own ? its : own;
         const rf_section half = over_half(oil, i, after);
         const int full = j < held || rf_is_film(oil, beside * oil->grid->nodes + j);
-        const double thin = after ? h : oil->brought[j], width = oil->width[j] - open_width(oil, j, held);
+        const double thin = after ? h : oil->brought[j];
+        const double width = (oil->width[j] - open_width(oil, j, held)) * oil->line[i].sheared;
         if (width > 0.0) /* in the opening beside a pad there may be no gap */
             *(full ? film : streamers) += width * (!full && thin < h ? thin * half.square : half.film);
     }
@@ -144,8 +150,9 @@ static void cross_free(rf_stream *oil, size_t i, size_t j, double *film, double 
         oil->brought[j] += (share[0] + share[2]) * (out - in);
     }
     const double full = share[0] + share[1] + share[2], h = oil->line[i].thickness, thin = oil->brought[j];
-    *film += oil->width[j] * full * cell.film;
-    *streamers += oil->width[j] * (1.0 - full) * (thin < h ? thin * cell.square : cell.film);
+    const double width = oil->width[j] * oil->line[i].sheared;
+    *film += width * full * cell.film;
+    *streamers += width * (1.0 - full) * (thin < h ? thin * cell.square : cell.film);
 }
 
 void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers)
@@ -154,11 +161,11 @@ void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers)
         (j < rf_held(oil, i) ? cross_held : cross_free)(oil, i, j, film, streamers);
 }
 
-int rf_open_stream(rf_stream *oil, const rf_search *search)
+int rf_open_stream(rf_stream *oil, const rf_levels *film)
 {
-    const rf_grid *grid = search->ring->grids;
+    const rf_grid *grid = film->ring->grids;
     double rest = 1.0;
-    oil->search = search;
+    oil->film = film;
     oil->grid = grid;
     oil->line = malloc(2 * grid->lines * sizeof(rf_section) + 2 * grid->nodes * sizeof(double));
     if (!oil->line)

@@ -2,16 +2,16 @@
 #ifndef ROTORFILM_STREAMERS_H
 #define ROTORFILM_STREAMERS_H
 
-#include "search.h"
+#include "levels.h"
 
-/* The gap at an angle, and the integrals of 1/H and 1/H^2 from the line of maximum film. */
+/* The gap at an angle, the integrals of 1/H and 1/H^2 from the line of maximum film, and the factor of 1/H by the mobility. */
 typedef struct rf_section {
-    double thickness, film, square;
+    double thickness, film, square, sheared;
 } rf_section;
 
 /* One state, seen in the direction in which the oil runs. */
 typedef struct rf_stream {
-    const rf_search *search;
+    const rf_levels *film;
     const rf_grid *grid;
     rf_section *line;      /* N: at the lines */
     rf_section *face;      /* N: behind each line, in the order of the grid */
@@ -37,6 +37,6 @@ double rf_drawn(const rf_stream *oil, size_t i, size_t j, int after);
 void rf_reach(const rf_stream *oil, size_t i, size_t j, double share[3]);
 /* Follow the oil over the cells of a line, and add their shear. */
 void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers);
-int rf_open_stream(rf_stream *oil, const rf_search *search);
+int rf_open_stream(rf_stream *oil, const rf_levels *film);
 
 #endif

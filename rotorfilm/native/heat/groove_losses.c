@@ -49,18 +49,24 @@ int rf_groove_flows(const rf_loss_map *map, size_t n, const double *e, const dou
     return RF_OK;
 }
 
-/* An opening's part of the effective flow of fresh oil, 2 (in - a out)/(1 + a), and its derivatives. The share a of
-   what it gives that arrived there is a smooth minimum of x = carry_over in/out and 1. */
-static double replaced(double out, double in, double carry_over, double *by_out, double *by_in)
+double rf_carried_share(double out, double in, double carry_over, double *z)
 {
     const double width = fmax(0.01, fmin(0.05, 0.25 * (1.0 - carry_over)));
-    const double x = out > 0.0 ? carry_over * in / out : HUGE_VAL, z = (x - 1.0) / width;
-    const double share = fmin(x, 1.0) - width * log1p(exp(-fabs(z))), whole = 1.0 + share;
+    const double x = out > 0.0 ? carry_over * in / out : HUGE_VAL;
+    *z = (x - 1.0) / width;
+    return fmin(x, 1.0) - width * log1p(exp(-fabs(*z)));
+}
+
+/* An opening's part of the effective flow of fresh oil, 2 (in - a out)/(1 + a), and its derivatives. */
+static double replaced(double out, double in, double carry_over, double *by_out, double *by_in)
+{
+    double z;
+    const double share = rf_carried_share(out, in, carry_over, &z), whole = 1.0 + share;
     *by_out = -2.0 * share / whole;
     *by_in = 2.0 / whole;
     if (z < 700.0) {
         const double pull = 2.0 * (in + out) / (whole * whole * out * (1.0 + exp(z)));
-        *by_out += pull * x;
+        *by_out += pull * (carry_over * in / out);
         *by_in -= pull * carry_over;
     }
     return 2.0 * (in - share * out) / whole;

@@ -76,7 +76,7 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
         if (!(nodes->numbers[j] > 0.0))
             return rf_say(why, RF_INVALID, "nodes of a film must be apart, got %.9g", nodes->numbers[j]);
     const rf_grid grid = {n, m, spans, of + n, of + 2 * n, *value, is_held,
-                          nodes->numbers, nodes->numbers + m};
+                          nodes->numbers, nodes->numbers + m, NULL, NULL, 0};
     self->ring.grids[level] = grid;
     self->value[level] = *value;
     self->supply[level] = of + 4 * n;
@@ -121,6 +121,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->ring.pinned = n[3] != 0.0;
     self->ring.turning = n[4] != 0.0;
     self->ring.extrapolated = n[5] != 0.0;
+    self->ring.levels = RF_LEVELS;
+    self->ring.recess = -1;
     self->ring.spans = (int32_t)count;
     self->ring.start = spans->numbers;
     self->ring.extent = spans->numbers + count;

@@ -167,7 +167,7 @@ def test_a_station_of_a_shaft_against_an_own_integration():
     run = rf.simulate(whole, SPRING, duration=0.012, samples=13, rtol=1e-10)
     assert "rejected" in run.work  # compiled
     model = shaft.operators
-    A = model.steady + 300.0 * model.spin
+    A = model.steady + 300.0 * model.by_speed
 
     def rates(t, x):
         seen = (model.sense @ x).reshape(3, 4)

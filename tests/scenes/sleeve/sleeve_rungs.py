@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ...core.answers import CandidateRung, ErrorEstimate, Found, Ladder, Work, WorkUnit
+from ...core.answers import CandidateRung, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from .sleeve_bearing import ViscousSleeve
 from .sleeve_remarks import sleeve_remarks
 
@@ -58,11 +58,11 @@ class SleeveRung(CandidateRung):
         """One formula."""
         return FORMULAS
 
-    def answer(self, before: Found | None) -> Found:
+    def answer(self, before: RungResult | None) -> RungResult:
         """Return the damping [N s/m]."""
-        return Found(self.film.reaction.damping, {self.unit: 1})
+        return RungResult(self.film.reaction.damping, {self.unit: 1})
 
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+    def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the change that the richer film makes, or the verified bound."""
         rich = self.film.rich
         if rich is None:

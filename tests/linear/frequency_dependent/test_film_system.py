@@ -1,4 +1,4 @@
-"""A film that remembers in python-control: its stiffness, its states, and a rotor on it."""
+"""A frequency-dependent film in python-control: its stiffness, its states, and a rotor on it."""
 
 import numpy as np
 import pytest
@@ -81,5 +81,5 @@ def test_what_it_refuses(top, rest_of):
         film_system(film, at, tolerance=0.0)
     with pytest.raises(InputError, match="highest_frequency must be"):
         film_system(film, at, highest_frequency=-1.0)
-    with pytest.raises(InputError, match="film must be a film that remembers"):
+    with pytest.raises(InputError, match="film must be a frequency-dependent film"):
         film_system(film.bearing, at)

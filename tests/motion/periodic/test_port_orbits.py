@@ -1,0 +1,127 @@
+"""Periodic orbits on bearings of any motions and states: they close, and multipliers are differences."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+import rotorfilm as rf
+from rotorfilm.analysis import continue_orbits, periodic_orbit
+from rotorfilm.analysis.harmonic_balance import lengthened
+from rotorfilm.analysis.periodic_orbit import CONVERGED, _driven, finished, series_of
+from rotorfilm.analysis.port_orbits import PortRotor
+from rotorfilm.bearings import f4k20_bush
+from rotorfilm.bearings.rolling import MomentCarryingBalls, back_to_back
+
+STEEL = rf.ElasticMaterial(young_modulus=2.11e11, shear_modulus=8.12e10, density=7810.0)
+FILM = rf.JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
+PADS = rf.TiltingPadBearing(
+    radius=0.05,
+    length=0.05,
+    assembled_clearance=7e-5,
+    viscosity=0.02,
+    pivots=rf.even_pivots(5, between_pads=True),
+    extent=np.radians(60.0),
+    preload=0.3,
+)
+SPEED = 300.0
+
+
+@lru_cache
+def on_pads(unbalance=5e-3):
+    return rf.mount(rf.RigidRotor(mass=200.0, speed=SPEED, unbalance=unbalance), {"": PADS})
+
+
+def shaft(**given):
+    defaults = {
+        "elements": rf.ShaftElement(length=1.0, outer_diameter=0.06, material=STEEL).split(4),
+        "disks": (rf.Disk(node=2, mass=30.0, polar_inertia=0.2, diametral_inertia=0.1),),
+        "stations": (rf.Station(node=0, name="left"), rf.Station(node=4, name="right")),
+        "unbalances": (rf.Unbalance(node=2, unbalance=4e-3),),
+        "speed": SPEED,
+    }
+    return rf.ShaftRotor(**{**defaults, **given})
+
+
+def over_a_turn(mounted, state):
+    turn = 2.0 * np.pi / SPEED
+    rate = lambda t, x: mounted.derivative(t, x, [])  # noqa: E731
+    return solve_ivp(rate, (0.0, turn), state, method="LSODA", rtol=1e-11, atol=1e-17).y[:, -1]
+
+
+def test_without_states_it_is_the_orbit_in_compiled_loops():
+    mounted = rf.mount(shaft(), {"left": FILM, "right": FILM})
+    compiled = periodic_orbit(mounted)
+    own = finished(lengthened(_driven(PortRotor.of(mounted), None, 1, CONVERGED), 1e-7))
+    assert_allclose(own.series, compiled.series, atol=1e-10 * FILM.clearance)
+    assert_allclose(own.state[:30], compiled.state[:30], atol=1e-10 * FILM.clearance)
+    for value in compiled.multipliers[:6]:
+        assert np.abs(own.multipliers - value).min() < 1e-8
+
+
+def test_an_orbit_on_tilting_pads_comes_back_and_knows_its_multipliers():
+    mounted = on_pads()
+    orbit = periodic_orbit(mounted)
+    assert orbit.stable
+    assert [*orbit.further] == [f"tilt_{k}" for k in range(1, 6)]
+    end = over_a_turn(mounted, orbit.state)
+    assert_allclose(end[:2], orbit.state[:2], atol=1e-8 * PADS.assembled_clearance)
+    monodromy = PortRotor.of(mounted).monodromy(series_of(PortRotor.of(mounted), orbit), orbit.frequency)
+    for column, step in ((0, 1e-9), (3, 1e-7)):
+        moved = orbit.state.copy()
+        moved[column] += step
+        change = (over_a_turn(mounted, moved) - end) / step
+        assert_allclose(change, monodromy[:, column], atol=1e-3 * np.abs(monodromy[:, column]).max())
+
+
+def test_a_curve_of_orbits_on_tilting_pads_meets_those_found_alone():
+    start = periodic_orbit(on_pads(2e-3))
+    curve = continue_orbits(
+        lambda u: on_pads(float(u)), start, bounds=(1e-3, 8e-3), parameter=2e-3, largest_step=1.0
+    )
+    assert curve.parameters[-1] == pytest.approx(8e-3)
+    alone = periodic_orbit(on_pads(8e-3))
+    assert curve.orbits[-1].amplitude == pytest.approx(alone.amplitude, rel=1e-7)
+
+
+def test_a_shaft_moves_axially_and_tilts_in_ball_bearings_on_its_orbit():
+    single = rf.BallBearing(
+        balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=0.4363, damping=200.0
+    )
+    held = MomentCarryingBalls(bearing=back_to_back(single, distance=0.02, preload=150.0), axial=True)
+    rotor = shaft(
+        elements=rf.ShaftElement(length=0.3, outer_diameter=0.02, material=STEEL).split(4),
+        disks=(rf.Disk(node=1, mass=3.0, polar_inertia=0.01, diametral_inertia=0.005),),
+        stations=(
+            rf.Station(node=0, name="left", feels_tilt=True),
+            rf.Station(node=4, name="right", feels_tilt=True),
+        ),
+        unbalances=(rf.Unbalance(node=1, unbalance=1e-3),),
+        axial=True,
+        stiffness_damping=2e-5,
+    )
+    bearings = {"left": held, "right": held}
+    orbit = periodic_orbit(rf.mount(rotor, bearings))
+    assert "left_tilt_x" in orbit.further
+    assert "right_z" in orbit.further
+    run = rf.simulate(
+        rotor, bearings, duration=2.0 * np.pi / SPEED, samples=3, initial_state=orbit.state, rtol=1e-8
+    )
+    for name in ("left_x", "left_tilt_x", "right_z", "right_y"):
+        assert abs(run[name][-1] - run[name][0]) < 1e-5 * np.abs(run[name]).max()
+
+
+def test_what_has_no_orbit_is_refused_by_name():
+    rising = rf.SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0))
+    mounted = on_pads()
+    with pytest.raises(rf.InputError, match="speed must be constant"):
+        periodic_orbit(replace(mounted, rotor=replace(mounted.rotor, speed=rising)))
+    worn = rf.BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=16, extent=1.4, retardation=2e-4)
+    with pytest.raises(rf.ConvergenceError, match="a state of a bearing drifts, as wear does"):
+        periodic_orbit(rf.mount(replace(mounted.rotor, mass=10.0), {"": worn}))
+    other = periodic_orbit(rf.mount(shaft(), {"left": FILM, "right": FILM}))
+    with pytest.raises(rf.InputError, match="start must be an orbit of these bearings"):
+        periodic_orbit(mounted, start=other)
