@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import SimpleNamespace
-from typing import ClassVar
+from typing import Any, ClassVar, cast
 
 import numpy as np
 from scipy.optimize import root
@@ -22,10 +22,9 @@ from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.sources import source_digest
 from ...native import MapKernel
-from ..films.law import BoundKernel
+from ..films.law import BoundKernel, KernelFilm
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import MapTable, cached_table, table_path
-from ..journal import MapFilm
 from .squeeze_films import (
     CavitatedSqueezeFilm,
     FiniteSqueezeFilm,
@@ -42,6 +41,7 @@ from .squeeze_films import (
 from .squeeze_laws import (
     FilmInertia,
     SqueezeCase,
+    SqueezeLaw,
     SqueezeOptions,
     finite_film_inertia,
     sealed_short,
@@ -93,47 +93,29 @@ class SqueezeTable:
 
 
 @lru_cache(maxsize=32)
-def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> SqueezeTable:
-    """Return the table of a short film on a layer, in some hundredths of a second.
+def squeeze_table(
+    slenderness: float | None, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
+) -> SqueezeTable:
+    """Return the table of a film.
+
+    That of a short film is made in some hundredths of a second, that of a film of finite length in some
+    seconds if it is not on disk.
 
     Parameters
     ----------
+    slenderness : float or None [1]
+        L/D; None for a short film.
     layer : PorousLayer or None
         None for a solid cage.
     cavitated : bool
     cells : (int, int)
         Over the eccentricity ratio and the direction of the velocity.
     """
-    modes = layer_modes(layer)
-    if cavitated:
-        film = CavitatedSqueezeFilm(modes)
-        # Under the protocol of journal films, whatever the slenderness.
-        table = tabulate_film(
-            SimpleNamespace(force=lambda e, w, slenderness: film.force(e, w)),
-            slenderness_range=(RATIO, RATIO),
-            cells=(*cells, 0),
-            largest_eccentricity_ratio=LARGEST,
-        )
+    if slenderness is None:
+        table = _short_table(layer, cavitated, cells)
     else:
-        table = _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
-    return SqueezeTable(None, layer and tuple(layer), cavitated, table)
-
-
-@lru_cache(maxsize=16)
-def finite_table(
-    slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
-) -> SqueezeTable:
-    """Return the table of a film of finite length, from disk if it was made before; see `short_table`."""
-    path = squeeze_path(slenderness, layer, cavitated, cells)
-
-    def build() -> MapTable:
-        if cavitated:
-            return _cavitated_table(slenderness, layer, cells)
-        modes = layer_modes(layer)
-        film = FiniteSqueezeFilm(slenderness, layer, modes, np.zeros_like(modes.weight))
-        return _full_table(film, cells, LARGEST_FINITE)
-
-    table = cached_table(MapTable, path, build)
+        path = squeeze_path(slenderness, layer, cavitated, cells)
+        table = cached_table(MapTable, path, lambda: _finite_table(slenderness, layer, cavitated, cells))
     return SqueezeTable(slenderness, layer and tuple(layer), cavitated, table)
 
 
@@ -142,6 +124,30 @@ def squeeze_path(
 ) -> Path:
     """Return where a table lies; the name is a digest of all that decides its content."""
     return table_path("damper", (source_digest(__name__), slenderness, layer, cavitated, cells))
+
+
+def _short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> MapTable:
+    modes = layer_modes(layer)
+    if not cavitated:
+        return _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
+    film = CavitatedSqueezeFilm(modes)
+    # Under the protocol of journal films, whatever the slenderness.
+    return tabulate_film(
+        SimpleNamespace(force=lambda e, w, slenderness: film.force(e, w)),
+        slenderness_range=(RATIO, RATIO),
+        cells=(*cells, 0),
+        largest_eccentricity_ratio=LARGEST,
+    )
+
+
+def _finite_table(
+    slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
+) -> MapTable:
+    if cavitated:
+        return _cavitated_table(slenderness, layer, cells)
+    modes = layer_modes(layer)
+    film = FiniteSqueezeFilm(slenderness, layer, modes, np.zeros_like(modes.weight))
+    return _full_table(film, cells, LARGEST_FINITE)
 
 
 def _cavitated_table(slenderness: float, layer: PorousLayer | None, cells: tuple[int, int]) -> MapTable:
@@ -179,9 +185,36 @@ SHORT = 1e-6
 """Length / diameter of a short film, at the wall too."""
 
 
+class TabulatedSqueeze(SqueezeOptions):
+    """A film from a table of its potential, in a damper without feed."""
+
+    is_short: ClassVar[bool]
+    cells: tuple[int, int]
+    table: SqueezeTable | None
+
+    def tabulated(self, case: SqueezeCase) -> SqueezeLaw:
+        """Return this law with the table of one damper; see `SqueezeOptions`."""
+        return cast(SqueezeLaw, replace(cast(Any, self), table=self._table(case)))
+
+    def _table(self, case: SqueezeCase) -> SqueezeTable:
+        key = None if self.is_short else case.slenderness, case.layer, case.cavitated
+        return squeeze_table(*key, self.cells) if self.table is None else self.table.required(*key)
+
+    def _mapped(self, case: SqueezeCase) -> MappedSqueezeFilm:
+        """Return the film of one damper; one that ruptures in a solid cage is a journal's at the wall."""
+        if np.any(case.feed) or (case.cavitated and np.any(case.ends)):
+            raise InputError(
+                f"feed must be None for {type(self).__name__}(): a film with feed has no potential to "
+                "tabulate"
+            )
+        own, ratio = self._table(case), SHORT if self.is_short else case.slenderness
+        wall = (ratio, 0.25 / ratio**2) if own.cavitated and own.layer is None else (0.0, 0.0)
+        return MappedSqueezeFilm(SqueezeMapFilm(own.table.kernel(RATIO, wall)), not self.is_short)
+
+
 @quantities
 @dataclass(frozen=True)
-class MapSqueeze(SqueezeOptions):
+class MapSqueeze(TabulatedSqueeze):
     """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
 
     The table is made at the first use of a damper and kept in memory for dampers of the same layer.
@@ -195,6 +228,8 @@ class MapSqueeze(SqueezeOptions):
         Of this damper, as `tabulated` gives it; made by default.
     """
 
+    is_short: ClassVar[bool] = True
+    """Whether the table holds for any length / diameter."""
     slenderness_limit: ClassVar[float] = 0.25
     """Largest length / diameter for which the film is meant [1]."""
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
@@ -205,27 +240,16 @@ class MapSqueeze(SqueezeOptions):
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
-        _require_potential(self, case)
-        film = MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
-        return sealed_short(film, case)
+        return sealed_short(self._mapped(case), case)
 
     def inertia(self, case: SqueezeCase) -> FilmInertia:
         """Return the inertia of the film of one damper; see `SqueezeOptions`."""
         return short_film_inertia(case)
 
-    def tabulated(self, case: SqueezeCase) -> MapSqueeze:
-        """Return this law with the table of one damper; see `SqueezeOptions`."""
-        return replace(self, table=self._table(case))
-
-    def _table(self, case: SqueezeCase) -> SqueezeTable:
-        if self.table is None:
-            return short_table(case.layer, case.cavitated, self.cells)
-        return self.table.required(None, case.layer, case.cavitated)
-
 
 @quantities
 @dataclass(frozen=True)
-class FiniteMapSqueeze(SqueezeOptions):
+class FiniteMapSqueeze(TabulatedSqueeze):
     """Film of finite length from a table of its potential, flow around the circumference included.
 
     The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
@@ -239,6 +263,8 @@ class FiniteMapSqueeze(SqueezeOptions):
         Of this damper, as `tabulated` gives it; made, or found on disk, by default.
     """
 
+    is_short: ClassVar[bool] = False
+    """Whether the table holds for any length / diameter."""
     largest_eccentricity_ratio: ClassVar[float] = LARGEST_FINITE
     """Eccentricity ratio to which the film is meant [1]."""
 
@@ -247,48 +273,33 @@ class FiniteMapSqueeze(SqueezeOptions):
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed or seals."""
-        _require_potential(self, case)
+        mapped = self._mapped(case)
         if case.is_sealed:
             raise InputError(
                 "seals must be None for FiniteMapSqueeze(): FullFilm() with FiniteSqueeze() has them, and a "
                 "short film"
             )
-        return MappedSqueezeFilm(_squeeze_map(self._table(case), case.slenderness), one_slenderness=True)
+        return mapped
 
     def inertia(self, case: SqueezeCase) -> FilmInertia:
         """Return the inertia of the film of one damper; see `SqueezeOptions`."""
         return finite_film_inertia(case)
 
-    def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
-        """Return this law with the table of one damper; see `SqueezeOptions`."""
-        return replace(self, table=self._table(case))
-
-    def _table(self, case: SqueezeCase) -> SqueezeTable:
-        if self.table is None:
-            return finite_table(case.slenderness, case.layer, case.cavitated, self.cells)
-        return self.table.required(case.slenderness, case.layer, case.cavitated)
-
 
 @dataclass(frozen=True)
-class SqueezeMapFilm(MapFilm):
+class SqueezeMapFilm(KernelFilm):
     """A map in units of a squeeze film.
 
     Parameters
     ----------
-    wall : (float, float) [1]
-        Length / diameter of the film at the wall, as which it goes on beyond the table, and that film's share
-        in units of a journal; zeros where that is not its law.
+    kernel : MapKernel
+        Of any slenderness.
     """
 
-    wall: tuple[float, float] = (0.0, 0.0)
+    kernel: MapKernel
 
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(self._table(slenderness), self.wall)
-
-
-@lru_cache(maxsize=64)
-def _collapsed(table: MapTable, wall: tuple[float, float]) -> MapKernel:
-    return table.kernel(RATIO, wall)
+        return self.kernel
 
 
 @dataclass(frozen=True)
@@ -298,7 +309,7 @@ class MappedSqueezeFilm:
     Parameters
     ----------
     film : SqueezeMapFilm
-        With a table for one slenderness, `RATIO`, in units of a squeeze film.
+        In units of a squeeze film.
     one_slenderness : bool
         Whether the table is that of one length / diameter only, as that of a film of finite length.
     """
@@ -315,7 +326,7 @@ class MappedSqueezeFilm:
 
     def native_tables(self) -> Mapping[str, Array]:
         """Return the tables of the kernel "damper"."""
-        return self.film._kernel(RATIO).tables
+        return self.film.kernel.tables
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
@@ -330,19 +341,6 @@ class MappedSqueezeFilm:
             Where the rotor is at rest off the center.
         """
         return self.film.jacobian(eccentricity, rate, RATIO)
-
-
-def _squeeze_map(table: SqueezeTable, slenderness: float) -> SqueezeMapFilm:
-    """Return the map of a table; a full film, or one on a porous layer, is another one at the wall."""
-    journal = table.cavitated and table.layer is None
-    return SqueezeMapFilm(table.table, (slenderness, 0.25 / slenderness**2) if journal else (0.0, 0.0))
-
-
-def _require_potential(law: MapSqueeze | FiniteMapSqueeze, case: SqueezeCase) -> None:
-    if np.any(case.feed) or (case.cavitated and np.any(case.ends)):
-        raise InputError(
-            f"feed must be None for {type(law).__name__}(): a film with feed has no potential to tabulate"
-        )
 
 
 # Potential of a cavitated squeeze film of finite length on a porous layer: the free arc, solved spectrally.

@@ -116,7 +116,7 @@ def test_map_of_finite_length_is_made_once(kept, monkeypatch):
     path = squeeze_table.squeeze_path(one.slenderness, one.layer, True, (6, 8))
     assert path.parent == kept
     assert path.is_file()
-    squeeze_table.finite_table.cache_clear()
+    squeeze_table.squeeze_table.cache_clear()
     monkeypatch.setattr(squeeze_table, "_cavitated_table", None)  # making it again would fail
     q, v = states(5, 0.9)
     np.testing.assert_array_equal(replace(one, viscosity=0.01).force(q, v), one.force(q, v))
@@ -136,7 +136,7 @@ def test_damaged_map_on_disk_is_made_again(kept):
     path = squeeze_table.squeeze_path(one.slenderness, None, True, (6, 8))
     whole = path.read_bytes()
     path.write_bytes(whole[:-3])
-    squeeze_table.finite_table.cache_clear()
+    squeeze_table.squeeze_table.cache_clear()
     with pytest.warns(RuntimeWarning, match="is made again"):
         assert replace(one, viscosity=0.02).force([3e-5, 0.0], [0.1, 0.0])[0] < 0.0
     assert path.read_bytes() == whole
