@@ -32,7 +32,6 @@ from rotorfilm import (
     critical_mass,
     equilibrium,
 )
-from rotorfilm.bearings.films.mass_conserving import circular_gap
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 314.0
 BAR = 0.0053 * SPEED * 12.0 * VISCOSITY * (RADIUS / CLEARANCE) ** 2
@@ -172,7 +171,7 @@ def searches() -> None:
     worst, solutions = np.zeros(3), []
     for seed in range(200):
         film, e = random_film(seed)
-        gap = circular_gap(film.film.cells, e)
+        gap = film.film.gap(e)
         one, other = (film.film.solve(gap, 0.5 * SPEED, by_newton=newton) for newton in (False, True))
         flows = film.film.flows(one)
         P = one.solution.pressure

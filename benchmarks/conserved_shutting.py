@@ -10,6 +10,8 @@ step.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from rotorfilm.bearings.films.mass_conserving import (
@@ -20,10 +22,18 @@ from rotorfilm.bearings.films.mass_conserving import (
     Supply,
     step_storage,
 )
-from rotorfilm.bearings.films.mass_conserving_steps import OilHistory, after_step
 
 BEGIN, SHUT, END = 0.25, 0.73239, 0.748
 FINE = 25600
+
+
+class OilHistory(NamedTuple):
+    """theta H now and one step ago, the length of that step, and the cells that are full."""
+
+    content: np.ndarray
+    before: np.ndarray
+    length: float
+    full: np.ndarray
 
 
 def gap(t: float) -> float:
@@ -45,7 +55,7 @@ def plates(cells: int) -> tuple[ConservedFilm, OilHistory]:
     grid = ConservedCells(x, np.full(x.size, 1.0 / cells), np.ones(1), opening)
     supply = Supply(np.full(2, 0.0125), np.zeros(2, dtype=bool), np.zeros(2), 0.0, 0.0)
     full, one = np.full((x.size, 1), gap(BEGIN)), np.ones((x.size, 1))
-    return ConservedFilm(grid, np.inf, supply), OilHistory(full, full, 0.0, 0.0 * full, one, one)
+    return ConservedFilm(grid, np.inf, supply), OilHistory(full, full, 0.0, one)
 
 
 def stepped(film: ConservedFilm, memory: OilHistory, at: Gap, dt: float) -> ConservedState:
@@ -61,8 +71,8 @@ def run(cells: int, steps: int, halvings: int | None) -> tuple[np.ndarray, np.nd
     t, level, rows = BEGIN, 0, []
     while t < END - 1e-12:
         dt = 0.5 / steps / 2**level
-        h = np.full(cells + 1, gap(t + dt))
-        at = Gap(h, h, h**3)
+        h = np.full((cells + 1, 1), gap(t + dt))
+        at = Gap(h, h, np.hstack([h, h]))
         state = stepped(film, memory, at, dt)
         shuts = memory.full.min() == 0 and state.solution.full.min() == 1
         if halvings is not None and shuts and level < halvings:
@@ -71,7 +81,9 @@ def run(cells: int, steps: int, halvings: int | None) -> tuple[np.ndarray, np.nd
         first_order = shuts and halvings is None
         if first_order:
             state = stepped(film, memory._replace(length=0.0), at, dt)
-        memory, t = after_step(memory, state, 0.0 if first_order else dt), t + dt
+        length = 0.0 if first_order else dt
+        memory = OilHistory(state.content, memory.content, length, state.solution.full)
+        t += dt
         rows.append([t, dt, np.sum(state.solution.pressure[1:-1]) / cells + 0.0125 / cells])
         place = (t - BEGIN) / (2.0 * dt)
         level -= level > 0 and state.solution.full.min() == 1 and abs(place - round(place)) < 1e-9

@@ -1,5 +1,7 @@
 """Conservation of oil in C: the matrix and its solution against dense ones, and what it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -19,14 +21,10 @@ def cells_of(seed, *, backward=False, fed=(), store=0.0, supplied=True):
     return OilCells(
         wedge=(-1.0 if backward else 1.0) * rng.uniform(0.5, 1.0, (N, M)),
         around=rng.uniform(0.5, 2.0, (N, M)),
-        along=rng.uniform(0.5, 2.0, N),
-        store=store * rng.uniform(0.5, 1.0, N),
-        width=rng.uniform(0.1, 0.4, M),
-        conductance=rng.uniform(1.0, 4.0, (N, M)),
-        center=rng.uniform(1.0, 2.0, N) if supplied else np.zeros(N),
-        center_pressure=0.1,
-        end_pressure=0.05 if supplied else 0.0,
-        old=None,
+        store=store * rng.uniform(0.1, 0.3, (N, M)),
+        along=rng.uniform(0.5, 2.0, (N, M + 1)) * np.append(float(supplied), np.ones(M)),
+        first_pressure=0.1,
+        last_pressure=0.05 if supplied else 0.0,
         opening=opening,
         fed=np.isin(np.arange(count), fed),
         flow=np.full(count, 0.3),
@@ -72,6 +70,19 @@ def test_response_is_that_of_a_dense_matrix(backward, fed, is_complex):
         np.testing.assert_allclose(one.ravel(), expected, atol=1e-12 * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("is_complex", [False, True])
+def test_a_response_may_go_on_from_the_first(is_complex):
+    cells, rng = cells_of(1, store=0.2), np.random.default_rng(2)
+    full, turn = (rng.random((N, M)) < 0.6).astype(np.uint8), 1.0 + 0.7j if is_complex else 1.0
+    storage, coupling = turn * rng.random((N, M)), rng.random((N, M)) * np.conj(turn)
+    right = rng.normal(size=(4, N, M)) * turn
+    first = oil_response(cells, full, storage, right[:2])
+    both = oil_response(cells, full, storage, right, coupling)
+    np.testing.assert_array_equal(both[:2], first)
+    expected = oil_response(cells, full, storage, right[2:] - coupling * first)
+    np.testing.assert_allclose(both[2:], expected, atol=1e-13 * np.abs(expected).max())
+
+
 @pytest.mark.parametrize("fed", [(), (0,)])
 @pytest.mark.parametrize("store", [0.0, 0.4])
 @pytest.mark.parametrize("by_newton", [False, True])
@@ -99,17 +110,17 @@ def test_a_guess_does_not_change_the_film():
 def test_sets_have_time_to_move_along_the_bearing():
     # Oil pressed in at mid-length fills one half-empty cell after the other of a line, one with each set.
     lines, nodes = 4, 90
-    still, one = np.zeros(lines), np.ones(lines)
-    cells = cells_of(1, supplied=False)._replace(
-        wedge=still[:, None],
-        around=still[:, None],
-        along=one,
-        store=one,
-        width=np.full(nodes, 1.0 / nodes),
-        conductance=np.full((lines, nodes), 1.0 * nodes),
-        center=np.full(lines, 2.0 * nodes),
-        center_pressure=10.0,
-        old=np.full((lines, nodes), 0.5 / nodes),
+    one = np.ones((lines, nodes))
+    along = np.full((lines, nodes + 1), 1.0 * nodes)
+    along[:, [0, -1]] = 2.0 * nodes
+    cells = replace(
+        cells_of(1, supplied=False),
+        wedge=0.0 * one,
+        around=0.0 * one,
+        along=along,
+        store=one / nodes,
+        first_pressure=10.0,
+        old=0.5 * one / nodes,
         opening=np.full((lines, nodes), -1, dtype=np.int32),
     )
     empty = np.zeros((lines, nodes))
@@ -119,7 +130,6 @@ def test_sets_have_time_to_move_along_the_bearing():
 
 
 def test_transport_without_a_supply_is_refused():
-    cells = cells_of(1, supplied=False)
-    cells = cells._replace(along=np.zeros(N), wedge=np.ones((N, 1)))
+    cells = replace(cells_of(1, supplied=False), along=np.zeros((N, M + 1)), wedge=np.ones((N, M)))
     with pytest.raises(ConvergenceError, match="is there any supply"):
         solve_oil(cells, np.zeros((N, M)), np.ones((N, M)), np.zeros((N, M)))

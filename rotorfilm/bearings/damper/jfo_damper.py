@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from numbers import Number
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,29 +24,22 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
-from ...core.port import StepTrial
 from ...core.readable import Drawable
 from ..films.geometry import FeedHole, FilmGeometry, Pocket
 from ..films.mass_conserving import (
     ConservedFilm,
     ConservedState,
     Supply,
-    circular_gap,
     conserved_cells,
-    direction,
-    require_conserved_cells,
     reynolds_state,
     warn_of_air,
 )
 from ..films.mass_conserving_steps import (
+    TURNED,
     ConservedFilmState,
-    OilNumbers,
-    SteppedFilm,
-    after_step,
-    dynamic_stiffness,
-    oil_step,
-    remembered,
-    slow_motion,
+    MassConserving,
+    ScaledFilm,
+    require_supply,
 )
 from ..formulas import extrapolated_value
 from ..reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, require_size
@@ -101,12 +93,10 @@ class DamperSupply:
 
     def __post_init__(self) -> None:
         require_non_negative("supply_pressure", self.supply_pressure)
-        if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
-            raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
+        require_supply(self.cavitation_pressure, self.submerged)
         if self.circumferential_groove is not None:
             require_non_negative("circumferential_groove", self.circumferential_groove)
         require_kind("end_groove", self.end_groove, bool, "True or False")
-        require_kind("submerged", self.submerged, bool, "True or False")
         require_tuple("feed_holes", self.feed_holes, FeedHole)
         self._require_one()
 
@@ -150,13 +140,10 @@ class DamperSupply:
 CIRCULAR = 1e-9
 """Radial velocity over the whole one, beyond which an orbit is no circle."""
 
-QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""Turns a vector by 90 deg."""
-
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFODamper(SteppedFilm):
+class JFODamper(MassConserving):
     """A squeeze-film damper that conserves its oil (Jakobsson, Floberg and Olsson); its cage is solid.
 
     The race does not spin: oil in the cavity stays where it is, and only pressure moves it. So the cavity
@@ -211,69 +198,13 @@ class JFODamper(SteppedFilm):
         require_size(self, "viscosity")
         require_kind("supply", self.supply, DamperSupply, "a DamperSupply")
         require_non_negative("stiffness", self.stiffness)
-        require_conserved_cells(self.cells)
+        self._require_fields(self.supply.cavitation_pressure, self.supply.submerged)
         _ = self.scaled
 
     @cached_property
     def scaled(self) -> ScaledFilm:
         """The film without dimensions, in axes at rest or turning, and its units."""
         return scaled_film(self)
-
-    @property
-    def film(self) -> ConservedFilm:
-        """The film without dimensions; see `ConservedFilm`."""
-        return self.scaled.film
-
-    @property
-    def scales(self) -> tuple[float, float]:
-        """Units of the force [N s] and of the oil [m3]."""
-        return self.scaled.force, self.scaled.oil
-
-    @property
-    def numbers(self) -> OilNumbers:
-        """What its kernel has besides the film."""
-        given = self.supply
-        supplied = np.ones(len(given.feed_holes), dtype=bool)
-        return OilNumbers(
-            radius=self.radius,
-            viscosity=self.viscosity,
-            cavitation_pressure=given.cavitation_pressure,
-            supplied=supplied,
-            supply_pressure=given.supply_pressure if given.grooved or supplied.any() else None,
-            stiffness=self.stiffness,
-        )
-
-    def carrying(self, motion: Array) -> float:
-        """Return 0: the race does not spin."""
-        return 0.0
-
-    def answer(self, state: ConservedFilmState) -> Array:
-        """Return the outputs of a state, shape (9,), the force with that of the springs."""
-        found = super().answer(state)
-        found[:2] -= self.stiffness * state.motion[:2]
-        return found
-
-    def step(
-        self, state: ConservedFilmState, t: float, u: ArrayLike, dt: float
-    ) -> tuple[ConservedFilmState, Array, dict[str, int]]:
-        """Return state, outputs and counters of work after dt [s]; see `SteppedFilm.step`."""
-        end, _, report = super().step(state, t, u, dt)
-        return end, self.answer(end), report
-
-    def attempt(
-        self, state: ConservedFilmState, u: Array, dt: float, near: ConservedFilmState | None = None
-    ) -> StepTrial:
-        """Return one inner step, with its slope; see `bearings.reaction`."""
-        film = super().attempt(state, u, dt, near)
-        slope = film.stiffness + self.stiffness * np.eye(2)
-        return film._replace(output=self.answer(film.state), stiffness=slope)
-
-    def slopes(self, state: ConservedFilmState) -> Array:
-        """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
-        found = super().slopes(state)
-        found[:, :2] -= self.stiffness * np.eye(2)
-        found[:, 4] = 0.0
-        return found
 
     @arguments
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
@@ -297,7 +228,8 @@ class JFODamper(SteppedFilm):
         require_non_negative("eccentricity_ratio", eccentricity_ratio)
         omega = require_number("speed", speed)
         require_inside(np.array([eccentricity_ratio * self.clearance, 0.0]), self.clearance)
-        found = jfo_orbit(self.scaled, self._turning(eccentricity_ratio, omega), eccentricity_ratio, omega)
+        state = self._turning(eccentricity_ratio, omega)
+        found = jfo_orbit(self.scaled, state, eccentricity_ratio, omega)
         self.supply.warn_of_air(found.drawn_in, found.side_flow)
         return found
 
@@ -315,50 +247,7 @@ class JFODamper(SteppedFilm):
             As in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """
-        if not isinstance(s, Number) or not np.isfinite(s):
-            raise InputError(f"s must be a finite number, got {s!r}")
-        state = self._turning(eccentricity_ratio, require_number("speed", speed))
-        return self.scaled.force / self.clearance * dynamic_stiffness(self.film, state, complex(s))
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force of film and springs on centered circular orbits, shape (2, ...) [N].
-
-        Parameters
-        ----------
-        position : array_like, shape (2, ...) [m]
-        velocity : array_like, shape (2, ...) [m/s]
-            Across the position, or 0.
-        speed : array_like, shape (...) [rad/s]
-            Of the rotor, without effect.
-
-        Raises
-        ------
-        InputError
-            If a motion is no centered circular orbit, whose force would need its past, or the supply is not
-            the same all round.
-        FilmContactError
-            If the rotor touches the wall.
-        """
-        q, v, _ = broadcast_state(position, velocity, speed)
-        columns = zip(q.reshape(2, -1).T, v.reshape(2, -1).T, strict=True)
-        found = [self._force(*column) for column in columns]
-        return np.array(found).T.reshape(q.shape) - self.stiffness * q
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...), in slow motion about the orbit.
-
-        Slow against a turn, in axes that turn with the orbit; about rotors at rest the film is full, and
-        this is exact.
-
-        Raises
-        ------
-        InputError, FilmContactError
-            As `force`.
-        """
-        q, v, _ = broadcast_state(position, velocity, speed)
-        columns = zip(q.reshape(2, -1).T, v.reshape(2, -1).T, strict=True)
-        found = np.array([self._jacobian(*column) for column in columns])
-        return np.moveaxis(found, 0, -1).reshape(2, 5, *q.shape[1:])
+        return self._stiffness(self._turning(eccentricity_ratio, require_number("speed", speed)), s)
 
     def reynolds_force(self, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the force of the same film with Reynolds' rupture, which makes the oil that it takes.
@@ -371,9 +260,8 @@ class JFODamper(SteppedFilm):
         """
         q, v, _ = broadcast_state(position, velocity, 0.0)
         require_inside(q, self.clearance)
-        gap = circular_gap(self.film.cells, q / self.clearance)
-        closing = -(v / self.clearance) @ direction(self.film.cells.angle)
-        return self.scaled.force * self.film.force(reynolds_state(self.film, gap, closing))
+        state = reynolds_state(self.film, q / self.clearance, v / self.clearance)
+        return self.scaled.force * self.film.force(state)
 
     def _turning(self, eccentricity_ratio: float, speed: float) -> ConservedState:
         """Return the film in axes that turn with the orbit, in which its wall carries the oil back."""
@@ -382,11 +270,10 @@ class JFODamper(SteppedFilm):
                 "feed_holes must be () for a steady orbit, as holes pass by once a turn; damper_turn finds "
                 f"the periodic film, got {self.supply.feed_holes!r}"
             )
-        gap = circular_gap(self.film.cells, np.array([eccentricity_ratio, 0.0]))
-        return self.film.solve(gap, -speed)
+        return self.film.solve(self.film.gap(np.array([eccentricity_ratio, 0.0])), -speed)
 
-    def _on_orbit(self, position: Array, velocity: Array) -> tuple[ConservedState, Array, float]:
-        """Return the film of an orbit, the matrix whose columns are its axes, and its speed."""
+    def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
+        """Return the film of a centered circular orbit, the matrix whose columns are its axes, its speed."""
         require_inside(position, self.clearance)
         e, v = float(np.hypot(*position)), float(np.hypot(*velocity))
         if abs(position @ velocity) > CIRCULAR * e * v or (e == 0.0 and v > 0.0):
@@ -396,55 +283,12 @@ class JFODamper(SteppedFilm):
                 f"{velocity.tolist()} at position {position.tolist()}"
             )
         radial = position / e if e > 0.0 else np.array([1.0, 0.0])
-        axes = np.column_stack([radial, QUARTER @ radial])
-        speed = float(axes[:, 1] @ velocity) / e if e > 0.0 else 0.0
-        return self._turning(e / self.clearance, speed), axes, speed
-
-    def _force(self, position: Array, velocity: Array) -> Array:
-        state, axes, _ = self._on_orbit(position, velocity)
-        return self.scaled.force * (axes @ self.film.force(state))
-
-    def _jacobian(self, position: Array, velocity: Array) -> Array:
-        """Return the slopes (2, 5) of F = F_0 - K r - C r', r in turning axes, by motion in axes at rest."""
-        state, axes, speed = self._on_orbit(position, velocity)
-        K, C = (self.scaled.force / self.clearance * part for part in slow_motion(self.film, state))
-        by_position = axes @ (speed * C @ QUARTER - K) @ axes.T - self.stiffness * np.eye(2)
-        return np.hstack([by_position, -axes @ C @ axes.T, np.zeros((2, 1))])
+        axes = np.column_stack([radial, TURNED @ radial])
+        turning = float(axes[:, 1] @ velocity) / e if e > 0.0 else 0.0
+        return self._turning(e / self.clearance, turning), axes, turning
 
 
-# The film of a damper without dimensions, and the units of what it says.
-
-
-class ScaledFilm(NamedTuple):
-    """A film, and what its numbers are to be multiplied by.
-
-    Attributes
-    ----------
-    film : ConservedFilm
-    clearance : float [m]
-    force : float [N s]
-        Viscosity * film length * radius^3/clearance^2, per 1/s.
-    oil : float [m3]
-        Clearance * radius * film length, and per 1/s of flows.
-    pressure : float [Pa s]
-        12 viscosity (radius/clearance)^2, per 1/s.
-    cavitation_pressure : float [Pa]
-        From which pressures of the film count.
-    axial : ndarray, shape (M,) [m]
-        Middles of the cells, from the middle of the damper to its end, or from the groove at its end.
-    """
-
-    film: ConservedFilm
-    clearance: float
-    force: float
-    oil: float
-    pressure: float
-    cavitation_pressure: float
-    axial: Array
-
-    def gauge(self, pressure: Array) -> Array:
-        """Return pressures of the film as gauge pressures [Pa]."""
-        return self.pressure * np.maximum(pressure, 0.0) + self.cavitation_pressure
+# Where the film of a damper is, and its units.
 
 
 def scaled_film(damper: JFODamper) -> ScaledFilm:
@@ -474,15 +318,18 @@ def scaled_film(damper: JFODamper) -> ScaledFilm:
     # With a groove at one end the film has a mirror image beyond it, and half of the whole is there.
     whole, share = (2.0 * length, 0.5) if given.end_groove else (length - width, 1.0)
     film = ConservedFilm(conserved_cells(geometry, *damper.cells), whole / (2.0 * radius), supply)
-    size = share * whole * radius
     return ScaledFilm(
         film=film,
+        radius=radius,
         clearance=damper.clearance,
-        force=size * damper.viscosity * (radius / damper.clearance) ** 2,
-        oil=size * damper.clearance,
-        pressure=scale,
-        cavitation_pressure=given.cavitation_pressure,
+        viscosity=damper.viscosity,
+        area=share * whole * radius,
+        carrying=0.0,
         axial=0.5 * width + 0.5 * whole * film.cells.axial,
+        cavitation_pressure=given.cavitation_pressure,
+        supplied=np.ones(count, dtype=bool),
+        supply_pressure=given.supply_pressure if given.grooved or count else None,
+        stiffness=damper.stiffness,
     )
 
 
@@ -545,24 +392,15 @@ class JFOOrbit(Drawable):
 
 def jfo_orbit(scaled: ScaledFilm, state: ConservedState, eccentricity_ratio: float, speed: float) -> JFOOrbit:
     """Return a film in SI units."""
-    flows, found = scaled.film.flows(state), state.solution
     radial, tangential = (scaled.force * scaled.film.force(state)).tolist()
-    entering = float(np.maximum(flows.inflow, 0.0).sum()) + flows.drawn_in
+    common = scaled.fields(state)
     return JFOOrbit(
         eccentricity_ratio=eccentricity_ratio,
         speed=speed,
         radial_force=radial,
         tangential_force=tangential,
-        angle=scaled.film.cells.angle % (2.0 * np.pi),
-        axial=scaled.axial,
-        pressure=scaled.gauge(found.pressure),
-        oil_content=np.minimum(found.theta, 1.0),
-        side_flow=scaled.oil * flows.out,
-        drawn_in=scaled.oil * flows.drawn_in,
-        inflow=scaled.oil * float(flows.inflow.sum()),
         power_loss=-tangential * eccentricity_ratio * scaled.clearance * speed,
-        mass_defect=flows.defect / entering if entering > 0.0 else 0.0,
-        solutions=found.solutions,
+        **{**common, "inflow": float(common["inflow"].sum())},
     )
 
 
@@ -727,12 +565,13 @@ def damper_turn(
     if q.ndim != 2 or q.shape[1] < FEWEST_STEPS:
         raise InputError(f"position must have shape (2, n), n at least {FEWEST_STEPS}, got shape {q.shape}")
     require_inside(q, damper.clearance)
-    going_on = _turns(damper.scaled, q, speed)
-    turns, change, found = 1, np.inf, next(going_on)
+    going_on = _turns(damper, q, speed)
+    turns, change, states = 1, np.inf, next(going_on)
     while change > tolerance and turns < most_turns:
-        last, found, turns = found, next(going_on), turns + 1
-        change = float(np.abs(found[0] - last[0]).max() / np.abs(found[0]).max())
-    result = _result(damper.scaled, found, q, speed, turns, change)
+        last, states, turns = states, next(going_on), turns + 1
+        forces, before = (np.array([state.output[:2] for state in turn]) for turn in (states, last))
+        change = float(np.abs(forces - before).max() / np.abs(forces).max())
+    result = _result(damper.scaled, states, q, speed, turns, change)
     damper.supply.warn_of_air(result.drawn_in, result.side_flow)
     if change > tolerance:
         raise ConvergenceError(
@@ -743,38 +582,29 @@ def damper_turn(
     return result
 
 
-_Rows = tuple[Array, Array, Array, Array]
-"""What a turn of n steps is made of: force (2, n), pressure (n,), theta (n, N, M) and flows (n, 3)."""
-
-
-def _turns(scaled: ScaledFilm, position: Array, speed: float) -> Iterator[_Rows]:
+def _turns(damper: JFODamper, position: Array, speed: float) -> Iterator[list[ConservedFilmState]]:
     """Yield turn after turn of a motion, from a film at rest where it begins and ends."""
-    film, gaps = scaled.film, [circular_gap(scaled.film.cells, q / scaled.clearance) for q in position.T]
-    dt = 2.0 * np.pi / speed / len(gaps)
-    oil = remembered(film.solve(gaps[-1], 0.0))
+    still = np.zeros((3, position.shape[1]))
+    dt, (*motions, last) = 2.0 * np.pi / speed / position.shape[1], np.vstack([position, still]).T
+    state = damper.start(last)
     while True:
-        states: list[ConservedState] = []
-        for gap in gaps:
-            states.append(oil_step(film, oil, gap, 0.0, dt))
-            oil = after_step(oil, states[-1], dt)
-        yield _rows(scaled, states)
-
-
-def _rows(scaled: ScaledFilm, states: list[ConservedState]) -> _Rows:
-    flows = [scaled.film.flows(state) for state in states]
-    return (
-        scaled.force * np.array([scaled.film.force(state) for state in states]).T,
-        scaled.gauge(np.array([state.solution.pressure.max() for state in states])),
-        np.minimum([state.solution.theta for state in states], 1.0),
-        scaled.oil * np.array([[one.out, one.drawn_in, one.inflow.sum()] for one in flows]),
-    )
+        states: list[ConservedFilmState] = []
+        for motion in (*motions, last):
+            state, _ = damper.inner_step(state, motion, dt)
+            states.append(state)
+        yield states
 
 
 def _result(
-    scaled: ScaledFilm, rows: _Rows, position: Array, speed: float, turns: int, change: float
+    scaled: ScaledFilm,
+    states: list[ConservedFilmState],
+    position: Array,
+    speed: float,
+    turns: int,
+    change: float,
 ) -> DamperTurn:
-    force, pressure, theta, flows = rows
-    count, (side_flow, drawn_in, inflow) = position.shape[1], flows.mean(axis=0).tolist()
+    outputs, count = np.array([state.output for state in states]).T, position.shape[1]
+    force, (side_flow, drawn_in, inflow) = outputs[:2], outputs[2:5].mean(axis=1).tolist()
     way = position - np.roll(position, 1, axis=1)
     middle = 0.5 * (force + np.roll(force, 1, axis=1))
     return DamperTurn(
@@ -783,8 +613,8 @@ def _result(
         force=force,
         angle=scaled.film.cells.angle % (2.0 * np.pi),
         axial=scaled.axial,
-        peak_pressure=pressure,
-        oil_content=theta,
+        peak_pressure=scaled.gauge(np.array([state.rows["pressure"].max() for state in states])),
+        oil_content=np.minimum([state.rows["theta"] for state in states], 1.0),
         side_flow=side_flow,
         drawn_in=drawn_in,
         inflow=inflow,

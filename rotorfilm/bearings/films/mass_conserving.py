@@ -37,11 +37,13 @@ class ConservedCells(NamedTuple):
     spacing : ndarray, shape (N,) [rad]
         From a line to the next one.
     width : ndarray, shape (M,)
-        Of the cells along the bearing, as a fraction of half its length.
+        Of the cells along the bearing, as fractions of what they cover.
     opening : ndarray of int, shape (N, M)
         Number of the opening of which a cell is part; `FILM` for none.
     grooved : bool
         Whether a groove all round ends the film at mid-length.
+    whole : bool
+        Whether the cells go along the whole length, so that the journal may tilt, and not along half of it.
     """
 
     angle: Array
@@ -49,6 +51,7 @@ class ConservedCells(NamedTuple):
     width: Array
     opening: np.ndarray
     grooved: bool = False
+    whole: bool = False
 
     @property
     def face(self) -> Array:
@@ -68,11 +71,12 @@ class ConservedCells(NamedTuple):
     @property
     def axial(self) -> Array:
         """Middles of the cells along the bearing, 0 at mid-length and 1 at the end, shape (M,)."""
-        return np.cumsum(self.width) - 0.5 * self.width
+        middle = np.cumsum(self.width) - 0.5 * self.width
+        return 2.0 * middle - 1.0 if self.whole else middle
 
     @property
     def conductance(self) -> Array:
-        """1/distance to the next cell of a line, the last to the end, shape (N, M).
+        """1/distance over the faces of a line, shape (N, M + 1), the first one 0 where the film is mirrored.
 
         An opening ends on a face: from there its distance is half a cell.
         """
@@ -81,12 +85,9 @@ class ConservedCells(NamedTuple):
         ends = inside[:, 1:] != inside[:, :-1]
         onward = np.append(half[1:], 0.0)
         to_film = np.where(inside[:, :-1], onward, half)
-        return np.asarray(1.0 / np.where(ends & (onward > 0.0), to_film, half + onward))
-
-    @property
-    def center(self) -> Array:
-        """1/distance from the first cell to a groove at mid-length, shape (N,); 0 without one."""
-        return np.full(len(self.angle), 2.0 / float(self.width[0]) if self.grooved else 0.0)
+        inner = 1.0 / np.where(ends & (onward > 0.0), to_film, half + onward)
+        first = 1.0 / half[0] if self.grooved or self.whole else 0.0
+        return np.insert(inner, 0, first, axis=1)
 
 
 def require_conserved_cells(cells: object) -> None:
@@ -97,7 +98,9 @@ def require_conserved_cells(cells: object) -> None:
 
 
 @lru_cache(maxsize=64)
-def conserved_cells(geometry: FilmGeometry, around: int, along: int) -> ConservedCells:
+def conserved_cells(
+    geometry: FilmGeometry, around: int, along: int, *, whole: bool = False
+) -> ConservedCells:
     """Return the cells of a geometry, uniform between edges.
 
     Parameters
@@ -107,6 +110,8 @@ def conserved_cells(geometry: FilmGeometry, around: int, along: int) -> Conserve
         Lines around the bearing, about.
     along : int
         Cells along half the length, about; at least two on each side of the end of an opening.
+    whole : bool
+        Whether to have those of the other half too; not with a groove all round, which parts the halves.
     """
     openings = geometry.openings()
     pieces = [span for span in geometry.spans() if span.extent > 0.0]
@@ -122,7 +127,10 @@ def conserved_cells(geometry: FilmGeometry, around: int, along: int) -> Conserve
         held = np.arange(start, start + _lines_of(span, pieces, counts)) % lines
         opening[np.ix_(held, middle < span.share)] = k
     spacing = np.repeat([p.extent / n for p, n in zip(pieces, counts, strict=True)], counts)
-    return ConservedCells(np.concatenate(angle), spacing, width, opening, geometry.circumferential)
+    if whole:
+        width = 0.5 * np.concatenate([width[::-1], width])
+        opening = np.hstack([opening[:, ::-1], opening])
+    return ConservedCells(np.concatenate(angle), spacing, width, opening, geometry.circumferential, whole)
 
 
 def _lines_of(span: Span, pieces: list[Span], counts: list[int]) -> int:
@@ -189,53 +197,56 @@ def _means(here: Array, there: Array, opening: np.ndarray, onward: np.ndarray) -
 # Conservation of oil in compiled code (`native/conserved/oil_cells.h`, `oil_search.h`).
 
 
-class OilCells(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class OilCells:
     """The equations of N lines with M cells on each: what flows out of a cell is linear in P and theta.
 
     Attributes
     ----------
-    wedge : ndarray, shape (N, M), or (N, 1) where it is the same along [1/s]
+    wedge : ndarray, shape (N, M) [1/s]
         Oil that a full gap carries over the face after a cell, around the film.
-    around : ndarray, shape (N, M) or (N, 1)
+    around : ndarray, shape (N, M)
         Conductance of that face.
-    along : ndarray, shape (N,)
-        Conductance of a line's cells along the bearing.
-    store : ndarray, shape (N,) [1/s]
-        Oil that a full cell of unit width holds back.
-    width : ndarray, shape (M,)
-        Of the cells along the bearing.
-    conductance : ndarray, shape (N, M)
-        1/distance to the next cell, the last to the end.
-    center : ndarray, shape (N,)
-        1/distance from the first cell to a groove at mid-length, 0 without one.
-    center_pressure, end_pressure : float [1/s]
-        Of that groove, and at the end.
-    old : ndarray, shape (N, M), or None [1/s]
-        Oil that the cells held.
+    store : ndarray, shape (N, M) [1/s]
+        Oil that a full cell holds back.
+    along : ndarray, shape (N, M + 1)
+        Conductance of the faces of a line, from its first end to its last; 0 where it is closed.
+    first_pressure, last_pressure : float [1/s]
+        At the ends of the lines.
     opening : ndarray of int32, shape (N, M)
         Number of a cell's opening; -1 for film.
-    fed : ndarray of uint8, shape (openings,)
+    fed : ndarray of bool, shape (openings,)
         Whether an opening gets a given flow and finds its pressure, or is held.
-    flow : ndarray, shape (openings,) [1/s]
-        That flow.
+    flow : ndarray, shape (openings,)
+        That flow, as `wedge`.
     backward : bool
         Whether the oil is carried against the order of the lines.
+    old : ndarray, shape (N, M), or None [1/s]
+        Oil that the cells held.
     """
 
     wedge: Array
     around: Array
-    along: Array
     store: Array
-    width: Array
-    conductance: Array
-    center: Array
-    center_pressure: float
-    end_pressure: float
-    old: Array | None
+    along: Array
+    first_pressure: float
+    last_pressure: float
     opening: np.ndarray
     fed: np.ndarray
     flow: Array
     backward: bool
+    old: Array | None = None
+
+    @cached_property
+    def struct(self) -> Any:
+        """What C reads; it lasts as long as this."""
+        rows = (self.wedge, self.around, self.store, self.along, self.old)
+        ends = self.first_pressure, self.last_pressure
+        return in_c(
+            "rf_oil_cells",
+            *(*self.opening.shape, len(self.fed), *rows, *ends),
+            *(self.opening, self.fed, self.flow, self.backward),
+        )
 
 
 class OilSolution(NamedTuple):
@@ -260,10 +271,9 @@ class OilSolution(NamedTuple):
 
 def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
     """Return what flows out of every cell, shape (N, M)."""
-    struct, kept = oil_struct(cells)
-    P, content, out = contiguous(pressure), contiguous(theta), np.empty(cells.opening.shape)
-    loops()["rf_oil_outflow"](byref(struct), P.ctypes.data, content.ctypes.data, out.ctypes.data)
-    del kept
+    out = np.empty(cells.opening.shape)
+    P, content = contiguous(pressure), contiguous(theta)
+    loops()["rf_oil_outflow"](byref(cells.struct), *map(address, (P, content, out)))
     return out
 
 
@@ -292,23 +302,22 @@ def solve_oil(
     ConvergenceError
         If there is no such film, as without any supply, or the search does not end.
     """
-    struct, kept = oil_struct(cells)
     P, content = np.array(pressure, dtype=float), np.array(theta, dtype=float)
     full = np.zeros(P.shape, dtype=np.uint8) if guess is None else np.array(guess, dtype=np.uint8)
-    work, places = structure("rf_oil_work")(), (full.ctypes.data, P.ctypes.data, content.ctypes.data)
-    status = loops()["rf_oil_film"](byref(struct), by_newton, guess is not None, *places, byref(work))
-    del kept
-    report_search(status)
+    work = structure("rf_oil_work")()
+    search = by_newton, guess is not None, *map(address, (full, P, content))
+    report_search(loops()["rf_oil_film"](byref(cells.struct), *search, byref(work)))
     return OilSolution(P, content, full, work.solutions, work.newton)
 
 
 def oil_response(
     cells: OilCells,
     full: np.ndarray,
-    storage: NDArray[np.complex128] | Array,
-    right: NDArray[np.complex128] | Array,
-) -> NDArray[np.complex128] | Array:
-    """Return the changes of P in full cells and of theta elsewhere that change the outflow so, sets frozen.
+    storage: Array | NDArray[np.complex128],
+    right: Array | NDArray[np.complex128],
+    coupling: Array | NDArray[np.complex128] | None = None,
+) -> Array | NDArray[np.complex128]:
+    """Return the changes of P where full and of theta elsewhere that change the outflow so, sets frozen.
 
     Parameters
     ----------
@@ -318,43 +327,42 @@ def oil_response(
         What theta holds back beyond `cells.store`, real or complex.
     right : ndarray, shape (K, N, M)
         Changes of the outflow, of the same kind.
+    coupling : ndarray, shape (N, M), optional
+        With it the second half of `right` is less coupling times what comes of the first.
     """
-    struct, kept = oil_struct(cells)
-    sets = np.ascontiguousarray(full, dtype=np.uint8)
-    real = contiguous(storage.real), np.array(right.real, dtype=float, order="C")
-    others = (contiguous(storage.imag), np.array(right.imag, dtype=float, order="C"))
-    imaginary = [part.ctypes.data if np.iscomplexobj(storage) else None for part in others]
-    places = (
-        sets.ctypes.data,
-        real[0].ctypes.data,
-        imaginary[0],
-        len(right),
-        real[1].ctypes.data,
-        imaginary[1],
-    )
-    status = loops()["rf_oil_response"](byref(struct), *places)
-    del kept
-    report_search(status)
-    return real[1] + 1j * others[1] if np.iscomplexobj(storage) else real[1]
+    sets, is_complex = np.ascontiguousarray(full, dtype=np.uint8), np.iscomplexobj(storage)
+    parts = [np.array([part.real, part.imag]) for part in (storage, right)]
+    (real, imaginary), (answer, turned) = parts
+    by = None if coupling is None else np.array([coupling.real, coupling.imag])
+    count = len(right) if by is None else len(right) // 2
+    others = (address(imaginary), address(turned)) if is_complex else (None, None)
+    places = address(sets), address(real), others[0], None if by is None else address(by)
+    report_search(loops()["rf_oil_response"](byref(cells.struct), *places, count, address(answer), others[1]))
+    return answer + 1j * turned if is_complex else answer
 
 
-def oil_struct(cells: OilCells) -> tuple[Any, list[np.ndarray]]:
-    """Return what C reads, and the arrays that it must outlive."""
-    lines, nodes = cells.opening.shape
-    faces = (np.broadcast_to(face, cells.opening.shape) for face in cells[:2])
-    kept: list[np.ndarray] = [contiguous(row) for row in (*faces, *cells[2:7], cells.flow)]
-    kept += [
-        np.ascontiguousarray(cells.opening, dtype=np.int32),
-        np.ascontiguousarray(cells.fed, dtype=np.uint8),
+def in_c(name: str, *members: Any) -> Any:
+    """Return a structure of the C library, in which arrays are addresses; it holds on to them."""
+    kept = [
+        np.ascontiguousarray(one, dtype=KINDS.get(one.dtype.char, float))
+        for one in members
+        if isinstance(one, np.ndarray)
     ]
-    *factors, flow, opening, fed = [row.ctypes.data for row in kept]
-    if cells.old is not None:
-        kept.append(contiguous(cells.old))
-    old = None if cells.old is None else kept[-1].ctypes.data
-    struct = structure("rf_oil_cells")(
-        *(lines, nodes, *factors, *cells[7:9], old, opening, fed, flow, len(cells.flow), cells.backward)
+    rows = iter(kept)
+    struct = structure(name)(
+        *(address(next(rows)) if isinstance(one, np.ndarray) else one for one in members)
     )
-    return struct, kept
+    struct.kept = kept, members
+    return struct
+
+
+KINDS = {"i": np.int32, "l": np.int32, "?": np.uint8, "B": np.uint8}
+"""Types of numbers in C, by their code; all others are `double`."""
+
+
+def address(numbers: np.ndarray) -> int:
+    """Return where the numbers of a contiguous array are."""
+    return numbers.ctypes.data
 
 
 def contiguous(numbers: Array) -> Array:
@@ -378,17 +386,24 @@ ROUNDOFF = 1e-12
 
 
 class Gap(NamedTuple):
-    """The gap of a film over the clearance, at the lines and at the faces after them.
+    """The gap of a film over the clearance, on N lines of M cells, or its slope by a freedom of the journal.
 
     Attributes
     ----------
-    line, face, cube : ndarray, shape (N,)
-        At a line; at a face what carries the oil, and the cube of what conducts it.
+    line, face : ndarray, shape (N, M)
+        At the cells, and at the faces after them around the film.
+    side : ndarray, shape (N, M + 1)
+        At the faces of the cells along the bearing.
     """
 
     line: Array
     face: Array
-    cube: Array
+    side: Array
+
+    @property
+    def struct(self) -> Any:
+        """What C reads."""
+        return in_c("rf_oil_gap", *self)
 
 
 class Supply(NamedTuple):
@@ -440,27 +455,24 @@ class ConservedState(NamedTuple):
         Half the speed, with which the oil is carried.
     equations : OilCells
     solution : OilSolution
-    difference : tuple of float [1/s], [1]
-        Of the step that ended here: rate of its storage, and share that the change in the step before has;
-        rate dt (change of the oil) = dt (flow) + share (change before).
+    storing : float [1/s]
+        Rate of the storage of the step that ended here; 0 of a steady film.
+    lag : float [1]
+        Share that the change in the step before has in it: storing dt (change of the oil) = dt (flow) + lag
+        (change before).
     """
 
     gap: Gap
     rate: float
     equations: OilCells
     solution: OilSolution
-    difference: tuple[float, float] = (0.0, 0.0)
+    storing: float = 0.0
+    lag: float = 0.0
 
     @property
     def content(self) -> Array:
         """Oil theta H of every cell, shape (N, M): what the next step starts from."""
-        return self.solution.theta * self.gap.line[:, None]
-
-
-def circular_gap(cells: ConservedCells, eccentricity: Array) -> Gap:
-    """Return the gap H = 1 - e.n around a journal, eccentricity of shape (2,)."""
-    line, face = (1.0 - eccentricity @ direction(at) for at in (cells.angle, cells.face))
-    return Gap(line, face, face**3)
+        return self.solution.theta * self.gap.line
 
 
 def direction(angle: Array) -> Array:
@@ -499,34 +511,59 @@ class ConservedFilm:
     fluidity: Fluidity | None = None
 
     @cached_property
-    def _grid(self) -> tuple[Array, Array, np.ndarray, np.ndarray]:
-        """Extents, areas, and pressure and theta with the values of held openings."""
-        cells, supply = self.cells, self.supply
-        pressure, theta = np.zeros(cells.opening.shape), np.ones(cells.opening.shape)
-        held = (cells.opening != FILM) & ~np.append(supply.fed, True)[cells.opening]
-        pressure[held] = supply.pressure[cells.opening[held]]
-        return cells.extent, cells.area, pressure, theta
+    def held(self) -> tuple[Array, Array]:
+        """Pressure and theta, with their values in openings that are held, shape (N, M) each."""
+        opening, supply = self.cells.opening, self.supply
+        pressure = np.zeros(opening.shape)
+        held = (opening != FILM) & ~np.append(supply.fed, True)[opening]
+        pressure[held] = supply.pressure[opening[held]]
+        return pressure, np.ones(opening.shape)
 
     @cached_property
     def dragged(self) -> Array:
-        """Twice the share of speed x thickness dragged over the faces after the lines, (N, M or 1)."""
+        """Twice the share of speed x thickness dragged over the faces after the lines, shape (N, M)."""
         if self.fluidity is None:
-            return np.ones((len(self.cells.angle), 1))
+            return np.ones(self.cells.opening.shape)
         return 2.0 * at_faces(self.fluidity.dragged, self.cells.opening != FILM)
 
     @cached_property
-    def _pressed(self) -> tuple[Array, Array, Array]:
-        """Ease of flow around (N, M or 1), and conductances along (N, M) and from the center (N,)."""
-        cells = self.cells
+    def along(self) -> Array:
+        """What a unit gap conducts over the faces of a line, shape (N, M + 1)."""
         if self.fluidity is None:
-            return np.ones((len(cells.angle), 1)), cells.conductance, cells.center
-        pressed, opening = self.fluidity.pressed, cells.opening != FILM
-        along = cells.conductance * at_ends(pressed, opening)
-        return at_faces(pressed, opening), along, cells.center * pressed[:, 0]
+            return self.cells.conductance
+        pressed = self.fluidity.pressed
+        ease = np.hstack([pressed[:, :1], at_ends(pressed, self.cells.opening != FILM)])
+        return self.cells.conductance * ease
 
-    def carried(self, gap: Gap) -> Array:
-        """Return what full gaps carry over the faces after the lines at a unit rate, shape (N, M or 1)."""
-        return gap.face[:, None] * self.dragged
+    @property
+    def shape(self) -> Any:
+        """The film as C reads it."""
+        return shape_of(self)
+
+    @cached_property
+    def directions(self) -> Array:
+        """N = (cos, sin) at the lines and at the faces after them, shape (2, 2, N)."""
+        return np.stack([direction(self.cells.angle), direction(self.cells.face)])
+
+    @property
+    def freedoms(self) -> int:
+        """Of the journal: its place, and with cells over the whole length its tilt."""
+        return 4 if self.cells.whole else 2
+
+    def gap(self, place: Array, full: float = 1.0) -> Gap:
+        """Return the gap `full` - (e + Z tau).n around a journal, with full = 0 the slope by a unit of place.
+
+        Parameters
+        ----------
+        place : ndarray, shape (2,) or (4,)
+            Eccentricity e, and the shift tau of the end Z = 1 against the middle, over the clearance.
+        """
+        (lines, along), places = self.cells.opening.shape, np.zeros(4)
+        places[: len(place)] = place
+        block = np.empty(lines * (3 * along + 1))
+        loops()["rf_circular_gap"](byref(self.shape), full, address(places), address(block))
+        line, face = block[: 2 * lines * along].reshape(2, lines, along)
+        return Gap(line, face, block[2 * lines * along :].reshape(lines, along + 1))
 
     def solve(
         self,
@@ -557,51 +594,52 @@ class ConservedFilm:
             If the film has no supply, so that it empties, or the search does not end.
         """
         equations = self.equations(gap, rate, storage)
-        found = solve_oil(equations, *self._grid[2:], guess, by_newton=by_newton)
-        return ConservedState(gap, rate, equations, found)
+        found = solve_oil(equations, *self.held, guess, by_newton=by_newton)
+        return ConservedState(gap, rate, equations, found, 0.0 if storage is None else storage[0])
 
     def equations(self, gap: Gap, rate: float, storage: Storage | None = None) -> OilCells:
         """Return the equations of the film in a gap."""
-        cells, supply = self.cells, self.supply
-        extent, area = self._grid[:2]
-        ease, conductance, center = self._pressed
-        storing, held = (0.0, None) if storage is None else storage
-        return OilCells(
-            wedge=rate * self.carried(gap),
-            around=(gap.cube / cells.spacing)[:, None] * ease,
-            along=gap.line**3 * extent / self.slenderness**2,
-            store=storing * gap.line * extent,
-            width=cells.width,
-            conductance=conductance,
-            center=center,
-            center_pressure=supply.center_pressure,
-            end_pressure=supply.end_pressure,
-            old=None if held is None else held * area,
-            opening=cells.opening,
-            fed=supply.fed,
-            flow=supply.flow,
-            backward=rate < 0.0,
+        (lines, along), (storing, held) = self.cells.opening.shape, storage or (0.0, None)
+        numbers, struct = np.empty(lines * (4 * along + 1)), structure("rf_oil_cells")()
+        loops()["rf_set_oil"](
+            byref(self.shape), byref(gap.struct), None, rate, storing, byref(struct), address(numbers)
         )
+        wedge, around, store = numbers[: 3 * lines * along].reshape(3, lines, along)
+        old = None if held is None else held * self.cells.area
+        made = OilCells(
+            *(wedge, around, store, numbers[3 * lines * along :].reshape(lines, along + 1)),
+            *(struct.first_pressure, struct.last_pressure, self.cells.opening, self.supply.fed),
+            *(self.supply.flow, bool(rate < 0.0), old),
+        )
+        struct.kept, struct.old = (numbers, old, self.shape), None if old is None else address(old)
+        vars(made)["struct"] = struct  # as it would make one of its own
+        return made
 
     @cached_property
     def weights(self) -> Array:
-        """Integrals of n over the cells, shape (2, N, M)."""
-        return direction(self.cells.angle)[:, :, None] * self._grid[1]
+        """Integrals of n, and with a tilt of Z n, over the cells, shape (freedoms, N, M)."""
+        onto = self.directions[0][:, :, None] * self.cells.area
+        return np.vstack([onto, self.cells.axial * onto]) if self.cells.whole else onto
 
     def force(self, state: ConservedState) -> Array:
-        """Return the force on the journal over viscosity length radius^3/clearance^2, shape (2,) [1/s]."""
-        return -12.0 * np.tensordot(self.weights, state.solution.pressure - self.supply.end_pressure, 2)
+        """Return the force on the journal over viscosity length radius^3/clearance^2 [1/s].
+
+        With a tilt the moments too, over half the length, as those of `place` have it; shape (freedoms,).
+        """
+        P = state.solution.pressure - self.supply.end_pressure
+        return np.asarray(-12.0 * (self.weights.reshape(self.freedoms, -1) @ P.ravel()))
 
     def flows(self, state: ConservedState) -> OilFlows:
         """Return the flows into and out of the film."""
-        cells, equations, P = self.cells, state.equations, state.solution.pressure
-        outflow = oil_outflow(equations, P, state.solution.theta)
-        ends = equations.along * equations.conductance[:, -1] * self.falls(state)[:, -1]
-        film = cells.opening == FILM
+        cells, equations = self.cells, state.equations
+        outflow = oil_outflow(equations, state.solution.pressure, state.solution.theta)
+        film, through = cells.opening == FILM, equations.along * self.falls(state)
         inflow = np.bincount(cells.opening[~film], outflow[~film], len(equations.flow))
-        if cells.grooved:
-            drop = equations.center_pressure - P[:, 0]
-            inflow = np.append(inflow, np.sum(equations.along * equations.center * drop))
+        ends = through[:, -1]
+        if cells.whole:
+            ends = np.append(ends, -through[:, 0])
+        elif cells.grooved:
+            inflow = np.append(inflow, np.sum(through[:, 0]))
         return OilFlows(
             out=float(np.maximum(ends, 0.0).sum()),
             drawn_in=float(np.maximum(-ends, 0.0).sum()),
@@ -610,10 +648,10 @@ class ConservedFilm:
         )
 
     def falls(self, state: ConservedState) -> Array:
-        """Return by how much the pressure falls from cell to cell along the bearing, (N, M) [1/s]."""
-        end = state.equations.end_pressure
-        fall = -np.diff(state.solution.pressure, append=end)
-        fall[np.abs(fall) <= ROUNDOFF * end] = 0.0
+        """Return by how much the pressure falls over the faces along the bearing, shape (N, M + 1) [1/s]."""
+        first, last = state.equations.first_pressure, state.equations.last_pressure
+        fall = -np.diff(state.solution.pressure, prepend=first, append=last)
+        fall[np.abs(fall) <= ROUNDOFF * last] = 0.0
         return fall
 
     def shear(self, state: ConservedState) -> float:
@@ -625,7 +663,8 @@ class ConservedFilm:
         if self.fluidity is not None:
             sheared = sheared * self.fluidity.sheared
         rise = (np.roll(P, -1, axis=0) - P) * self.cells.width
-        return float(2.0 * state.rate * np.sum(sheared) + 6.0 * np.sum(self.carried(state.gap) * rise))
+        dragged = state.gap.face * self.dragged
+        return float(2.0 * state.rate * np.sum(sheared) + 6.0 * np.sum(dragged * rise))
 
     def sheared_area(self, state: ConservedState) -> Array:
         """Return the integral of theta/H over the cells of film, shape (N, M) [rad].
@@ -633,11 +672,27 @@ class ConservedFilm:
         Up to the edges of openings: of the cell of an edge half is film, and full.
         """
         cells, per_gap = self.cells, 1.0 / state.gap.line
-        film, half = cells.opening == FILM, 0.5 * cells.spacing
-        own = state.solution.theta * (cells.extent * per_gap)[:, None]
-        behind = np.where(np.roll(film, 1, axis=0), 0.0, np.roll(half * per_gap, 1)[:, None])
-        before = np.where(np.roll(film, -1, axis=0), 0.0, (half * np.roll(per_gap, -1))[:, None])
+        film, half = cells.opening == FILM, 0.5 * cells.spacing[:, None]
+        own = state.solution.theta * (cells.extent[:, None] * per_gap)
+        behind = np.where(np.roll(film, 1, axis=0), 0.0, np.roll(half * per_gap, 1, axis=0))
+        before = np.where(np.roll(film, -1, axis=0), 0.0, half * np.roll(per_gap, -1, axis=0))
         return np.where(film, own + behind + before, 0.0) * cells.width
+
+
+@lru_cache(maxsize=64)
+def shape_of(film: ConservedFilm) -> Any:
+    """Return a film as C reads it, made once."""
+    cells, supply = film.cells, film.supply
+    given: tuple[Array | None, Array | None] = (None, None)
+    if film.fluidity is not None:
+        given = at_faces(film.fluidity.pressed, cells.opening != FILM), film.dragged
+    first = supply.end_pressure if cells.whole else supply.center_pressure
+    return in_c(
+        "rf_oil_shape",
+        *(*cells.opening.shape, len(supply.fed), cells.spacing, film.directions, cells.width, film.along),
+        *(*given, cells.opening, supply.fed, supply.flow, supply.pressure),
+        *(first, supply.end_pressure, film.slenderness, cells.whole),
+    )
 
 
 # What flows into a film that conserves its oil, and out of it.
@@ -665,15 +720,15 @@ class OilFlows(NamedTuple):
 # Reynolds' rupture on the cells of a film that conserves its oil: what the mass is worth, on equal terms.
 
 
-def reynolds_state(film: ConservedFilm, gap: Gap, gap_rate: Array) -> ConservedState:
-    """Return the film with Reynolds' rupture in a gap that changes by `gap_rate`, shape (N,) [1/s].
+def reynolds_state(film: ConservedFilm, place: Array, velocity: Array) -> ConservedState:
+    """Return the film with Reynolds' rupture of a journal at a place that it leaves with a velocity [1/s].
 
     It is what a film that was full until now makes of its next moment, however short that is: the pressure
     does not depend on its length, and theta says nothing.
     """
-    moment = float(np.max(np.abs(gap_rate) / gap.line)) or 1.0
-    held = np.repeat((moment * gap.line - gap_rate)[:, None], film.cells.width.size, axis=1)
-    return film.solve(gap, 0.0, storage=(moment, held))
+    gap, rate = film.gap(place), film.gap(velocity, 0.0).line
+    moment = float(np.max(np.abs(rate) / gap.line)) or 1.0
+    return film.solve(gap, 0.0, storage=(moment, moment * gap.line - rate))
 
 
 # Air that the ends of a film would draw in where there is no oil around them.

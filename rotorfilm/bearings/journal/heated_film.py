@@ -26,9 +26,9 @@ from ..films.mass_conserving import (
     ConservedFilm,
     ConservedState,
     Fluidity,
-    circular_gap,
     conserved_cells,
 )
+from ..films.mass_conserving_steps import ScaledFilm
 from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
@@ -586,8 +586,8 @@ class HeatedJFOFilm(HeatRounds):
         bearing, frozen = self.bearing, self._frozen(temperature)
         film = frozen.film
         cells, start = film.cells, np.roll(film.cells.face, 1)
-        state = film.solve(circular_gap(cells, position / bearing.clearance), 0.5 * speed)
-        seen = jfo_state(frozen.bearing, film, state, position, frozen.cavitation_pressure)
+        state = film.solve(film.gap(position / bearing.clearance), 0.5 * speed)
+        seen = jfo_state(frozen, state, position)
         (inflow, arriving), pumped = frozen.supplied(state)
         flow = conserved_flow(film, state)
         heating = self._heating(cells.opening, flow, speed, temperature, closing)
@@ -638,19 +638,18 @@ def conserved_flow(film: ConservedFilm, state: ConservedState) -> FilmFlow:
     opening = cells.opening != FILM
     upstream = np.roll(theta, -1, axis=0) if equations.backward else theta
     rise = np.roll(P, -1, axis=0) - P
-    dragged = equations.wedge * upstream * cells.width
-    pressed = -equations.around * rise * cells.width
-    axial = equations.along[:, None] * equations.conductance * film.falls(state)
+    dragged, pressed = equations.wedge * upstream, -equations.around * rise
+    axial = (equations.along * film.falls(state))[:, 1:]
     axial[opening[:, -1], -1] = 0.0
-    central = equations.along * equations.center * (equations.center_pressure - P[:, 0])
+    central = equations.along[:, 0] * (equations.first_pressure - P[:, 0])
     from_groove = central if cells.grooved else None
     entering, leaving = through(dragged + pressed, axial, from_groove)
     weight = film_weight(full > 0, opening)
-    struck = equations.wedge * (1.0 - upstream) * rise * cells.width
+    struck = equations.wedge * (1.0 - upstream) * rise
     power = in_cells(struck - pressed * rise, axial[:, :-1] * (P[:, :-1] - P[:, 1:]), weight)
-    power[:, -1] += axial[:, -1] * (P[:, -1] - equations.end_pressure)
-    power[:, 0] += central * (equations.center_pressure - P[:, 0])
-    climbing = state.gap.face[:, None] * rise * cells.width
+    power[:, -1] += axial[:, -1] * (P[:, -1] - equations.last_pressure)
+    power[:, 0] += central * (equations.first_pressure - P[:, 0])
+    climbing = state.gap.face * rise * cells.width
     return FilmFlow(
         dragged=dragged,
         pressed=pressed,
@@ -684,9 +683,10 @@ class FrozenJFOFilm(JFOFilm):
     fluidity: Fluidity
 
     @cached_property
-    def film(self) -> ConservedFilm:
-        """The film without dimensions; see `ConservedFilm`."""
-        return replace(super().film, fluidity=self.fluidity)
+    def scaled(self) -> ScaledFilm:
+        """The film without dimensions, its units, and what is beside it; see `ScaledFilm`."""
+        uniform = super().scaled
+        return replace(uniform, film=replace(uniform.film, fluidity=self.fluidity))
 
     def at_temperature(self, temperature: float) -> NoReturn:
         """Raise InputError: the temperature of each cell is given already."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from numbers import Number
-from typing import ClassVar, cast
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,20 +21,10 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
-from ...core.port import Tangent
 from ...core.readable import Drawable, Readable
 from ...core.results import BearingLosses, ReducedCoefficients
-from ..films.mass_conserving import (
-    FILM,
-    ConservedFilm,
-    ConservedState,
-    Supply,
-    circular_gap,
-    conserved_cells,
-    require_conserved_cells,
-    warn_of_air,
-)
-from ..films.mass_conserving_steps import FilmInMotion, OilNumbers, SteppedFilm, slow_motion, speed_slope
+from ..films.mass_conserving import FILM, ConservedFilm, ConservedState, Supply, conserved_cells, warn_of_air
+from ..films.mass_conserving_steps import FilmInMotion, MassConserving, ScaledFilm
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
@@ -51,26 +40,26 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     Over clearance, radius and length; a face has one or the other. A groove all round is the last.
     """
     cells, equations = film.cells, state.equations
-    P, theta, width = state.solution.pressure, state.solution.theta, cells.width
+    P, theta, through = state.solution.pressure, state.solution.theta, equations.along * film.falls(state)
     after, onward = np.roll(cells.opening, -1, axis=0), cells.opening[:, 1:]
     upstream = np.roll(theta, -1, axis=0) if equations.backward else theta
-    carried = equations.wedge * upstream
-    around = (carried + equations.around * (P - np.roll(P, -1, axis=0))) * width
-    along = equations.along[:, None] * equations.conductance[:, :-1] * (P[:, :-1] - P[:, 1:])
+    around = equations.wedge * upstream + equations.around * (P - np.roll(P, -1, axis=0))
     leaving, arriving = (np.zeros(len(equations.flow)) for _ in range(2))
-    for flow, here, there in ((around, cells.opening, after), (along, cells.opening[:, :-1], onward)):
+    for flow, here, there in (
+        (around, cells.opening, after),
+        (through[:, 1:-1], cells.opening[:, :-1], onward),
+    ):
         for sign, own, other in ((1.0, here, there), (-1.0, there, here)):
             edge = (own != FILM) & (other != own)
             out = sign * flow[edge]
             leaving += np.bincount(own[edge], np.maximum(out, 0.0), len(leaving))
             arriving += np.bincount(own[edge], np.maximum(-out, 0.0), len(arriving))
-    ends = equations.along * equations.conductance[:, -1] * (P[:, -1] - equations.end_pressure)
     open_end = cells.opening[:, -1] != FILM
-    leaving += np.bincount(cells.opening[open_end, -1], np.maximum(ends[open_end], 0.0), len(leaving))
+    ends = np.maximum(through[open_end, -1], 0.0)
+    leaving += np.bincount(cells.opening[open_end, -1], ends, len(leaving))
     if not cells.grooved:
         return leaving, arriving
-    center = equations.along * equations.center * (equations.center_pressure - P[:, 0])
-    parts = (np.maximum(sign * center, 0.0).sum() for sign in (1.0, -1.0))
+    parts = (np.maximum(sign * through[:, 0], 0.0).sum() for sign in (1.0, -1.0))
     both = (np.append(flow, part) for flow, part in zip((leaving, arriving), parts, strict=True))
     return next(both), next(both)
 
@@ -88,9 +77,13 @@ def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
 # A journal bearing whose film conserves its oil where it ruptures, in SI units.
 
 
+AT_REST = np.eye(2)
+"""Axes in which the film of a journal stands."""
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm(SteppedFilm):
+class JFOFilm(MassConserving):
     """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
 
     Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
@@ -152,12 +145,9 @@ class JFOFilm(SteppedFilm):
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing")
-        require_conserved_cells(self.cells)
+        self._require_fields(self.cavitation_pressure, self.submerged)
         if self.supply_flow is not None:
             require_positive("supply_flow", self.supply_flow)
-        if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
-            raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
-        require_kind("submerged", self.submerged, bool, "True or False")
         oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
 
     @property
@@ -165,34 +155,28 @@ class JFOFilm(SteppedFilm):
         """Radial clearance of the bearing [m]."""
         return self.bearing.clearance
 
-    @property
-    def scales(self) -> tuple[float, float]:
-        """Units of the force [N s] and of the oil, clearance radius length [m3]."""
-        return self.bearing.force_scale, self.clearance * self.bearing.radius * self.bearing.film_length
-
-    @property
-    def numbers(self) -> OilNumbers:
-        """What its kernel has besides the film."""
+    @cached_property
+    def scaled(self) -> ScaledFilm:
+        """The film without dimensions, its units, and what is beside it; see `ScaledFilm`."""
         bearing = self.bearing
+        bearing.require_temperature()
+        supply = oil_supply(bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
+        film = ConservedFilm(conserved_cells(bearing.geometry, *self.cells), bearing.slenderness, supply)
         # Openings that end in the bearing are at the supply.
         supplied = np.array([span.share < 1.0 for span in bearing.geometry.openings()], dtype=bool)
         pressed = self.supply_flow is None and (supplied.any() or bearing.geometry.circumferential)
-        return OilNumbers(
+        return ScaledFilm(
+            film=film,
             radius=bearing.radius,
+            clearance=bearing.clearance,
             viscosity=bearing.film_viscosity,
+            area=bearing.radius * bearing.film_length,
+            carrying=0.5,
+            axial=0.5 * (bearing.length - bearing.film_length * (1.0 - film.cells.axial)),
             cavitation_pressure=self.cavitation_pressure,
             supplied=supplied,
             supply_pressure=bearing.supply_pressure if pressed else None,
             supply_flow=self.supply_flow,
-        )
-
-    @cached_property
-    def film(self) -> ConservedFilm:
-        """The film without dimensions, for steps in time; see `ConservedFilm`."""
-        self.bearing.require_temperature()
-        supply = oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
-        return ConservedFilm(
-            conserved_cells(self.bearing.geometry, *self.cells), self.bearing.slenderness, supply
         )
 
     @arguments
@@ -216,7 +200,7 @@ class JFOFilm(SteppedFilm):
             If the search for the cavity does not end.
         """
         q, state = self._steady(position, speed)
-        found = jfo_state(self.bearing, self.film, state, q, self.cavitation_pressure)
+        found = jfo_state(self, state, q)
         warn_of_air(self.submerged, found.drawn_in, found.side_flow)
         return found
 
@@ -231,13 +215,11 @@ class JFOFilm(SteppedFilm):
         s : complex [1/s]
             Growth rate + i frequency.
         """
-        if not isinstance(s, Number) or not np.isfinite(s):
-            raise InputError(f"s must be a finite number, got {s!r}")
-        return self.dynamic_stiffness(position, speed).stiffness(complex(s))
+        return self._stiffness(self._steady(position, speed)[1], s)
 
     def dynamic_stiffness(self, position: ArrayLike, speed: float) -> FilmInMotion:
         """Return K(s) and dK/ds about a journal at rest, as a function of s; see `core.port`."""
-        return FilmInMotion(self.film, self._steady(position, speed)[1], self._per_length)
+        return self.scaled.about(self._steady(position, speed)[1])
 
     @arguments
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
@@ -251,44 +233,16 @@ class JFOFilm(SteppedFilm):
             As in `solve`.
         """
         q, state = self._steady(position, speed)
-        K, C = self._slow(state)
+        K, C, _ = self.scaled.about(state).slow()
         return ReducedCoefficients(stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0)
 
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on a journal at rest, shape (2,) [N].
-
-        Raises
-        ------
-        InputError
-            If an argument breaks its rule, or the velocity is not 0.
-        FilmContactError, ConvergenceError
-            As `solve`.
-        """
-        _, state = self._at_rest(position, velocity, speed)
-        return self.bearing.force_scale * self.film.force(state)
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return d force / d (x, y, vx, vy, speed), shape (2, 5): in slow motion, at velocity 0.
-
-        Raises
-        ------
-        InputError, FilmContactError, ConvergenceError
-            As `force`.
-        """
-        _, state = self._at_rest(position, velocity, speed)
-        return self._jacobian(state)
-
-    def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as a function of five numbers."""
-
-        def tangent(
-            x: float, y: float, vx: float, vy: float, speed: float
-        ) -> tuple[float, float, list[float]]:
-            _, state = self._at_rest((x, y), (vx, vy), speed)
-            force_x, force_y = (self.bearing.force_scale * self.film.force(state)).tolist()
-            return force_x, force_y, self._jacobian(state).ravel().tolist()
-
-        return tangent
+    def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
+        """Return the film of a journal at rest, in axes at rest; InputError unless the velocity is 0."""
+        if np.any(velocity):
+            raise InputError(f"velocity must be (0, 0) for a film that remembers, got {velocity!r}")
+        require_inside(position, self.clearance)
+        film = self.film
+        return film.solve(film.gap(position / self.clearance), 0.5 * speed), AT_REST, 0.0
 
     def at_temperature(self, temperature: float) -> JFOFilm:
         """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
@@ -316,8 +270,9 @@ class JFOFilm(SteppedFilm):
         InputError, FilmContactError, ConvergenceError
             As `force`.
         """
-        q, state = self._at_rest(position, velocity, speed)
-        found = jfo_state(self.bearing, self.film, state, q, self.cavitation_pressure)
+        q, omega = require_pair("position", position), require_number("speed", speed)
+        state, *_ = self.at_place(q, require_finite("velocity", velocity), omega)
+        found = jfo_state(self, state, q)
         (inflow, arriving), pumped = self.supplied(state)
         torque, force = found.friction_torque, found.force
         return BearingLosses(
@@ -334,9 +289,9 @@ class JFOFilm(SteppedFilm):
 
         The flows are in the order of `opening_flows`.
         """
-        film, bearing, (_, volume) = self.film, self.bearing, self.scales
-        inflow, arriving = (volume * flow for flow in opening_flows(film, state))
-        pressure = bearing.pressure_scale * (opening_pressure(film, state) - film.supply.end_pressure)
+        film, scaled = self.film, self.scaled
+        inflow, arriving = (scaled.oil * flow for flow in opening_flows(film, state))
+        pressure = scaled.pressure * (opening_pressure(film, state) - film.supply.end_pressure)
         return (inflow, arriving), float(pressure @ (inflow - arriving))
 
     @property
@@ -380,29 +335,9 @@ class JFOFilm(SteppedFilm):
             return balance_temperature(heat(cooling.coldest), oil, cooling)
         return fed_temperature(heat, oil, cooling)
 
-    @property
-    def _per_length(self) -> float:
-        return self.bearing.force_scale / self.clearance
-
-    def _slow(self, state: ConservedState) -> tuple[Array, Array]:
-        stiffness, damping = slow_motion(self.film, state)
-        return self._per_length * stiffness, self._per_length * damping
-
-    def _jacobian(self, state: ConservedState) -> Array:
-        by_motion = -np.hstack(self._slow(state))
-        return np.column_stack([by_motion, self.bearing.force_scale * speed_slope(self.film, state)])
-
-    def _at_rest(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
-    ) -> tuple[Array, ConservedState]:
-        if np.any(require_finite("velocity", velocity)):
-            raise InputError(f"velocity must be (0, 0) for a film that remembers, got {velocity!r}")
-        return self._steady(position, cast(float, np.asarray(speed)[()]))
-
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_pair("position", position), require_number("speed", speed)
-        require_inside(q, self.clearance)
-        return q, self.film.solve(circular_gap(self.film.cells, q / self.clearance), 0.5 * omega)
+        return q, self.at_place(q, np.zeros(2), omega)[0]
 
 
 # What a film that conserves its oil says at one place of the journal, in SI units.
@@ -453,30 +388,18 @@ class JFOState(StaticFilm, Drawable):
     newton_steps: int
 
 
-def jfo_state(
-    bearing: JournalBearing, film: ConservedFilm, state: ConservedState, position: Array, cavitation: float
-) -> JFOState:
-    """Return a film in SI units; `cavitation` is the gauge pressure of the cavity [Pa]."""
-    flows, found = film.flows(state), state.solution
-    speed, flow_unit = 2.0 * state.rate, bearing.clearance * bearing.radius * bearing.film_length
-    torque = bearing.force_scale * bearing.clearance * film.shear(state)
-    entering = float(np.maximum(flows.inflow, 0.0).sum()) + flows.drawn_in
+def jfo_state(film: JFOFilm, state: ConservedState, position: Array) -> JFOState:
+    """Return a film in SI units, of a journal at a position [m]."""
+    scaled, speed = film.scaled, 2.0 * state.rate
+    torque = scaled.force * scaled.clearance * scaled.film.shear(state)
     return JFOState(
         position=position,
         speed=speed,
-        force=bearing.force_scale * film.force(state),
-        angle=film.cells.angle % (2.0 * np.pi),
-        axial=0.5 * (bearing.length - bearing.film_length * (1.0 - film.cells.axial)),
-        pressure=bearing.pressure_scale * np.maximum(found.pressure, 0.0) + cavitation,
-        oil_content=np.minimum(found.theta, 1.0),
-        side_flow=flow_unit * flows.out,
-        drawn_in=flow_unit * flows.drawn_in,
-        inflow=flow_unit * flows.inflow,
+        force=scaled.force * scaled.film.force(state),
         friction_torque=torque,
         power_loss=torque * speed,
-        mass_defect=flows.defect / entering if entering > 0.0 else 0.0,
-        solutions=found.solutions,
-        newton_steps=found.newton,
+        newton_steps=state.solution.newton,
+        **scaled.fields(state),
     )
 
 

@@ -6,6 +6,13 @@
 #include "../grids/vectors.h"
 #include "../status.h"
 
+/* Into functions for each width of registers. */
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#else
+#define INLINE static inline
+#endif
+
 /* Pieces of a row, or of a vector, in both parts; no imaginary one where all is real. */
 typedef struct rf_piece {
     double *real, *imaginary;
@@ -24,7 +31,7 @@ static inline rf_piece in_row(const rf_border_band *band, size_t row, size_t at)
 
 static inline rf_piece in_last(const rf_border_band *band, size_t row, size_t at)
 {
-    return piece(band->last, band->imaginary_last, row * (band->size + band->border) + at);
+    return piece(band->last, band->imaginary_last, row * rf_last_stride(band) + at);
 }
 
 static inline size_t below(const rf_border_band *band, size_t p)
@@ -35,7 +42,7 @@ static inline size_t below(const rf_border_band *band, size_t p)
 
 void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real, double imaginary)
 {
-    const size_t far = column < band->size ? band->half + column - row : band->half + 1 + band->half + column - band->size;
+    const size_t far = column < band->size ? band->half + column - row : rf_band_reach(band) + column - band->size;
     const rf_piece entry = row < band->size ? in_row(band, row, far) : in_last(band, row - band->size, column);
     entry.real[0] += real;
     if (entry.imaginary)
@@ -43,7 +50,7 @@ void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real
 }
 
 /* Divide an entry by the pivot; whether anything is left of it. */
-static inline int scale(rf_piece entry, rf_piece pivot)
+INLINE int scale(rf_piece entry, rf_piece pivot)
 {
     if (!pivot.imaginary) {
         entry.real[0] *= pivot.real[0];
@@ -56,7 +63,7 @@ static inline int scale(rf_piece entry, rf_piece pivot)
 }
 
 /* y -= a x */
-static inline void take(size_t n, rf_piece a, rf_piece x, rf_piece y)
+INLINE void take(size_t n, rf_piece a, rf_piece x, rf_piece y)
 {
     rf_subtract(n, a.real[0], x.real, y.real);
     if (!a.imaginary)
@@ -79,12 +86,12 @@ static int invert(rf_piece pivot)
     return 1;
 }
 
-static inline int factorize_rows(const rf_border_band *band)
+INLINE int factorize_rows(const rf_border_band *band)
 {
-    const size_t half = band->half, border = band->border;
+    const size_t half = band->half, beside = rf_band_beside(band), whole = rf_whole_vectors(half);
     for (size_t p = 0; p < band->size; ++p) {
         const rf_piece pivot = in_row(band, p, half), after = in_row(band, p, half + 1);
-        const rf_piece beside = in_row(band, p, 2 * half + 1);
+        const rf_piece far = in_row(band, p, half + 1 + whole);
         const size_t reach = below(band, p);
         if (!invert(pivot))
             return RF_STUCK;
@@ -92,51 +99,37 @@ static inline int factorize_rows(const rf_border_band *band)
             const rf_piece factor = in_row(band, p + d, half - d);
             if (!scale(factor, pivot))
                 continue;
-            take(reach, factor, after, in_row(band, p + d, half - d + 1));
-            take(border, factor, beside, in_row(band, p + d, 2 * half + 1));
+            take(whole, factor, after, in_row(band, p + d, half - d + 1));
+            take(beside, factor, far, in_row(band, p + d, half + 1 + whole));
         }
-        for (size_t b = 0; b < border; ++b) {
+        for (size_t b = 0; b < band->border; ++b) {
             const rf_piece factor = in_last(band, b, p);
             if (!scale(factor, pivot))
                 continue;
             take(reach, factor, after, in_last(band, b, p + 1));
-            take(border, factor, beside, in_last(band, b, band->size));
+            take(beside, factor, far, in_last(band, b, band->size));
         }
     }
     return RF_OK;
 }
 
-/* The same, but the compiler knows that all is real. */
-RF_CLONES_OF_OIL
-static int factorize_real_rows(const rf_border_band *band)
+INLINE int factorize_corner(const rf_border_band *band)
 {
-    const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
-    return factorize_rows(&real);
-}
-
-static int factorize_corner(const rf_border_band *band)
-{
-    const size_t size = band->size, border = band->border;
+    const size_t size = band->size, border = band->border, beside = rf_band_beside(band);
     for (size_t p = 0; p < border; ++p) {
         const rf_piece pivot = in_last(band, p, size + p);
         if (!invert(pivot))
             return RF_STUCK;
         for (size_t b = p + 1; b < border; ++b)
             if (scale(in_last(band, b, size + p), pivot))
-                take(border - 1 - p, in_last(band, b, size + p), in_last(band, p, size + p + 1),
+                take(beside - 1 - p, in_last(band, b, size + p), in_last(band, p, size + p + 1),
                      in_last(band, b, size + p + 1));
     }
     return RF_OK;
 }
 
-int rf_factorize_band(rf_border_band *band)
-{
-    const int status = band->imaginary_rows ? factorize_rows(band) : factorize_real_rows(band);
-    return status == RF_OK ? factorize_corner(band) : status;
-}
-
 /* y -= row.x */
-static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
+INLINE void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
 {
     y.real[0] -= rf_product(n, row.real, x.real);
     if (!y.imaginary)
@@ -145,21 +138,20 @@ static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
     y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
 }
 
-static inline void forward(const rf_border_band *band, double *real, double *imaginary)
+/* Column by column, so that what is found at last is needed at once by a number of its own only. */
+INLINE void forward(const rf_border_band *band, double *real, double *imaginary)
 {
-    const size_t half = band->half, size = band->size;
-    for (size_t p = 1; p < size; ++p) {
-        const size_t reach = p < half ? p : half;
-        take_product(reach, in_row(band, p, half - reach), piece(real, imaginary, p - reach),
-                     piece(real, imaginary, p));
-    }
+    for (size_t p = 0; p < band->size; ++p)
+        for (size_t d = 1; d <= below(band, p); ++d)
+            take(1, in_row(band, p + d, band->half - d), piece(real, imaginary, p), piece(real, imaginary, p + d));
     for (size_t b = 0; b < band->border; ++b)
-        take_product(size + b, in_last(band, b, 0), piece(real, imaginary, 0), piece(real, imaginary, size + b));
+        take_product(band->size + b, in_last(band, b, 0), piece(real, imaginary, 0),
+                     piece(real, imaginary, band->size + b));
 }
 
-static inline void backward(const rf_border_band *band, double *real, double *imaginary)
+INLINE void backward(const rf_border_band *band, double *real, double *imaginary)
 {
-    const size_t half = band->half, size = band->size, border = band->border;
+    const size_t half = band->half, size = band->size, border = band->border, reach = rf_band_reach(band);
     for (size_t b = border; b-- > 0;) {
         const rf_piece x = piece(real, imaginary, size + b);
         take_product(border - 1 - b, in_last(band, b, size + b + 1), piece(real, imaginary, size + b + 1), x);
@@ -167,10 +159,32 @@ static inline void backward(const rf_border_band *band, double *real, double *im
     }
     for (size_t p = size; p-- > 0;) {
         const rf_piece x = piece(real, imaginary, p);
-        take_product(below(band, p), in_row(band, p, half + 1), piece(real, imaginary, p + 1), x);
-        take_product(border, in_row(band, p, 2 * half + 1), piece(real, imaginary, size), x);
-        scale(x, in_row(band, p, half));
+        take_product(border, in_row(band, p, reach), piece(real, imaginary, size), x);
+        if (scale(x, in_row(band, p, half)))
+            for (size_t d = 1; d <= half && d <= p; ++d)
+                take(1, in_row(band, p - d, half + d), x, piece(real, imaginary, p - d));
     }
+}
+
+/* The compiler is to know which of both there are. */
+RF_CLONES_OF_OIL
+static int factorize_real(const rf_border_band *band)
+{
+    const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
+    return factorize_rows(&real) == RF_OK ? factorize_corner(&real) : RF_STUCK;
+}
+
+RF_CLONES_OF_OIL
+static int factorize_complex(const rf_border_band *band)
+{
+    return factorize_rows(band) == RF_OK ? factorize_corner(band) : RF_STUCK;
+}
+
+RF_CLONES_OF_OIL
+static void finish_real(const rf_border_band *band, double *x)
+{
+    const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
+    backward(&real, x, NULL);
 }
 
 RF_CLONES_OF_OIL
@@ -181,12 +195,39 @@ static void solve_real(const rf_border_band *band, double *x)
     backward(&real, x, NULL);
 }
 
-void rf_solve_band(const rf_border_band *band, double *real, double *imaginary)
+RF_CLONES_OF_OIL
+static void solve_complex(const rf_border_band *band, double *real, double *imaginary)
 {
-    if (!imaginary) {
-        solve_real(band, real);
-        return;
-    }
     forward(band, real, imaginary);
     backward(band, real, imaginary);
+}
+
+/* The right-hand side in the matrix. */
+static double *right_of(const rf_border_band *band, size_t row)
+{
+    return row < band->size ? band->rows + row * rf_band_stride(band) + rf_band_reach(band) + band->border
+                            : band->last + (row - band->size) * rf_last_stride(band) + band->size + band->border;
+}
+
+int rf_factorize_band(rf_border_band *band, double *right)
+{
+    if (band->imaginary_rows)
+        return factorize_complex(band);
+    for (size_t p = 0; right && p < band->size + band->border; ++p)
+        *right_of(band, p) = right[p];
+    const int status = factorize_real(band);
+    if (!right || status != RF_OK)
+        return status;
+    for (size_t p = 0; p < band->size + band->border; ++p)
+        right[p] = *right_of(band, p);
+    finish_real(band, right);
+    return RF_OK;
+}
+
+void rf_solve_band(const rf_border_band *band, double *real, double *imaginary)
+{
+    if (imaginary)
+        solve_complex(band, real, imaginary);
+    else
+        solve_real(band, real);
 }

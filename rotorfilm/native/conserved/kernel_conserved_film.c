@@ -4,10 +4,10 @@
    says so stiffness [N/m]. Inputs x, y, vx, vy [m, m/s], speed [rad/s] at the end of a step. Outputs at the end of the last
    step: force_x, force_y [N], side_flow, drawn_in, inflow [m3/s], oil_volume [m3]; over that step
    mean_side_flow, mean_drawn_in, mean_inflow [m3/s].
-   Tables: film (12: radius, clearance [m], film area [m2], length/diameter, cavitation pressure [Pa], share of the speed that
-   carries oil, 1/distance to a groove all round, limits of inner steps as rf_oil_film_si has them, whether there is a supply,
-   whether it is a flow, whether there are springs), lines (5 x N: spacing, direction), cells (2 x N x M: conductance, opening),
-   width (M), supplied (of the openings, with one more: whether it is at the supply). */
+   Tables: film (11: radius, clearance [m], film area [m2], length/diameter, cavitation pressure [Pa], share of the speed that
+   carries oil, limits of inner steps as rf_oil_film_si has them, whether there is a supply, whether it is a flow, whether
+   there are springs), lines (5 x N: spacing, direction), along (N x (M + 1)), opening (N x M), width (M), supplied (of the
+   openings, with one more: whether it is at the supply). */
 
 /* Documentation of the FMU
 
@@ -37,7 +37,7 @@
 
 #define MOST_LINES 10000u
 
-enum { RADIUS, CLEARANCE, AREA, SLENDERNESS, CAVITY, CARRYING, CENTER, ANGLE, WAY, SUPPLIED, FLOWS, SPRINGS, NUMBERS };
+enum { RADIUS, CLEARANCE, AREA, SLENDERNESS, CAVITY, CARRYING, ANGLE, WAY, SUPPLIED, FLOWS, SPRINGS, NUMBERS };
 
 typedef struct model {
     rf_oil_film_si film;
@@ -65,7 +65,7 @@ static int take_film(model *self, const rf_tables *tables, rf_message *why)
         return RF_INVALID;
     const double *is = film->numbers;
     if (film->extent[0] != NUMBERS || !(is[RADIUS] > 0.0 && is[CLEARANCE] > 0.0 && is[AREA] > 0.0 && is[SLENDERNESS] > 0.0)
-        || !(is[CAVITY] <= 0.0 && is[CENTER] >= 0.0 && is[ANGLE] > 0.0 && is[WAY] > 0.0))
+        || !(is[CAVITY] <= 0.0 && is[ANGLE] > 0.0 && is[WAY] > 0.0))
         return rf_say(why, RF_INVALID, "table film must be of a film that conserves its oil");
     self->is = is;
     self->film.clearance = is[CLEARANCE];
@@ -74,7 +74,6 @@ static int take_film(model *self, const rf_tables *tables, rf_message *why)
     self->film.largest_angle = is[ANGLE];
     self->film.largest_way = is[WAY];
     self->film.shape.slenderness = is[SLENDERNESS];
-    self->film.shape.center = is[CENTER];
     return RF_OK;
 }
 
@@ -82,6 +81,15 @@ static int are_positive(const double *numbers, size_t count)
 {
     for (size_t k = 0; k < count; ++k)
         if (!(numbers[k] > 0.0))
+            return 0;
+    return 1;
+}
+
+/* Of what the faces of lines conduct only the first may be closed. */
+static int are_apart(const double *along, size_t n, size_t m)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!(along[i * (m + 1)] >= 0.0 && are_positive(along + i * (m + 1) + 1, m)))
             return 0;
     return 1;
 }
@@ -118,27 +126,28 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
         return RF_INVALID;
     const rf_table *lines = rf_find_table(tables, "lines", 2, why);
     const rf_table *width = lines ? rf_find_table(tables, "width", 1, why) : NULL;
-    const rf_table *cells = width ? rf_find_table(tables, "cells", 3, why) : NULL;
-    const rf_table *supplied = cells ? rf_find_table(tables, "supplied", 1, why) : NULL;
+    const rf_table *along = width ? rf_find_table(tables, "along", 2, why) : NULL;
+    const rf_table *opening = along ? rf_find_table(tables, "opening", 2, why) : NULL;
+    const rf_table *supplied = opening ? rf_find_table(tables, "supplied", 1, why) : NULL;
     if (!supplied)
         return RF_INVALID;
     const uint32_t n = lines->extent[1], m = width->extent[0], count = supplied->extent[0] - 1;
-    if (lines->extent[0] != 5 || n < 4 || n > MOST_LINES || m < 2 || m > 1000 || cells->extent[0] != 2
-        || cells->extent[1] != n || cells->extent[2] != m || count > n)
+    if (lines->extent[0] != 5 || n < 4 || n > MOST_LINES || m < 2 || m > 1000 || along->extent[0] != n
+        || along->extent[1] != m + 1 || opening->extent[0] != n || opening->extent[1] != m || count > n)
         return rf_say(why, RF_INVALID, "the tables of a film must fit each other, got %u x %u cells", (unsigned)n, (unsigned)m);
-    if (!are_positive(lines->numbers, n) || !are_positive(width->numbers, m) || !are_positive(cells->numbers, (size_t)n * m))
+    if (!are_positive(lines->numbers, n) || !are_positive(width->numbers, m) || !are_apart(along->numbers, n, m))
         return rf_say(why, RF_INVALID, "cells of a film must be apart");
     shape->lines = n;
     shape->nodes = m;
     shape->spacing = lines->numbers;
     shape->direction = lines->numbers + n;
     shape->width = width->numbers;
-    shape->conductance = cells->numbers;
+    shape->along = along->numbers;
     self->at_supply = supplied->numbers;
     const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
     const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_ANSWERS, 0, 0};
     *sizes = mine;
-    return take_openings(self, cells->numbers + (size_t)n * m, (size_t)n * m, count, why);
+    return take_openings(self, opening->numbers, (size_t)n * m, count, why);
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -155,8 +164,8 @@ static void set_supply(model *self, double unit, double supply)
         self->pressure[k] = end + (self->at_supply[k] != 0.0 ? held : 0.0);
         self->flow[k] = self->is[FLOWS] != 0.0 ? supply / self->film.oil : 0.0;
     }
-    shape->end_pressure = end;
-    shape->center_pressure = end + held;
+    shape->last_pressure = end;
+    shape->first_pressure = end + held;
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)

@@ -8,30 +8,25 @@ static size_t after(const rf_oil_cells *cells, size_t i)
     return i + 1 < cells->lines ? i + 1 : 0;
 }
 
-static double carried(const rf_oil_cells *cells, size_t i, size_t j, const double *theta)
-{
-    const size_t up = cells->backward ? after(cells, i) : i;
-    return cells->wedge[i * cells->nodes + j] * cells->width[j] * theta[up * cells->nodes + j];
-}
-
 void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta, double *outflow)
 {
     const size_t nodes = cells->nodes, lines = cells->lines;
     for (size_t q = 0; q < lines * nodes; ++q)
-        outflow[q] = cells->store[q / nodes] * cells->width[q % nodes] * theta[q] - (cells->old ? cells->old[q] : 0.0);
+        outflow[q] = cells->store[q] * theta[q] - (cells->old ? cells->old[q] : 0.0);
     for (size_t i = 0; i < lines; ++i) {
-        const double *p = pressure + i * nodes, *c = cells->conductance + i * nodes, along = cells->along[i];
-        double *out = outflow + i * nodes, *next = outflow + after(cells, i) * nodes;
+        const size_t here = i * nodes, beyond = after(cells, i) * nodes;
+        const double *p = pressure + here, *up = theta + (cells->backward ? beyond : here);
+        const double *wedge = cells->wedge + here, *around = cells->around + here, *along = cells->along + i * (nodes + 1);
+        double *out = outflow + here, *next = outflow + beyond;
         for (size_t j = 0; j < nodes; ++j) {
-            const double fall = p[j] - pressure[after(cells, i) * nodes + j];
-            const double flow = carried(cells, i, j, theta) + cells->around[i * nodes + j] * cells->width[j] * fall;
-            const double outward = along * c[j] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->end_pressure));
+            const double flow = wedge[j] * up[j] + around[j] * (p[j] - pressure[beyond + j]);
+            const double outward = along[j + 1] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->last_pressure));
             out[j] += flow + outward;
             next[j] -= flow;
             if (j + 1 < nodes)
                 out[j + 1] -= outward;
         }
-        out[0] += along * cells->center[i] * (p[0] - cells->center_pressure);
+        out[0] += along[0] * (p[0] - cells->first_pressure);
     }
 }
 
@@ -93,7 +88,7 @@ static inline void add(const rf_oil_parts *parts, size_t row, size_t column, dou
 {
     const int32_t at = parts->place[row], of = parts->place[column];
     rf_border_band *band = parts->band;
-    if (at < 0 || of < 0)
+    if (at < 0 || value == 0.0)
         return;
     if (at < parts->size && of < parts->size)
         band->rows[(size_t)at * parts->stride + band->half + (size_t)of - (size_t)at] += value;
@@ -101,35 +96,23 @@ static inline void add(const rf_oil_parts *parts, size_t row, size_t column, dou
         rf_add_to_band(band, (size_t)at, (size_t)of, value, 0.0);
 }
 
-/* What leaves one cell for another, in proportion to the unknown of the first. */
-static inline void add_flow(const rf_oil_parts *parts, size_t from, size_t to, double value)
-{
-    if (value == 0.0)
-        return;
-    add(parts, from, from, value);
-    add(parts, to, from, -value);
-}
-
-static void add_line(const rf_oil_parts *parts, size_t i, const double *by_pressure, const double *by_theta)
+/* The column of a cell: what leaves it for each of its neighbors, in proportion to its unknown, and what it stores. */
+static void add_cell(const rf_oil_parts *parts, size_t q, double by_pressure, double by_theta)
 {
     const rf_oil_cells *cells = parts->cells;
-    const size_t nodes = cells->nodes;
-    for (size_t j = 0; j < nodes; ++j) {
-        const size_t here = i * nodes + j, beyond = after(cells, i) * nodes + j;
-        const size_t up = cells->backward ? beyond : here, down = cells->backward ? here : beyond;
-        const double around = cells->around[here] * cells->width[j], along = cells->along[i] * cells->conductance[here];
-        add_flow(parts, here, beyond, by_pressure[here] * around);
-        add_flow(parts, beyond, here, by_pressure[beyond] * around);
-        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[here]) * cells->width[j]);
-        if (j + 1 < nodes) {
-            add_flow(parts, here, here + 1, by_pressure[here] * along);
-            add_flow(parts, here + 1, here, by_pressure[here + 1] * along);
-        } else {
-            add(parts, here, here, by_pressure[here] * along);
-        }
-        add(parts, here, here, by_theta[here] * cells->store[i] * cells->width[j]);
-    }
-    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * cells->along[i] * cells->center[i]);
+    const size_t nodes = cells->nodes, all = cells->lines * nodes, i = q / nodes, j = q % nodes;
+    const size_t beyond = q + nodes < all ? q + nodes : q + nodes - all, before = q >= nodes ? q - nodes : q + all - nodes;
+    const double *along = cells->along + i * (nodes + 1) + j;
+    const double carried = by_theta * fabs(cells->wedge[cells->backward ? before : q]);
+    double onward = by_pressure * cells->around[q], back = by_pressure * cells->around[before];
+    *(cells->backward ? &back : &onward) += carried;
+    add(parts, q, q, onward + back + by_pressure * (along[0] + along[1]) + by_theta * cells->store[q]);
+    add(parts, beyond, q, -onward);
+    add(parts, before, q, -back);
+    if (j > 0)
+        add(parts, q - 1, q, -by_pressure * along[0]);
+    if (j + 1 < nodes)
+        add(parts, q + 1, q, -by_pressure * along[1]);
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */
@@ -153,8 +136,9 @@ void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, c
     memset(band->rows, 0, numbers * sizeof(double));
     if (band->imaginary_rows)
         memset(band->imaginary_rows, 0, numbers * sizeof(double));
-    for (size_t i = 0; i < cells->lines; ++i)
-        add_line(&parts, i, by_pressure, by_theta);
+    for (size_t q = 0; q < cells->lines * cells->nodes; ++q)
+        if (places->place[q] >= 0)
+            add_cell(&parts, q, by_pressure[q], by_theta[q]);
     for (size_t q = 0; real && q < cells->lines * cells->nodes; ++q)
         if (places->place[q] >= 0)
             rf_add_to_band(band, (size_t)places->place[q], (size_t)places->place[q], by_theta[q] * real[q],

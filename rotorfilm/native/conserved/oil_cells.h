@@ -1,14 +1,13 @@
 /* Conservation of oil in the cells of a film, full or not, on a ring of lines.
 
-   On each of N lines there are M cells along half the length. With the pressure P from that of the cavity and theta,
+   On each of N lines there are M cells along the length. With the pressure P from that of the cavity and theta,
    the share of the gap that is oil, the flow out of a cell is
 
        transport  wedge theta of the cell upstream, at the faces before and after the line,
-       pressure   around and along, in proportion to the fall of P, to the next cells and to the ends,
+       pressure   around and along, in proportion to the fall of P, to the next cells and to both ends of the line,
        storage    store theta - old
 
-   which is nothing where P, theta solve the film: P >= 0, theta <= 1, P (1 - theta) = 0. All but conductances along
-   the line are to be multiplied by the width of a cell, those by the factor of its line. Lines between which nothing
+   which is nothing where P, theta solve the film: P >= 0, theta <= 1, P (1 - theta) = 0. Lines between which nothing
    flows cut the ring open. */
 #ifndef ROTORFILM_OIL_CELLS_H
 #define ROTORFILM_OIL_CELLS_H
@@ -22,21 +21,17 @@
 #define RF_FILM_CELL (-1)
 
 typedef struct rf_oil_cells {
-    size_t lines, nodes;
-    const double *wedge;       /* N x M: oil that a full gap carries over the face after a cell, around the ring */
-    const double *around;      /* N x M: conductance of that face */
-    const double *along;       /* N: conductance of a line's cells along the length */
-    const double *store;       /* N: that theta holds back */
-    const double *width;       /* M: of the cells along the length */
-    const double *conductance; /* N x M: 1/distance to the next node of the line, the last to the end */
-    const double *center;      /* N: 1/distance from the first node to a groove at mid-length, 0 without one */
-    double center_pressure, end_pressure;
-    const double *old;        /* N x M: what storage has, or NULL */
-    const int32_t *opening;   /* N x M: of which opening a cell is part; RF_FILM_CELL */
-    const uint8_t *fed;       /* of the openings: whether it is one cell with a given flow, not held */
-    const double *flow;       /* of the openings: that flow */
-    size_t openings;
-    int32_t backward; /* whether the oil is carried against the order of the lines */
+    size_t lines, nodes, openings;
+    const double *wedge;  /* N x M: oil that a full gap carries over the face after a cell, around the ring */
+    const double *around; /* N x M: conductance of that face */
+    const double *store;  /* N x M: that theta holds back */
+    const double *along;  /* N x (M + 1): conductance of the faces of a line, from its first end to its last; 0 if closed */
+    const double *old;    /* N x M: what storage has, or NULL */
+    double first_pressure, last_pressure; /* at the ends of the lines */
+    const int32_t *opening;               /* N x M: of which opening a cell is part; RF_FILM_CELL */
+    const uint8_t *fed;                   /* of the openings: whether it is one cell with a given flow, not held */
+    const double *flow;                   /* of the openings: that flow */
+    int32_t backward;                     /* whether the oil is carried against the order of the lines */
 } rf_oil_cells;
 
 /* Where each cell stands in the matrix: in the band from the line after the cut on, in its border (the cells of

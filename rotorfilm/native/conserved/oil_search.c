@@ -95,10 +95,9 @@ static int step(rf_oil_solver *solver, double *pressure, double *theta)
         if (cells->fed[k])
             solver->right[solver->band.size + solver->band.border - cells->openings + k] -= cells->flow[k];
     rf_set_oil_matrix(cells, &solver->places, solver->by_pressure, solver->by_theta, NULL, NULL, &solver->band);
-    const int status = rf_factorize_band(&solver->band);
+    const int status = rf_factorize_band(&solver->band, solver->right);
     if (status != RF_OK)
         return status;
-    rf_solve_band(&solver->band, solver->right, NULL);
     spread(solver, solver->right, solver->flow);
     for (size_t q = 0; q < cells_of(solver); ++q) {
         pressure[q] -= solver->by_pressure[q] * solver->flow[q];
@@ -112,7 +111,7 @@ static double largest(size_t n, const double *numbers)
 {
     double most = 0.0;
     for (size_t q = 0; q < n; ++q)
-        most = fmax(most, fabs(numbers[q]));
+        most = fabs(numbers[q]) > most ? fabs(numbers[q]) : most;
     return most;
 }
 
@@ -194,7 +193,7 @@ static int search_by_newton(rf_oil_solver *solver, uint8_t *full, double *pressu
         const size_t nodes = solver->cells->nodes, before = q >= nodes ? q - nodes : q + all - nodes;
         const double of_faces = solver->cells->around[q] + solver->cells->around[before];
         if (solver->cells->opening[q] == RF_FILM_CELL)
-            pressure[q] = fmax(-solver->flow[q], 0.0) / (of_faces * solver->cells->width[q % nodes]);
+            pressure[q] = fmax(-solver->flow[q], 0.0) / of_faces;
     }
     const double unit = fmax(largest(all, pressure), 1e-300);
     for (size_t round = 0; round < most_rounds(solver->cells); ++round) {
@@ -251,28 +250,50 @@ int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *ful
     return status;
 }
 
+/* Solve for one right-hand side, N x M. */
+static void respond(rf_oil_solver *solver, double *real, double *imaginary)
+{
+    gather(solver, real, solver->right);
+    if (imaginary)
+        gather(solver, imaginary, solver->imaginary);
+    rf_solve_band(&solver->band, solver->right, solver->imaginary);
+    spread(solver, solver->right, real);
+    if (imaginary)
+        spread(solver, solver->imaginary, imaginary);
+}
+
+/* y -= a x, number by number. */
+static void subtract_products(size_t n, const double *const a[2], double *const x[2], double *const y[2])
+{
+    for (size_t q = 0; q < n; ++q) {
+        y[0][q] -= a[0][q] * x[0][q] - (x[1] ? a[1][q] * x[1][q] : 0.0);
+        if (x[1])
+            y[1][q] -= a[0][q] * x[1][q] + a[1][q] * x[0][q];
+    }
+}
+
 int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double *storage, const double *imaginary,
-                    size_t count, double *right, double *right_imaginary)
+                    const double *coupling, size_t count, double *right, double *right_imaginary)
 {
     rf_oil_solver solver;
     int status = open_solver(&solver, cells, imaginary != NULL);
-    const size_t all = cells->lines * cells->nodes;
+    const size_t all = cells->lines * cells->nodes, rows = coupling ? 2 * count : count;
+    const double *const by[2] = {coupling, coupling ? coupling + all : NULL};
     for (size_t q = 0; q < all && status == RF_OK; ++q) {
         solver.by_pressure[q] = full[q] ? 1.0 : 0.0;
         solver.by_theta[q] = full[q] ? 0.0 : 1.0;
     }
     if (status == RF_OK) {
         rf_set_oil_matrix(cells, &solver.places, solver.by_pressure, solver.by_theta, storage, imaginary, &solver.band);
-        status = rf_factorize_band(&solver.band);
+        status = rf_factorize_band(&solver.band, NULL);
     }
-    for (size_t k = 0; k < count && status == RF_OK; ++k) {
-        gather(&solver, right + k * all, solver.right);
-        if (imaginary)
-            gather(&solver, right_imaginary + k * all, solver.imaginary);
-        rf_solve_band(&solver.band, solver.right, solver.imaginary);
-        spread(&solver, solver.right, right + k * all);
-        if (imaginary)
-            spread(&solver, solver.imaginary, right_imaginary + k * all);
+    for (size_t k = 0; k < rows && status == RF_OK; ++k) {
+        double *const now[2] = {right + k * all, imaginary ? right_imaginary + k * all : NULL};
+        if (k >= count) {
+            double *const first[2] = {now[0] - count * all, imaginary ? now[1] - count * all : NULL};
+            subtract_products(all, by, first, now);
+        }
+        respond(&solver, now[0], now[1]);
     }
     close_solver(&solver);
     return status;

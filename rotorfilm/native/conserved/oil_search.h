@@ -24,9 +24,11 @@ RF_EXPORT_LOOP int rf_oil_film(const rf_oil_cells *cells, int method, int guesse
                                double *theta, rf_oil_work *work);
 
 /* Replace `count` right-hand sides (count x N x M, both parts) by the changes of P where the cells are full and of
-   theta where not that make the flow out of the cells change so; theta has further storage (N x M, both parts).
+   theta where not that make the flow out of the cells change so; theta has further storage (N x M, both parts). Unless
+   `coupling` (2 x N x M, both parts) is NULL, then as many again, each less coupling times what came of the first.
    `right_imaginary` and `imaginary` NULL: all is real. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double *storage,
-                                   const double *imaginary, size_t count, double *right, double *right_imaginary);
+                                   const double *imaginary, const double *coupling, size_t count, double *right,
+                                   double *right_imaginary);
 
 #endif

@@ -13,63 +13,72 @@ static double extent_of(const rf_oil_shape *shape, size_t i)
     return 0.5 * (shape->spacing[i] + shape->spacing[i > 0 ? i - 1 : shape->lines - 1]);
 }
 
-int rf_open_oil(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate)
+double rf_cell_area(const rf_oil_shape *shape, size_t q)
 {
-    const size_t n = shape->lines, m = shape->nodes, all = n * m;
-    double *at = calloc(4 * n + 3 * all, sizeof *at);
-    equations->memory = at;
-    if (!at)
-        return RF_MEMORY;
-    equations->along = at;
-    equations->store = at + n;
-    equations->extent = at + 2 * n;
-    equations->center = at + 3 * n;
-    equations->wedge = at + 4 * n;
-    equations->around = equations->wedge + all;
-    equations->old = equations->around + all;
-    for (size_t i = 0; i < n; ++i) {
-        const double h = gap->line[i], extent = extent_of(shape, i);
-        equations->extent[i] = extent;
-        equations->along[i] = h * h * h * extent / (shape->slenderness * shape->slenderness);
-        equations->center[i] = shape->center;
-        for (size_t q = i * m; q < (i + 1) * m; ++q) {
-            equations->wedge[q] = rate * gap->face[i];
-            equations->around[q] = gap->cube[i] / shape->spacing[i];
+    return extent_of(shape, q / shape->nodes) * shape->width[q % shape->nodes];
+}
+
+rf_oil_gap rf_gap_in(const rf_oil_shape *shape, const double *numbers)
+{
+    const size_t all = shape->lines * shape->nodes;
+    const rf_oil_gap gap = {numbers, numbers + all, numbers + 2 * all};
+    return gap;
+}
+
+static double at(const double *direction, size_t lines, double full, const double *e)
+{
+    return full - (e[0] * direction[0] + e[1] * direction[lines]);
+}
+
+void rf_circular_gap(const rf_oil_shape *shape, double full, const double *place, double *numbers)
+{
+    const size_t n = shape->lines, m = shape->nodes;
+    double *line = numbers, *face = line + n * m, *side = face + n * m;
+    for (size_t i = 0; i < n; ++i, side += m + 1) {
+        const double *here = shape->direction + i, *beyond = here + 2 * n;
+        const double tilt = at(here, n, 0.0, place + 2), onward = at(beyond, n, 0.0, place + 2);
+        const double mean = at(here, n, full, place), means = at(beyond, n, full, place);
+        double z = shape->whole ? -1.0 : 0.0;
+        side[0] = mean + z * tilt;
+        for (size_t j = 0; j < m; ++j) {
+            const double half = (shape->whole ? 1.0 : 0.5) * shape->width[j];
+            line[i * m + j] = mean + (z + half) * tilt;
+            face[i * m + j] = means + (z + half) * onward;
+            z += 2.0 * half;
+            side[j + 1] = mean + z * tilt;
         }
     }
-    const rf_oil_cells cells = {
-        n,
-        shape->nodes,
-        equations->wedge,
-        equations->around,
-        equations->along,
-        equations->store,
-        shape->width,
-        shape->conductance,
-        equations->center,
-        shape->center_pressure,
-        shape->end_pressure,
-        NULL,
-        shape->opening,
-        shape->fed,
-        shape->flow,
-        shape->openings,
-        rate < 0.0,
+}
+
+static double cube(const double *gap, const double *slope, size_t k)
+{
+    return slope ? 3.0 * gap[k] * gap[k] * slope[k] : gap[k] * gap[k] * gap[k];
+}
+
+void rf_set_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_gap *slope, double rate, double storing,
+                rf_oil_cells *cells, double *numbers)
+{
+    const size_t n = shape->lines, m = shape->nodes, all = n * m;
+    const rf_oil_gap linear = slope ? *slope : *gap, none = {NULL, NULL, NULL}, by = slope ? *slope : none;
+    const double covered = (shape->whole ? 2.0 : 1.0) * shape->slenderness, square = covered * covered;
+    double *wedge = numbers, *around = wedge + all, *store = around + all, *along = store + all;
+    for (size_t q = 0, side = 0; q < all; ++q, ++side) {
+        const size_t i = q / m, j = q % m;
+        const double extent = extent_of(shape, i), ease = shape->around ? shape->around[q] : 1.0;
+        wedge[q] = rate * (shape->dragged ? linear.face[q] * shape->dragged[q] : linear.face[q]) * shape->width[j];
+        around[q] = cube(gap->face, by.face, q) / shape->spacing[i] * ease * shape->width[j];
+        store[q] = storing * linear.line[q] * extent * shape->width[j];
+        if (j == 0) {
+            along[side] = cube(gap->side, by.side, side) * extent / square * shape->along[side];
+            ++side;
+        }
+        along[side] = cube(gap->side, by.side, side) * extent / square * shape->along[side];
+    }
+    const rf_oil_cells set = {
+        n, m, shape->openings, wedge, around, store, along, NULL, shape->first_pressure, shape->last_pressure,
+        shape->opening, shape->fed, shape->flow, rate < 0.0,
     };
-    equations->cells = cells;
-    return RF_OK;
-}
-
-void rf_close_oil(rf_oil_equations *equations)
-{
-    free(equations->memory);
-}
-
-void rf_store_oil(rf_oil_equations *equations, const rf_oil_gap *gap, double rate)
-{
-    for (size_t i = 0; i < equations->cells.lines; ++i)
-        equations->store[i] = rate * gap->line[i] * equations->extent[i];
-    equations->cells.old = equations->old;
+    *cells = set;
 }
 
 void rf_hold_openings(const rf_oil_shape *shape, double *pressure, double *theta)
@@ -81,42 +90,24 @@ void rf_hold_openings(const rf_oil_shape *shape, double *pressure, double *theta
     }
 }
 
-rf_oil_gap rf_circular_gap(const rf_oil_shape *shape, const double *eccentricity, double *numbers)
-{
-    const size_t n = shape->lines;
-    const rf_oil_gap gap = {numbers, numbers + n, numbers + 2 * n};
-    for (size_t i = 0; i < n; ++i) {
-        const double *at = shape->direction + i;
-        const double face = 1.0 - (eccentricity[0] * at[2 * n] + eccentricity[1] * at[3 * n]);
-        numbers[i] = 1.0 - (eccentricity[0] * at[0] + eccentricity[1] * at[n]);
-        numbers[n + i] = face;
-        numbers[2 * n + i] = face * face * face;
-    }
-    return gap;
-}
-
 static double onto_journal(const rf_oil_shape *shape, const double *pressure, const double *direction)
 {
     double sum = 0.0;
     for (size_t i = 0; i < shape->lines; ++i) {
         double along = 0.0;
         for (size_t j = 0; j < shape->nodes; ++j)
-            along += shape->width[j] * (pressure[i * shape->nodes + j] - shape->end_pressure);
+            along += shape->width[j] * (pressure[i * shape->nodes + j] - shape->last_pressure);
         sum += direction[i] * extent_of(shape, i) * along;
     }
     return -12.0 * sum;
 }
 
-/* Through the ends, out and in. */
-static void set_end_flows(const rf_oil_cells *cells, const double *pressure, double *sums)
+/* Through an end of the film, out and in. */
+static void add_end_flow(double conductance, double pressure, double outside, double *sums)
 {
-    for (size_t i = 0; i < cells->lines; ++i) {
-        const size_t q = i * cells->nodes + cells->nodes - 1;
-        const double fall = pressure[q] - cells->end_pressure;
-        if (fabs(fall) <= ROUNDOFF * cells->end_pressure)
-            continue;
-        sums[fall > 0.0 ? RF_OIL_OUT : RF_OIL_DRAWN_IN] += fabs(cells->along[i] * cells->conductance[q] * fall);
-    }
+    const double fall = pressure - outside;
+    if (fabs(fall) > ROUNDOFF * outside)
+        sums[fall > 0.0 ? RF_OIL_OUT : RF_OIL_DRAWN_IN] += fabs(conductance * fall);
 }
 
 int rf_oil_sums(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_cells *cells, const double *pressure,
@@ -129,14 +120,41 @@ int rf_oil_sums(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_c
     memset(sums, 0, RF_OIL_SUMS * sizeof *sums);
     for (size_t k = 0; k < 2; ++k)
         sums[RF_OIL_FORCE + k] = onto_journal(shape, pressure, shape->direction + k * n);
-    set_end_flows(cells, pressure, sums);
     rf_oil_outflow(cells, pressure, theta, outflow);
     for (size_t q = 0; q < n * m; ++q) {
         sums[RF_OIL_INFLOW] += shape->opening[q] != RF_FILM_CELL ? outflow[q] : 0.0;
-        sums[RF_OIL_VOLUME] += theta[q] * gap->line[q / m] * extent_of(shape, q / m) * shape->width[q % m];
+        sums[RF_OIL_VOLUME] += theta[q] * gap->line[q] * rf_cell_area(shape, q);
     }
-    for (size_t i = 0; i < n; ++i)
-        sums[RF_OIL_INFLOW] += cells->along[i] * cells->center[i] * (cells->center_pressure - pressure[i * m]);
+    for (size_t i = 0; i < n; ++i) {
+        const double *along = cells->along + i * (m + 1), *p = pressure + i * m;
+        add_end_flow(along[m], p[m - 1], cells->last_pressure, sums);
+        if (shape->whole)
+            add_end_flow(along[0], p[0], cells->first_pressure, sums);
+        else
+            sums[RF_OIL_INFLOW] += along[0] * (cells->first_pressure - p[0]);
+    }
     free(outflow);
+    return RF_OK;
+}
+
+int rf_oil_slopes(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, double storing, const double *pressure,
+                  const double *theta, size_t freedoms, double *moved, double *held)
+{
+    const size_t all = shape->lines * shape->nodes;
+    double *numbers = malloc((rf_gap_numbers(shape) + rf_equation_numbers(shape)) * sizeof *numbers);
+    if (!numbers)
+        return RF_MEMORY;
+    for (size_t k = 0; k < freedoms; ++k) {
+        double place[RF_OIL_FREEDOMS] = {0.0};
+        rf_oil_cells cells;
+        place[k] = 1.0;
+        rf_circular_gap(shape, 0.0, place, numbers);
+        const rf_oil_gap slope = rf_gap_in(shape, numbers);
+        rf_set_oil(shape, gap, &slope, rate, storing, &cells, numbers + rf_gap_numbers(shape));
+        rf_oil_outflow(&cells, pressure, theta, moved + k * all);
+        for (size_t q = 0; q < all; ++q)
+            held[k * all + q] = theta[q] * rf_cell_area(shape, q) * slope.line[q];
+    }
+    free(numbers);
     return RF_OK;
 }

@@ -48,7 +48,7 @@ void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, double rat
     for (size_t i = 0; i < shape->lines; ++i) {
         const size_t after = neighbor(shape, i, 1), up = forward ? i : after;
         for (size_t j = 0; j < m; ++j) {
-            const double flux = rate * gap->face[i] * rise(shape, up, j, forward, theta) * shape->width[j];
+            const double flux = rate * gap->face[i * m + j] * rise(shape, up, j, forward, theta) * shape->width[j];
             carried[i * m + j] += flux;
             carried[after * m + j] -= flux;
         }
@@ -63,26 +63,48 @@ static void set_differences(double ratio, double *a, double *b, double *c)
     *c = ratio * ratio / (1.0 + ratio);
 }
 
-/* A step by differences a, b, c over dt. */
-static int solve_step(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap,
-                      const rf_oil_past *past, double dt, const double *by, const double *carried,
-                      rf_oil_found *found)
+/* Equations of a search, and what their storage holds. */
+typedef struct search {
+    rf_oil_cells cells;
+    double *numbers, *old, *carried;
+} search;
+
+static int open_search(search *self, const rf_oil_shape *shape)
 {
-    const size_t m = shape->nodes;
+    const size_t all = shape->lines * shape->nodes;
+    self->numbers = calloc(rf_equation_numbers(shape) + 2 * all, sizeof *self->numbers);
+    if (!self->numbers)
+        return RF_MEMORY;
+    self->old = self->numbers + rf_equation_numbers(shape);
+    self->carried = self->old + all;
+    return RF_OK;
+}
+
+/* Solve the equations, from the cells that are full. */
+static int solve(search *self, const rf_oil_shape *shape, int guessed, rf_oil_found *found)
+{
     rf_oil_work work;
-    found->rate = by[0];
-    found->lag = by[2] * dt;
-    rf_store_oil(equations, gap, by[0]);
-    for (size_t q = 0; q < shape->lines * m; ++q) {
-        const double held = by[1] * past->content[q] + (by[2] != 0.0 ? by[2] * past->before[q] : 0.0);
-        equations->old[q] = -held * equations->extent[q / m] * shape->width[q % m] - carried[q];
-    }
     rf_hold_openings(shape, found->pressure, found->theta);
     const int status =
-        rf_oil_film(&equations->cells, RF_BY_SETS, 1, found->full, found->pressure, found->theta, &work);
+        rf_oil_film(&self->cells, RF_BY_SETS, guessed, found->full, found->pressure, found->theta, &work);
     found->work.solutions += work.solutions;
     found->work.newton += work.newton;
     return status;
+}
+
+/* A step by differences a, b, c over dt. */
+static int solve_step(search *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate,
+                      const rf_oil_past *past, double dt, const double *by, rf_oil_found *found)
+{
+    found->rate = by[0];
+    found->lag = by[2] * dt;
+    rf_set_oil(shape, gap, NULL, rate, by[0], &self->cells, self->numbers);
+    self->cells.old = self->old;
+    for (size_t q = 0; q < shape->lines * shape->nodes; ++q) {
+        const double held = by[1] * past->content[q] + (by[2] != 0.0 ? by[2] * past->before[q] : 0.0);
+        self->old[q] = -held * rf_cell_area(shape, q) - self->carried[q];
+    }
+    return solve(self, shape, 1, found);
 }
 
 static int is_in_debt(const rf_oil_shape *shape, const double *theta)
@@ -96,53 +118,44 @@ static int is_in_debt(const rf_oil_shape *shape, const double *theta)
 int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const rf_oil_past *past, double dt,
                 rf_oil_found *found)
 {
-    const size_t all = shape->lines * shape->nodes;
     const double ratio = past->length > 0.0 ? dt / past->length : HUGE_VAL;
-    double *carried = malloc(all * sizeof *carried), a, b, c;
-    rf_oil_equations equations;
+    double a, b, c;
+    search self;
     memset(&found->work, 0, sizeof found->work);
-    int status = rf_open_oil(&equations, shape, gap, rate);
-    if (!carried || status != RF_OK) {
-        rf_close_oil(&equations);
-        free(carried);
-        return RF_MEMORY;
-    }
-    rf_sharpen_oil(shape, gap, rate, found->theta, carried);
+    int status = open_search(&self, shape);
+    if (status != RF_OK)
+        return status;
+    rf_sharpen_oil(shape, gap, rate, found->theta, self.carried);
     int done = 0;
     if (ratio <= MOST_GROWTH) {
         set_differences(ratio, &a, &b, &c);
         const double second[3] = {a / dt, b / dt, c / dt};
-        status = solve_step(&equations, shape, gap, past, dt, second, carried, found);
+        status = solve_step(&self, shape, gap, rate, past, dt, second, found);
         done = status != RF_OK || !is_in_debt(shape, found->theta);
     }
     if (!done) {
         const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};
-        status = solve_step(&equations, shape, gap, past, dt, first, carried, found);
+        status = solve_step(&self, shape, gap, rate, past, dt, first, found);
     }
-    memcpy(found->old, equations.old, all * sizeof *found->old);
-    rf_close_oil(&equations);
-    free(carried);
+    memcpy(found->old, self.old, shape->lines * shape->nodes * sizeof *found->old);
+    free(self.numbers);
     return status;
 }
 
 /* Solve again with transport as the last theta has it, until that changes no more. */
-static int settle(rf_oil_equations *equations, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate,
-                  double *carried, double *last, rf_oil_found *found)
+static int settle(search *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, double *last,
+                  rf_oil_found *found)
 {
     const size_t all = shape->lines * shape->nodes;
     double most = 0.0;
-    rf_oil_work work;
-    rf_store_oil(equations, gap, 0.0);
+    self->cells.old = self->old;
     for (int k = 0; k < MOST_STILL; ++k) {
         most = 0.0;
         memcpy(last, found->theta, all * sizeof *last);
-        rf_sharpen_oil(shape, gap, rate, last, carried);
+        rf_sharpen_oil(shape, gap, rate, last, self->carried);
         for (size_t q = 0; q < all; ++q)
-            equations->old[q] = (1.0 - WEIGHT) * equations->old[q] - WEIGHT * carried[q];
-        rf_hold_openings(shape, found->pressure, found->theta);
-        const int status =
-            rf_oil_film(&equations->cells, RF_BY_SETS, 1, found->full, found->pressure, found->theta, &work);
-        found->work.solutions += work.solutions;
+            self->old[q] = (1.0 - WEIGHT) * self->old[q] - WEIGHT * self->carried[q];
+        const int status = solve(self, shape, 1, found);
         if (status != RF_OK)
             return status;
         for (size_t q = 0; q < all; ++q)
@@ -155,22 +168,18 @@ static int settle(rf_oil_equations *equations, const rf_oil_shape *shape, const 
 
 int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_found *found)
 {
-    const size_t all = shape->lines * shape->nodes;
-    rf_oil_equations equations;
-    double *carried = malloc(2 * all * sizeof *carried);
-    int status = rf_open_oil(&equations, shape, gap, rate);
-    if (status == RF_OK && !carried)
-        status = RF_MEMORY;
-    if (status == RF_OK) {
-        rf_hold_openings(shape, found->pressure, found->theta);
-        status = rf_oil_film(&equations.cells, RF_BY_SETS, 0, found->full, found->pressure, found->theta, &found->work);
-    }
-    if (status == RF_OK)
-        status = settle(&equations, shape, gap, rate, carried, carried + all, found);
-    if (status == RF_OK)
-        memcpy(found->old, equations.old, all * sizeof *found->old);
+    search self;
+    memset(&found->work, 0, sizeof found->work);
     found->rate = found->lag = 0.0;
-    rf_close_oil(&equations);
-    free(carried);
+    int status = open_search(&self, shape);
+    if (status != RF_OK)
+        return status;
+    rf_set_oil(shape, gap, NULL, rate, 0.0, &self.cells, self.numbers);
+    status = solve(&self, shape, 0, found);
+    if (status == RF_OK) /* `old` of what is found has no part yet */
+        status = settle(&self, shape, gap, rate, found->old, found);
+    if (status == RF_OK)
+        memcpy(found->old, self.old, shape->lines * shape->nodes * sizeof *found->old);
+    free(self.numbers);
     return status;
 }

@@ -12,9 +12,8 @@
 typedef struct traveler {
     const rf_oil_film_si *film;
     size_t all;
-    double *block, *gap;
+    double *block, *gap, *equations, *slopes;
     rf_oil_found found;
-    void *memory;
 } traveler;
 
 size_t rf_oil_numbers(const rf_oil_shape *shape)
@@ -29,27 +28,26 @@ static double *row(const traveler *self, size_t k)
 
 static int open_traveler(traveler *self, const rf_oil_film_si *film, rf_message *why)
 {
-    const size_t all = film->shape.lines * film->shape.nodes, numbers = rf_oil_numbers(&film->shape);
-    double *at = calloc(numbers + 3 * film->shape.lines + 3 * all, sizeof *at);
-    uint8_t *full = calloc(all, 1);
+    const rf_oil_shape *shape = &film->shape;
+    const size_t all = shape->lines * shape->nodes, numbers = rf_oil_numbers(shape);
     self->film = film;
     self->all = all;
-    self->memory = at;
-    self->found.full = full;
-    if (!at || !full)
+    self->block = calloc(numbers + rf_gap_numbers(shape) + rf_equation_numbers(shape) + 8 * all, sizeof *self->block);
+    if (!self->block)
         return rf_say(why, RF_MEMORY, "no memory for a film");
-    self->block = at;
-    self->gap = at + numbers;
-    self->found.pressure = self->gap + 3 * film->shape.lines;
+    self->gap = self->block + numbers;
+    self->equations = self->gap + rf_gap_numbers(shape);
+    self->found.pressure = self->equations + rf_equation_numbers(shape);
     self->found.theta = self->found.pressure + all;
     self->found.old = self->found.theta + all;
+    self->slopes = self->found.old + all;
+    self->found.full = (uint8_t *)(self->slopes + 4 * all);
     return RF_OK;
 }
 
 static void close_traveler(traveler *self)
 {
-    free(self->found.full);
-    free(self->memory);
+    free(self->block);
 }
 
 static int require_inside(const rf_oil_film_si *film, const double *motion, double t, rf_message *why)
@@ -77,8 +75,18 @@ static int judged(int status, double t, const double *motion, rf_message *why)
 
 static rf_oil_gap gap_of(const traveler *self, const double *motion)
 {
-    const double e[2] = {motion[0] / self->film->clearance, motion[1] / self->film->clearance};
-    return rf_circular_gap(&self->film->shape, e, self->gap);
+    const double place[RF_OIL_FREEDOMS] = {motion[0] / self->film->clearance, motion[1] / self->film->clearance};
+    rf_circular_gap(&self->film->shape, 1.0, place, self->gap);
+    return rf_gap_in(&self->film->shape, self->gap);
+}
+
+/* The equations of what was found. */
+static rf_oil_cells equations_of(traveler *self, const rf_oil_gap *gap, double rate)
+{
+    rf_oil_cells cells;
+    rf_set_oil(&self->film->shape, gap, NULL, rate, self->found.rate, &cells, self->equations);
+    cells.old = self->found.old;
+    return cells;
 }
 
 /* Set the sums of what was found, in SI units. */
@@ -86,15 +94,8 @@ static int set_answer(traveler *self, const rf_oil_gap *gap, double rate)
 {
     const rf_oil_film_si *film = self->film;
     double *sums = self->block + RF_OIL_ANSWER;
-    rf_oil_equations equations;
-    int status = rf_open_oil(&equations, &film->shape, gap, rate);
-    if (status == RF_OK) {
-        rf_store_oil(&equations, gap, self->found.rate);
-        equations.cells.old = self->found.old;
-        status =
-            rf_oil_sums(&film->shape, gap, &equations.cells, self->found.pressure, self->found.theta, sums);
-    }
-    rf_close_oil(&equations);
+    const rf_oil_cells cells = equations_of(self, gap, rate);
+    const int status = rf_oil_sums(&film->shape, gap, &cells, self->found.pressure, self->found.theta, sums);
     for (size_t k = 0; k < RF_OIL_SUMS; ++k)
         sums[k] *= k < RF_OIL_OUT ? film->force : film->oil;
     return status;
@@ -112,14 +113,13 @@ static void add_up(traveler *self, double dt)
 /* Take what was found as the end of a step of length dt. */
 static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
 {
-    const size_t nodes = self->film->shape.nodes;
     self->block[RF_OIL_LENGTH] = dt;
     memcpy(self->block + RF_OIL_MOTION, motion, RF_MOTION * sizeof *motion);
     memcpy(row(self, 1), row(self, 0), self->all * sizeof(double));
     memcpy(row(self, 2), self->found.pressure, self->all * sizeof(double));
     memcpy(row(self, 3), self->found.theta, self->all * sizeof(double));
     for (size_t q = 0; q < self->all; ++q) {
-        row(self, 0)[q] = self->found.theta[q] * gap->line[q / nodes];
+        row(self, 0)[q] = self->found.theta[q] * gap->line[q];
         row(self, 4)[q] = self->found.full[q];
     }
     const int status = set_answer(self, gap, self->film->carrying * motion[4]);
@@ -162,14 +162,16 @@ static void set_between(const double *begin, const double *end, double dt, doubl
     motion[4] = begin[4] + s * (end[4] - begin[4]);
 }
 
-static int inner_step(traveler *self, const double *motion, double dt, int64_t *solutions)
+/* One inner step, from a film that is near that at its end. */
+static int inner_step(traveler *self, const double *motion, double dt, const double *near, int sweeps, int64_t *solutions)
 {
     const rf_oil_gap gap = gap_of(self, motion);
     const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH]};
-    memcpy(self->found.theta, row(self, 3), self->all * sizeof(double));
+    const double *theta = near + RF_OIL_CELLS + 3 * self->all, *full = theta + self->all;
+    memcpy(self->found.theta, theta, self->all * sizeof(double));
     for (size_t q = 0; q < self->all; ++q)
-        self->found.full[q] = row(self, 4)[q] != 0.0;
-    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        self->found.full[q] = full[q] != 0.0;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
         const int status =
             rf_oil_step(&self->film->shape, &gap, self->film->carrying * motion[4], &past, dt, &self->found);
         *solutions += self->found.work.solutions;
@@ -177,6 +179,50 @@ static int inner_step(traveler *self, const double *motion, double dt, int64_t *
             return status;
     }
     return keep(self, &gap, motion, dt);
+}
+
+/* -d force / d place of what was found, its equations set: the oil of the last step stays. */
+static int set_stiffness(traveler *self, const double *motion, double *stiffness)
+{
+    const rf_oil_film_si *film = self->film;
+    const rf_oil_shape *shape = &film->shape;
+    const double rate = film->carrying * motion[4];
+    const rf_oil_gap gap = gap_of(self, motion);
+    const rf_oil_cells cells = equations_of(self, &gap, rate);
+    int status = rf_oil_slopes(shape, &gap, rate, self->found.rate, self->found.pressure, self->found.theta, 2,
+                               self->slopes, self->slopes + 2 * self->all);
+    if (status == RF_OK)
+        status = rf_oil_response(&cells, self->found.full, NULL, NULL, NULL, 2, self->slopes, NULL);
+    memset(stiffness, 0, 4 * sizeof *stiffness);
+    for (size_t k = 0; k < 4; ++k)
+        for (size_t q = 0; q < self->all && status == RF_OK; ++q)
+            if (self->found.full[q])
+                stiffness[k] -= 12.0 * film->force / film->clearance * shape->direction[k / 2 * shape->lines + q / shape->nodes]
+                                * rf_cell_area(shape, q) * self->slopes[k % 2 * self->all + q];
+    return status;
+}
+
+int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion, double dt,
+                   double *end, double *stiffness, int64_t *work)
+{
+    traveler self;
+    rf_message why;
+    int status = open_traveler(&self, film, &why);
+    if (status != RF_OK)
+        return status;
+    const size_t bytes = rf_oil_numbers(&film->shape) * sizeof *block;
+    memcpy(self.block, block, bytes);
+    work[0] = 1;
+    work[1] = 0;
+    status = inner_step(&self, motion, dt, near, 1, work + 1);
+    if (status == RF_OK && stiffness)
+        status = set_stiffness(&self, motion, stiffness);
+    for (size_t k = 0; k < RF_OIL_FLOWS; ++k)
+        self.block[RF_OIL_MEANS + k] = self.block[RF_OIL_PASSED + k] / dt;
+    if (status == RF_OK)
+        memcpy(end, self.block, bytes);
+    close_traveler(&self);
+    return status;
 }
 
 /* Go there in so many inner steps. */
@@ -193,7 +239,7 @@ static int follow(traveler *self, double t, const double *begin, const double *e
         int status = require_inside(self->film, motion, time, why);
         if (status != RF_OK)
             return status;
-        status = judged(inner_step(self, motion, length, work + 1), time, motion, why);
+        status = judged(inner_step(self, motion, length, self->block, SWEEPS, work + 1), time, motion, why);
         if (status != RF_OK)
             return status;
         for (size_t i = 0; i < RF_OIL_FLOWS; ++i)

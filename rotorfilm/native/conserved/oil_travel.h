@@ -47,4 +47,10 @@ RF_EXPORT_LOOP int rf_oil_begin(const rf_oil_film_si *film, const double *motion
 RF_EXPORT_LOOP int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, double dt, double *block,
                                  int64_t *work, rf_message *why);
 
+/* Try one inner step to a motion and leave the block as it is: `end` is the block there, and unless NULL `stiffness` is
+   -d force / d (x, y) [N/m], 2 x 2. Of the block `near` it takes what P and theta tell of transport and of full cells.
+   RF_STUCK, RF_MEMORY. */
+RF_EXPORT_LOOP int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion,
+                                  double dt, double *end, double *stiffness, int64_t *work);
+
 #endif

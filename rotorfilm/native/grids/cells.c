@@ -144,22 +144,22 @@ double rf_depth_behind(const rf_cells *cells, size_t i)
 }
 
 /* A row of faces or nodes across the film: the depth of the recess there, and n.(e, tau). */
-typedef struct row {
+typedef struct strip {
     const rf_cells *cells;
     double depth, base, lean;
-} row;
+} strip;
 
-static row row_at(const rf_cells *cells, const double *q, const double n0, const double n1, double depth)
+static strip row_at(const rf_cells *cells, const double *q, const double n0, const double n1, double depth)
 {
-    const row found = {cells, depth, q[0] * n0 + q[1] * n1, cells->grid->place ? q[2] * n0 + q[3] * n1 : 0.0};
+    const strip found = {cells, depth, q[0] * n0 + q[1] * n1, cells->grid->place ? q[2] * n0 + q[3] * n1 : 0.0};
     return found;
 }
 
 /* H at place k, on land. */
-static double thickness(const row *row, size_t k)
+static double thickness(const strip *across, size_t k)
 {
-    const rf_grid *grid = row->cells->grid;
-    return grid->place ? grid->wall[k] - row->base - grid->place[k] * row->lean : 1.0 - row->base;
+    const rf_grid *grid = across->cells->grid;
+    return grid->place ? grid->wall[k] - across->base - grid->place[k] * across->lean : 1.0 - across->base;
 }
 
 /* Add a conductance of so much width per length at a thickness, and its derivative by the thickness. */
@@ -187,7 +187,7 @@ static void drag(const rf_ring *ring, double H, double depth, double width, doub
 }
 
 /* The conductances to the next line, and what is dragged there. */
-static void set_around(rf_cells *cells, size_t i, const row *face, double step)
+static void set_around(rf_cells *cells, size_t i, const strip *face, double step)
 {
     const rf_ring *ring = cells->ring;
     const rf_grid *grid = cells->grid;
@@ -217,7 +217,7 @@ static void set_around(rf_cells *cells, size_t i, const row *face, double step)
 }
 
 /* The conductances to the next node and out of the ends, through the halves of the cells before and behind a line. */
-static void set_along(rf_cells *cells, size_t i, const row half[2], const double wide[2])
+static void set_along(rf_cells *cells, size_t i, const strip half[2], const double wide[2])
 {
     const rf_ring *ring = cells->ring;
     const rf_grid *grid = cells->grid;
@@ -261,9 +261,9 @@ void rf_set_cells(rf_cells *cells, const double *q)
         const double line = cells->theta[i], *const *at = (const double *const *)cells->at_line;
         const double wide[2] = {across * wrapped(line - cells->face[before]),
                                 across * wrapped(cells->face[i] - line)};
-        const row half[2] = {row_at(cells, q, at[0][i], at[1][i], rf_depth_behind(cells, before)),
+        const strip half[2] = {row_at(cells, q, at[0][i], at[1][i], rf_depth_behind(cells, before)),
                              row_at(cells, q, at[0][i], at[1][i], rf_depth_behind(cells, i))};
-        const row face = row_at(cells, q, cells->at_face[0][i], cells->at_face[1][i], rf_depth_behind(cells, i));
+        const strip face = row_at(cells, q, cells->at_face[0][i], cells->at_face[1][i], rf_depth_behind(cells, i));
         set_around(cells, i, &face, wrapped(cells->theta[i + 1 < n ? i + 1 : 0] - line));
         set_along(cells, i, half, wide);
         cells->normal[0][i] = cells->at_face[1][i] - cells->at_face[1][before];

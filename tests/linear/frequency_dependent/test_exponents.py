@@ -14,7 +14,7 @@ from rotorfilm.analysis.frequency_dependent import (
     rigid_growing,
 )
 from rotorfilm.bearings import FrequencyDependentCoefficients
-from rotorfilm.bearings.films.mass_conserving import circular_gap, oil_outflow
+from rotorfilm.bearings.films.mass_conserving import oil_outflow
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
 
 SPEED = 314.0
@@ -70,9 +70,9 @@ def pencil(film, e, state):
         P, theta = found.pressure.copy(), found.theta.copy()
         if step is not None:
             (P if full[step] else theta).flat[step] += 1.0
-        return oil_outflow(film.equations(circular_gap(cells, place), state.rate), P, theta).ravel()[free]
+        return oil_outflow(film.equations(film.gap(place), state.rate), P, theta).ravel()[free]
 
-    gap = np.repeat(state.gap.line, found.theta.shape[1]) * cells.area.ravel()
+    gap = (state.gap.line * cells.area).ravel()
     for k, cell in enumerate(free):
         A[4:, 4 + k] = outflow(e) - outflow(e, cell)
         if full[cell]:
@@ -81,8 +81,8 @@ def pencil(film, e, state):
             E[4 + k, 4 + k] = gap[cell]
     for axis, unit in enumerate(1e-5 * np.eye(2)):
         A[4:, axis] = (outflow(e - unit) - outflow(e + unit)) / 2e-5
-        turned = (circular_gap(cells, e + unit).line - circular_gap(cells, e - unit).line) / 2e-5
-        E[4:, axis] = (found.theta * cells.area * turned[:, None]).ravel()[free]
+        turned = (film.gap(e + unit).line - film.gap(e - unit).line) / 2e-5
+        E[4:, axis] = (found.theta * cells.area * turned).ravel()[free]
     A[:2, 2:4] = np.eye(2)
     E[:2, :2] = np.eye(2)
     return A, E
@@ -100,7 +100,7 @@ def small(film_of, rest_of):
     """Return the film of a rotor at speed 1 without dimensions on 24 x 4 cells, and its pencil."""
     given = film_of(cells=(24, 4))
     film, e = given.film, rest_of(given).position / given.clearance
-    state = film.solve(circular_gap(film.cells, e), 0.5)
+    state = film.solve(film.gap(e), 0.5)
     return remembered(Stepped(FilmInMotion(film, state)), 1.0), pencil(film, e, state)
 
 

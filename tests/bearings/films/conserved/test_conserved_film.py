@@ -5,7 +5,7 @@ import pytest
 
 from rotorfilm import Groove, ReynoldsFilm
 from rotorfilm.bearings import FilmGeometry, Pocket
-from rotorfilm.bearings.films.mass_conserving import circular_gap, step_storage
+from rotorfilm.bearings.films.mass_conserving import step_storage
 
 WIDEST = FilmGeometry(grooves=(Groove(center=np.pi),))
 PAIR = (Pocket(center=0.0, width=np.radians(20), share=0.8), Pocket(center=np.pi, width=0.3, share=0.6))
@@ -17,7 +17,7 @@ def polar(eps, angle):
 
 
 def solved(film, e, rate=0.5, **given):
-    return film.solve(circular_gap(film.cells, e), rate, **given)
+    return film.solve(film.gap(e), rate, **given)
 
 
 def random_bearing(seed, film_of):
@@ -144,8 +144,8 @@ def test_a_given_flow_is_that_of_the_pressure_it_makes(film_of):
 @pytest.mark.closed_form
 def test_steps_conserve_oil_and_come_to_the_steady_film(film_of):
     film, e = film_of(TWO, (36, 4)), polar(0.5, -0.7)
-    gap = circular_gap(film.cells, e)
-    now, guess, dt = np.tile(gap.line[:, None], (1, film.cells.width.size)), None, 0.3
+    gap = film.gap(e)
+    now, guess, dt = gap.line, None, 0.3
     for _ in range(60):
         state = film.solve(gap, 0.5, storage=step_storage(dt, now), guess=guess)
         flows = film.flows(state)

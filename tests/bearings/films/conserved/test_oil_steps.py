@@ -1,5 +1,8 @@
 """Steps in time of a film that conserves its oil: any lengths, slugs, films that stand."""
 
+from ctypes import byref
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
@@ -8,20 +11,58 @@ from rotorfilm.bearings.films.mass_conserving import (
     FILM,
     ConservedCells,
     ConservedFilm,
-    circular_gap,
+    ConservedState,
+    OilSolution,
+    address,
+    in_c,
+    report_search,
     step_storage,
 )
-from rotorfilm.bearings.films.mass_conserving_steps import (
-    OilHistory,
-    after_step,
-    oil_step,
-    remembered,
-    sharpened_oil,
-    steady_oil,
-)
 from rotorfilm.core.time_steps import bdf2
+from rotorfilm.native.library import loops
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2.0, width=np.radians(20.0), share=0.8),), supply=0.05)
+
+
+class History(NamedTuple):
+    """What a film knows of its past: theta H now and one step ago, the length of that step, the film."""
+
+    content: np.ndarray
+    before: np.ndarray
+    length: float
+    theta: np.ndarray
+    full: np.ndarray
+
+
+def after_step(memory, state, dt):
+    return History(state.content, memory.content, dt, *state.solution[1:3])
+
+
+def in_compiled_code(search, film, gap, rate, near, *further):
+    """Return the film that a function of `oil_steps.h` finds, near theta and full cells of another one."""
+    theta, full = (np.array(row) for row in near)
+    pressure, old = np.empty((2, *theta.shape))
+    made = in_c("rf_oil_found", pressure, theta, full, old)
+    report_search(loops()[search](byref(film.shape), byref(gap.struct), rate, *further, byref(made)))
+    equations = film.equations(gap, rate, (made.rate, old / film.cells.area))
+    return ConservedState(gap, rate, equations, OilSolution(pressure, theta, full, 0, 0), made.rate, made.lag)
+
+
+def oil_step(film, memory, gap, rate, dt):
+    past = in_c("rf_oil_past", memory.content, memory.before, memory.length)
+    return in_compiled_code("rf_oil_step", film, gap, rate, memory[3:], byref(past), dt)
+
+
+def steady_oil(film, gap, rate):
+    none = np.zeros(film.cells.opening.shape)
+    return in_compiled_code("rf_oil_rest", film, gap, rate, (none, none.astype(np.uint8)))
+
+
+def sharpened_oil(film, gap, rate, theta):
+    """Return what leaves the cells beyond transport at upstream theta."""
+    carried, theta = np.empty(film.cells.opening.shape), np.ascontiguousarray(theta)
+    loops()["rf_sharpen_oil"](byref(film.shape), byref(gap.struct), rate, address(theta), address(carried))
+    return carried
 
 
 @pytest.mark.closed_form
@@ -44,9 +85,9 @@ def ring(lines, supply):
 def carried_slug(lines, limited, supply, turns=150.0 / 360.0):
     """Return a slug of oil that a cavity has carried by a part of a turn, as it was, and as it should be."""
     film = ring(lines, supply)
-    angle, gap = film.cells.angle, circular_gap(film.cells, np.zeros(2))
+    angle, gap = film.cells.angle, film.gap(np.zeros(2))
     theta = np.tile(0.3 + 0.5 * np.exp(-(((angle - 1.5) / np.radians(15.0)) ** 2))[:, None], (1, 4))
-    memory = OilHistory(theta, theta, 0.0, 0.0 * theta, theta, np.zeros(theta.shape, dtype=np.uint8))
+    memory = History(theta, theta, 0.0, theta, np.zeros(theta.shape, dtype=np.uint8))
     steps = 2 * lines
     for _ in range(steps):
         dt = turns * 2.0 * np.pi / 0.5 / steps
@@ -81,9 +122,9 @@ def test_a_slug_of_oil_crosses_the_cavity(supply):
 @pytest.mark.parametrize("rate", [0.5, -0.5, 0.0])
 def test_a_steady_film_stands(film_of, rate):
     film = film_of(TOP, (36, 4))
-    gap = circular_gap(film.cells, np.array([0.35, -0.45]))
+    gap = film.gap(np.array([0.35, -0.45]))
     state = steady_oil(film, gap, rate)
-    memory = remembered(state)
+    memory = History(state.content, state.content, 0.0, *state.solution[1:3])
     for dt in (0.1, 0.15, 1.0, 0.01):
         after = oil_step(film, memory, gap, rate, dt)
         np.testing.assert_allclose(after.solution.theta, state.solution.theta, atol=1e-11)
@@ -97,7 +138,7 @@ def test_the_other_sense_of_rotation_is_the_mirror_image(supply):
     theta = np.random.default_rng(3).uniform(0.2, 1.0, (36, 4))
     film = ring(36, supply)
     # The mirror image of a line is the last but that line; the gap is that of a centered journal.
-    gap = circular_gap(film.cells, np.zeros(2))
+    gap = film.gap(np.zeros(2))
     there, turned = sharpened_oil(film, gap, 0.5, theta), sharpened_oil(film, gap, -0.5, theta[::-1])[::-1]
     np.testing.assert_allclose(turned, there, atol=1e-13)
     assert np.abs(there).max() > 1e-2 * film.cells.area.max()
@@ -108,7 +149,7 @@ def test_the_other_sense_of_rotation_is_the_mirror_image(supply):
 def test_the_last_cell_before_a_film_has_no_slope(supply):
     # Its theta tells how far the film reaches into it, and what leaves is that of upstream transport.
     film = ring(36, supply)
-    gap = circular_gap(film.cells, np.zeros(2))
+    gap = film.gap(np.zeros(2))
     arriving = np.linspace(0.4, 0.5, 11)
     leaves = []
     for fill in (0.0, 0.3, 0.7, 1.0 - 1e-9, 1.0):
@@ -127,8 +168,8 @@ def test_the_last_cell_before_a_film_has_no_slope(supply):
 def test_a_cell_never_gives_more_oil_than_it_has(supply):
     # Of a cell that had 1 and has .1, differences of second order would leave less than nothing.
     film = ring(36, supply)
-    gap = circular_gap(film.cells, np.zeros(2))
+    gap = film.gap(np.zeros(2))
     now, before = np.full((36, 4), 0.1), np.full((36, 4), 0.9)
-    memory = OilHistory(now, before, 0.1, 0.0 * now, now, np.zeros(now.shape, dtype=np.uint8))
+    memory = History(now, before, 0.1, now, np.zeros(now.shape, dtype=np.uint8))
     state = oil_step(film, memory, gap, 0.5, 0.1)
     np.testing.assert_allclose(state.content, 0.1, rtol=1e-12)

@@ -229,13 +229,20 @@ def test_states_that_it_refuses(fed):
         fed.solve([np.nan, 0.0], omega)
     with pytest.raises(InputError, match=r"position must have shape \(2,\)"):
         fed.solve([0.0, 0.0, 0.0], omega)
-    with pytest.raises(InputError, match="speed must be a single finite number"):
-        fed.force(HERE, [0.0, 0.0], [omega, omega])
+    with pytest.raises(InputError, match=r"speed \(\.\.\.\) must broadcast"):
+        fed.force(np.zeros((2, 3)), [0.0, 0.0], [omega, omega])
     with pytest.raises(InputError, match="speed: quantity must be a number with a unit"):
         coefficients(fed, HERE, "fast")
     for s in (np.nan, 1j * np.inf):
         with pytest.raises(InputError, match="s must be a finite number, got"):
             fed.complex_stiffness(HERE, omega, s)
+
+
+def test_a_batch_is_its_states_one_by_one(fed):
+    speeds, rest = np.array([omega, -0.5 * omega]), [0.0, 0.0]
+    for law, axes in ((fed.force, 1), (fed.jacobian, 2)):
+        ones = [law(HERE, rest, speed) for speed in speeds]
+        np.testing.assert_array_equal(law(HERE, rest, speeds), np.stack(ones, axis=axes))
 
 
 def test_methods_take_quantities_as_functions_do(fed):
