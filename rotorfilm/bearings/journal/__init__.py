@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         RUPTURE_CELLS,
         JFOFilm as JFOFilm,
         JFOState as JFOState,
+        MomentCarryingJFOFilm as MomentCarryingJFOFilm,
         RuptureError as RuptureError,
         both_films,
         rupture_error as rupture_error,
