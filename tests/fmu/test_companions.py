@@ -56,8 +56,7 @@ def test_fmus_of_other_models_share_no_modules():
     # The second would look for its table in the folder of the first, which may be gone.
     bearing = "rotorfilm.bearings.journal"
     short, mapped = (
-        bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"})
-        for film in ("reynolds_film", "map_film")
+        bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"}) for film in ("reynolds_film", "map_film")
     )
     assert set(short.modules) == set(mapped.modules)
     assert short.modules["rotorfilm"] != mapped.modules["rotorfilm"]
