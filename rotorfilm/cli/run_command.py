@@ -230,11 +230,11 @@ def _print(title: str, answer: CosimAnswer, out: Path | None) -> None:
 
 def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:
     """Return the rows that describe a co-simulation."""
-    limit, watch = answer.critical_macro_angle, answer.watch
+    watch = answer.watch
     rows = [
         ("scheme", f"{answer.scheme}, order {answer.order}"),
         ("macro step", f"{math.degrees(answer.macro_angle):.4g} deg"),
-        ("stable at rest up to", "any" if limit is None else f"{math.degrees(limit):.4g} deg"),
+        ("stable at rest up to", _limit(answer)),
         ("largest eccentricity ratio", f"{answer.eccentricity_ratio:.4g}"),
         ("orbit error / clearance", f"{answer.orbit_error:.2e} (beside the monolithic solution)"),
         ("work", _counted(answer.work)),
@@ -244,3 +244,11 @@ def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:
     if watch.explicit_ratio is not None:
         rows.append(("macro step * damping / mass", f"{watch.explicit_ratio:.3g} (explicit limit .1 to 2)"))
     return [*rows, *(("warning", text) for text in watch.warnings)]
+
+
+def _limit(answer: CosimAnswer) -> str:
+    """Return up to which macro step the coupling is stable, in words."""
+    if not answer.is_stability_known:
+        return "not computed"
+    limit = answer.critical_macro_angle
+    return "any" if limit is None else f"{math.degrees(limit):.4g} deg"

@@ -49,6 +49,7 @@ class Reaction(Model, Protocol):
     - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
     - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
     - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
+    - `from_rest(position, speed)`, this reaction with initial states as at rest there;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
       `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
     - `rest_linearization(position, speed)`, the exact derivatives about that rest;
@@ -332,6 +333,23 @@ def is_warming(reaction: object) -> bool:
 def in_time(reaction: Any) -> Any:
     """Return a model as it runs: a reaction that warms has its temperature as a state."""
     return reaction.in_time() if is_warming(reaction) else reaction
+
+
+def from_rest(reaction: Any, position: Array, speed: float, temperature: float | None) -> Any:
+    """Return a model as it runs from a rest: a film begins at its temperature, pads in their tilts.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position : ndarray, shape (n,) [m]
+    speed : float [rad/s]
+    temperature : float or None [K]
+        That of a film that warms.
+    """
+    own = getattr(reaction, "from_rest", None)
+    if own is not None:
+        return own(position, speed)
+    return reaction.in_time(temperature) if is_warming(reaction) else reaction
 
 
 def at_balanced_temperature(reaction: Any, position: ArrayLike, speed: float) -> Any:

@@ -94,7 +94,11 @@ def _named(model: Model) -> Names:
 
 
 def _film_matrices(film: Model, journal: Array, time: float) -> tuple[Array, Array, Array]:
-    """Return K, C and the force of a film at the state of its journal."""
+    """Return K, C and the force of a film without states at the state of its journal."""
+    if film.states:
+        raise InputError(
+            f"reaction must have no states where the stability of a coupling is asked for, got {film!r}"
+        )
     rows = indices("film must have the outputs", names(film.outputs), FORCE_OUTPUTS)
     columns = indices("film must have the inputs", names(film.inputs), JOURNAL_INPUTS[:4])
     D = film.linearization(time, np.zeros(0), journal).D[np.ix_(rows, columns)]

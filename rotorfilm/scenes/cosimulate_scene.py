@@ -11,7 +11,7 @@ import numpy as np
 from ..analysis import simulate
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Stepped
-from ..core.port import clearance_of
+from ..core.port import clearance_of, in_time
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
@@ -31,7 +31,7 @@ from ..cosim import (
     critical_macro_step,
 )
 from ..native.spec import HasKernel
-from .export_scene import export_scene, resting_rotor
+from .export_scene import at_rest_on_film, export_scene
 from .reading import made_from
 from .scene import Scene
 from .schema import require_steps
@@ -79,7 +79,9 @@ class CosimAnswer(Readable):
     macro_angle : float [rad]
         Shaft rotation between two exchanges.
     critical_macro_angle : float or None [rad]
-        Where the scheme becomes unstable at the static equilibrium; None where it does not.
+        Where the scheme becomes unstable at the static equilibrium; None where it does not, or is not known.
+    is_stability_known : bool
+        False of a bearing with states, as tilts of pads or a temperature, and of `Adaptive`.
     orbit_error : float [1]
         Largest distance from the monolithic solution / clearance.
     eccentricity_ratio : float [1]
@@ -97,6 +99,7 @@ class CosimAnswer(Readable):
     order: int
     macro_angle: float
     critical_macro_angle: float | None
+    is_stability_known: bool
     orbit_error: float
     eccentricity_ratio: float
     hold_defect: float
@@ -159,7 +162,7 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
         report(min(1.0, t / scene.duration), "coupled run")
 
     with tempfile.TemporaryDirectory() as folder:
-        rotor, film = resting_rotor(scene), scene.bearing
+        rotor, film = at_rest_on_film(scene)
         # A mass-conserving film couples by the slopes of its force, which its FMU does not tell.
         native = not isinstance(film, Stepped) and isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
@@ -180,12 +183,14 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
+    known = not isinstance(scheme, Adaptive) and not in_time(scene.bearing).states
     tried = () if result.choice is None else result.choice.trials
     return CosimAnswer(
         scheme=scheme.label,
         order=scheme.order,
         macro_angle=scene.cosimulation.macro_angle,
-        critical_macro_angle=None if isinstance(scheme, Adaptive) else critical_macro_angle(scene, scheme),
+        critical_macro_angle=critical_macro_angle(scene, scheme) if known else None,
+        is_stability_known=known,
         orbit_error=orbit_distance(own, whole) / clearance,
         eccentricity_ratio=float(np.hypot(*own.position).max()) / clearance,
         hold_defect=result.coupling.hold_defect,
@@ -205,8 +210,8 @@ def critical_macro_angle(scene: Scene, scheme: Scheme | None = None) -> float | 
     scheme : Scheme, optional
         As in `critical_macro_step`.
     """
-    rotor = resting_rotor(scene)
-    limit = critical_macro_step(rotor, scene.bearing, state=rotor.initial_state, scheme=scheme).macro_step
+    rotor, bearing = at_rest_on_film(scene)
+    limit = critical_macro_step(rotor, bearing, state=rotor.initial_state, scheme=scheme).macro_step
     return None if limit is None else limit * abs(scene.speed)
 
 
@@ -225,6 +230,5 @@ def monolithic_solution(scene: Scene, times: Array) -> Trajectory:
     ContactError
         If the journal reaches the wall.
     """
-    return simulate(
-        resting_rotor(scene), scene.bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE
-    )
+    rotor, bearing = at_rest_on_film(scene)
+    return simulate(rotor, bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE)

@@ -35,7 +35,7 @@ from ..studies import (
 )
 from ..studies.journal_accuracy import SPEED
 from .cosimulate_scene import critical_macro_angle, monolithic_solution
-from .export_scene import export_scene, resting_rotor
+from .export_scene import at_rest_on_film, export_scene
 from .scene import Scene
 from .solve_journal import Answer
 
@@ -249,7 +249,7 @@ def _monolithic(scene: Scene, times: list[Array]) -> Trajectory:
 def _compared(
     scene: Scene, angle: float, monolithic: Trajectory, simulation: CoSimulation, wall: float, refused: str
 ) -> CoupledRun:
-    rotor = resting_rotor(scene)
+    rotor, _ = at_rest_on_film(scene)
     theory = coupling_stability(
         rotor, scene.bearing, state=rotor.initial_state, macro_step=simulation.macro_step
     )

@@ -13,7 +13,7 @@ from ..analysis import equilibrium, rotor_equilibrium
 from ..core.files import written_together
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import Reaction, from_rest
 from ..fmu import export_fmu, export_ssp
 from ..rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
 from ..rotors.force_law import LawRotor
@@ -152,8 +152,8 @@ def export_scene_system(scene: Scene, path: Path, *, version: str = "2.0", platf
     )
 
 
-def resting_rotor(scene: Scene) -> RigidRotor:
-    """Return the rotor of a scene at rest in its static equilibrium.
+def at_rest_on_film(scene: Scene) -> tuple[RigidRotor, Any]:
+    """Return the rotor of a scene at rest in its static equilibrium, and its bearing, as warm as there.
 
     Raises
     ------
@@ -163,28 +163,18 @@ def resting_rotor(scene: Scene) -> RigidRotor:
         If the film cannot carry the load.
     """
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
-    return replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
+    place = (float(at.position[0]), float(at.position[1]))
+    return replace(scene.rotor, position=place), from_rest(
+        scene.bearing, at.position, scene.speed, at.temperature
+    )
 
 
 def film_models(scene: Scene) -> SceneModels:
     """Return the journal bearing of a scene and its rotor, both at the static equilibrium."""
-    rotor = resting_rotor(scene)
+    rotor, bearing = at_rest_on_film(scene)
     start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
     law = LawRotor(rotor=rotor)
-    return SceneModels("film", scene.bearing, law, start, scene.macro_step, scene.duration)
-
-
-def tilting_models(scene: Scene) -> SceneModels:
-    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
-    from .pad_tables import quasi_static_scene  # another family, whose tables no other scene needs
-
-    scene = quasi_static_scene(scene)
-    models = film_models(scene)
-    bearing = scene.table("tilting_pad").build()
-    rest = np.array([models.start["x"], models.start["y"]])
-    pads = bearing.at_rest().pad_states(rest, scene.speed)
-    places = pads.tilts if bearing.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
-    return models._replace(bearing=replace(bearing, start=tuple(float(place) for place in places)))
+    return SceneModels("film", bearing, law, start, scene.macro_step, scene.duration)
 
 
 def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:

@@ -48,7 +48,7 @@ FAMILIES = {
     ),
     "lobed_journal": Family("scenes.pad_tables.LobedTable", FILM),
     "pressure_dam": Family("scenes.pad_tables.DamTable", FILM),
-    "tilting_pad": Family("scenes.pad_tables.TiltingTable", "scenes.export_scene.tilting_models"),
+    "tilting_pad": Family("scenes.pad_tables.TiltingTable", "scenes.export_scene.film_models"),
     "ball_bearing": Family("scenes.rolling.BallTable", FILM),
 }
 """By the name of its table in a scene."""

@@ -14,7 +14,7 @@ from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import Reaction, from_rest
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
@@ -219,7 +219,11 @@ def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
     rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
-    still = rotor_equilibrium(rotor, bearings, scene.speed).displacement
+    at = rotor_equilibrium(rotor, bearings, scene.speed)
+    still = at.displacement
+    for name, bearing in bearings.items():
+        place = at.coefficients[name].position
+        bearings[name] = from_rest(bearing, place, scene.speed, at.temperatures.get(name))
     return replace(rotor, initial=(*still, *0.0 * still)), bearings
 
 
@@ -251,7 +255,9 @@ def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
         return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
     rotor, bearing = scene.rotor, scene.bearing
     at = equilibrium(bearing, scene.static_load, scene.speed)
-    return replace(rotor, position=tuple(at.position.tolist())), bearing
+    return replace(rotor, position=tuple(at.position.tolist())), from_rest(
+        bearing, at.position, scene.speed, at.temperature
+    )
 
 
 def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
@@ -263,6 +269,8 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
         rotor = BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
+    if any(bearing.states for bearing in parts.bearings.values()):
+        return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
     return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
 
 

@@ -18,6 +18,7 @@ from fmpy import read_model_description
 
 import rotorfilm
 from rotorfilm import studies as ladders
+from rotorfilm.__main__ import main as program
 from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
@@ -461,3 +462,13 @@ def test_a_question_that_a_scene_cannot_be_asked_names_the_file(run, tmp_path):
     code, _, err = run("solve", str(path))
     assert code == 2
     assert "asked.toml: rigid_rotor is required for whirl_threshold" in err.replace("\n", "")
+
+
+def test_small_matrices_take_one_thread_unless_the_environment_says_otherwise(monkeypatch):
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    monkeypatch.setenv("MKL_NUM_THREADS", "1")
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    monkeypatch.setattr(sys, "argv", ["rotorfilm", "--version"])
+    program()
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
+    assert os.environ["OMP_NUM_THREADS"] == "3"

@@ -76,3 +76,22 @@ def test_a_coupling_past_its_limit_is_a_failure_and_keeps_what_it_had(capsys, tm
 def test_bad_input_is_named(capsys):
     assert run("cosim", SCENE, "--scheme", "best") == 2
     assert "--scheme must be one of ['auto', 'gauss-seidel-0'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("element", ["tilting_pad", "warm journal"])
+def test_bearings_with_states_are_coupled_from_rest(element, capsys, tmp_path):
+    """Without an excitation nothing moves, the oil as warm as at rest; stability is not known of states."""
+    path = tmp_path / "scene.toml"
+    assert run("new", element.removeprefix("warm ")) == 0
+    text = capsys.readouterr().out
+    if element == "warm journal":
+        lines = [line for line in text.splitlines() if not line.startswith("viscosity")]
+        oil = ["[lubricant]", 'grade = "ISO VG 32"', 'supply_temperature = "45 degC"']
+        text = "\n".join([*lines, *oil])
+    path.write_text(text)
+    brief = ["--set", "cosimulation.macro_angle=10 deg", "--set", "cosimulation.revolutions=0.5"]
+    assert run("cosim", str(path), "--scheme", "si-exp", *brief, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["is_stability_known"] is False
+    assert found["orbit_error"] < 1e-6
+    assert found["hold_defect"] < 1e-6

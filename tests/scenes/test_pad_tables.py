@@ -205,6 +205,6 @@ def test_the_clearance_of_a_bearing_is_told_as_it_was_given():
     pocket = "recess = { depth = 1e-4, start = 1, end = 2, share = 1 }"
     scene = scene_of(DAM + OIL + f"pads = [{{ start = 0, extent = 3, preload = 0.2, {pocket} }}]\n")
     assert scene.bearing.minimum_film((0.0, 0.0)) > 7.1e-5
-    data, _ = scene.film_table.echo(scene.bearing)
+    data, _ = scene.film_table.repeated_inputs(scene.bearing)
     assert data.assembled_clearance == pytest.approx(7e-5, rel=1e-14)
     assert data.pad_clearance == pytest.approx(7e-5 / 0.8, rel=1e-14)

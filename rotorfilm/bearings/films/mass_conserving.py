@@ -605,11 +605,15 @@ class ConservedFilm:
             byref(self.shape), byref(gap.struct), None, rate, storing, byref(struct), address(numbers)
         )
         wedge, around, store = numbers[: 3 * lines * along].reshape(3, lines, along)
-        return OilCells(
+        old = None if held is None else held * self.cells.area
+        made = OilCells(
             *(wedge, around, store, numbers[3 * lines * along :].reshape(lines, along + 1)),
             *(struct.first_pressure, struct.last_pressure, self.cells.opening, self.supply.fed),
-            *(self.supply.flow, bool(rate < 0.0), None if held is None else held * self.cells.area),
+            *(self.supply.flow, bool(rate < 0.0), old),
         )
+        struct.kept, struct.old = (numbers, old, self.shape), None if old is None else address(old)
+        vars(made)["struct"] = struct  # as it would make one of its own
+        return made
 
     @cached_property
     def weights(self) -> Array:
@@ -622,7 +626,8 @@ class ConservedFilm:
 
         With a tilt the moments too, over half the length, as those of `place` have it; shape (freedoms,).
         """
-        return -12.0 * np.tensordot(self.weights, state.solution.pressure - self.supply.end_pressure, 2)
+        P = state.solution.pressure - self.supply.end_pressure
+        return np.asarray(-12.0 * (self.weights.reshape(self.freedoms, -1) @ P.ravel()))
 
     def flows(self, state: ConservedState) -> OilFlows:
         """Return the flows into and out of the film."""

@@ -78,8 +78,10 @@ class FilmInMotion:
         ----------
         s : complex [1/s]
         """
-        K, slope = self._changes(s, *self._wave(s))
-        return K.astype(complex), slope.astype(complex)
+        rate, by_s = self._wave(s)
+        moved, held = self._slopes
+        found = self._found(rate, moved + s * held, by_s, held)
+        return found[:, : len(moved)], found[:, len(moved) :]
 
     def stiffness(self, s: complex, *, as_stepped: bool = False) -> Complex:
         """Return K(s) alone; K(0) is that of equilibria.
@@ -92,23 +94,23 @@ class FilmInMotion:
             By default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1)
             speed/(2 dxi) in place of s, where the cells resolve the wave.
         """
-        rate = np.asarray(s) if as_stepped else self._wave(s)[0]
-        return self._changes(s, rate)[0].astype(complex)
+        moved, held = self._slopes
+        return self._found(complex(s) if as_stepped else self._wave(s)[0], moved + s * held)
 
-    def slow(self) -> tuple[Array, Array]:
-        """Return K(0) and dK/ds(0): in motions slow against the time that oil takes to cross the cavity."""
-        still, slow = self._changes(0.0, np.zeros(()), np.ones(()))
-        return still, slow
+    def slow(self) -> tuple[Array, Array, Array]:
+        """Return K(0), dK/ds(0) and d force / d speed, shape (freedoms,) and without unit.
+
+        They belong to motions slow against the time that oil takes to cross the cavity.
+        """
+        (moved, held), count = self._slopes, self.film.freedoms
+        dragged = self._dragged(self.state.solution.theta)[None]
+        found = self._found(0.0, np.concatenate([moved, dragged]), 1.0, np.concatenate([held, 0.0 * dragged]))
+        return found[:, :count], found[:, count + 1 : -1], -found[:, count] / self.scale
 
     def of_step(self) -> Array:
         """Return K of the step in time that ended here, the oil of the last step given."""
-        return self._changes(0.0, np.zeros(()))[0]
-
-    def by_speed(self) -> Array:
-        """Return d force / d speed of a steady film, shape (freedoms,)."""
-        return -self._force_change(
-            oil_response(*self._frozen, -self._dragged(self.state.solution.theta)[None])
-        )[:, 0]
+        found: Array = self._found(0.0, self._slopes[0])
+        return found
 
     def sudden(self) -> Array:
         """Return d force / d (places, their rates, speed) of a film whose cells keep their oil.
@@ -122,7 +124,7 @@ class FilmInMotion:
         right = -np.concatenate([moved, held, self._dragged(solution.theta)[None]])
         keeps = np.where(solution.full, 0.0, KEEPS * self.film.cells.area)
         right = np.where(solution.full, right, 0.0)
-        return -self._force_change(oil_response(self.state.equations, solution.full, keeps, right))
+        return -self._force(oil_response(self.state.equations, solution.full, keeps, right))
 
     @cached_property
     def _slopes(self) -> tuple[Array, Array]:
@@ -142,23 +144,19 @@ class FilmInMotion:
         report_search(loops()["rf_oil_slopes"](*given, count, address(slopes[0]), address(slopes[1])))
         return slopes[0], slopes[1]
 
-    @property
-    def _frozen(self) -> tuple[Any, np.ndarray, Array]:
-        full = self.state.solution.full
-        return self.state.equations, full, np.zeros(full.shape)
+    def _found(self, rate: Any, first: Any, by_s: Any = None, second: Any = None) -> Any:
+        """Return what the changes of the outflow `first`, and then `second`, make of the force, negative.
 
-    def _changes(self, s: complex, rate: Any, by_s: Any = None) -> list[Any]:
-        """Return K, and dK/ds where it is asked for by the slope of the storage rate of the cavity."""
-        (moved, held), (equations, full, _) = self._slopes, self._frozen
-        if s == 0.0:
-            s, rate, by_s = 0.0, np.real(rate), None if by_s is None else np.real(by_s)
-        room = np.where(full, 0.0, self.state.gap.line * self.film.cells.area)
-        first, coupling = -(moved + s * held), None if by_s is None else by_s * room
-        right = first if coupling is None else np.concatenate([first, -held])
-        change = self.scale * self._force_change(oil_response(equations, full, rate * room, right, coupling))
-        return np.split(change, [len(moved)], axis=1)
+        The cavity stores at a rate; of the second the storage at `by_s` of what comes of the first is taken.
+        """
+        room = np.where(self.state.solution.full, 0.0, self.state.gap.line * self.film.cells.area)
+        given = self.state.equations, self.state.solution.full, rate * room
+        if second is None:
+            return self.scale * self._force(oil_response(*given, -first))
+        right = -np.concatenate([first, second])
+        return self.scale * self._force(oil_response(*given, right, by_s * room))
 
-    def _force_change(self, change: Complex | Array) -> Any:
+    def _force(self, change: Complex | Array) -> Any:
         """Return 12 integral of n dP for the changes (K, N, M), shape (freedoms, K)."""
         pressure = np.where(self.state.solution.full, change, 0.0)
         return 12.0 * np.tensordot(self.film.weights, pressure, ((1, 2), (1, 2)))
@@ -436,10 +434,9 @@ class MassConserving:
 
     def _jacobian(self, state: ConservedState, axes: Array, turning: float) -> Array:
         """Return the slopes (2, 5) of F = F_0 - K r - C r', r in turning axes, by motion in axes at rest."""
-        scaled, moving = self.scaled, self.scaled.about(state)
-        K, C = moving.slow()
+        scaled, (K, C, by_speed) = self.scaled, self.scaled.about(state).slow()
         by_position = axes @ (turning * C @ TURNED - K) @ axes.T - scaled.springs * np.eye(2)
-        by_speed = scaled.force * moving.by_speed() if scaled.carrying else np.zeros(2)
+        by_speed = 2.0 * scaled.carrying * scaled.force * by_speed
         return np.column_stack([by_position, -axes @ C @ axes.T, by_speed])
 
     def _stiffness(self, state: ConservedState, s: complex) -> Complex:

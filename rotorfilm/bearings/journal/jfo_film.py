@@ -77,6 +77,10 @@ def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
 # A journal bearing whose film conserves its oil where it ruptures, in SI units.
 
 
+AT_REST = np.eye(2)
+"""Axes in which the film of a journal stands."""
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JFOFilm(MassConserving):
@@ -229,14 +233,16 @@ class JFOFilm(MassConserving):
             As in `solve`.
         """
         q, state = self._steady(position, speed)
-        K, C = self.scaled.about(state).slow()
+        K, C, _ = self.scaled.about(state).slow()
         return ReducedCoefficients(stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0)
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return the film of a journal at rest, in axes at rest; InputError unless the velocity is 0."""
         if np.any(velocity):
             raise InputError(f"velocity must be (0, 0) for a film that remembers, got {velocity!r}")
-        return self._steady(position, speed)[1], np.eye(2), 0.0
+        require_inside(position, self.clearance)
+        film = self.film
+        return film.solve(film.gap(position / self.clearance), 0.5 * speed), AT_REST, 0.0
 
     def at_temperature(self, temperature: float) -> JFOFilm:
         """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
@@ -264,10 +270,9 @@ class JFOFilm(MassConserving):
         InputError, FilmContactError, ConvergenceError
             As `force`.
         """
-        rest = require_finite("velocity", velocity)
-        state, *_ = self.at_place(require_pair("position", position), rest, speed)
-        found = jfo_state(self, state, np.asarray(position, dtype=float))
-        q = found.position
+        q, omega = require_pair("position", position), require_number("speed", speed)
+        state, *_ = self.at_place(q, require_finite("velocity", velocity), omega)
+        found = jfo_state(self, state, q)
         (inflow, arriving), pumped = self.supplied(state)
         torque, force = found.friction_torque, found.force
         return BearingLosses(
@@ -332,8 +337,7 @@ class JFOFilm(MassConserving):
 
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_pair("position", position), require_number("speed", speed)
-        require_inside(q, self.clearance)
-        return q, self.film.solve(self.film.gap(q / self.clearance), 0.5 * omega)
+        return q, self.at_place(q, np.zeros(2), omega)[0]
 
 
 # What a film that conserves its oil says at one place of the journal, in SI units.

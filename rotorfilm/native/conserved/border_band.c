@@ -6,6 +6,13 @@
 #include "../grids/vectors.h"
 #include "../status.h"
 
+/* Into functions for each width of registers. */
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#else
+#define INLINE static inline
+#endif
+
 /* Pieces of a row, or of a vector, in both parts; no imaginary one where all is real. */
 typedef struct rf_piece {
     double *real, *imaginary;
@@ -43,7 +50,7 @@ void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real
 }
 
 /* Divide an entry by the pivot; whether anything is left of it. */
-static inline int scale(rf_piece entry, rf_piece pivot)
+INLINE int scale(rf_piece entry, rf_piece pivot)
 {
     if (!pivot.imaginary) {
         entry.real[0] *= pivot.real[0];
@@ -56,7 +63,7 @@ static inline int scale(rf_piece entry, rf_piece pivot)
 }
 
 /* y -= a x */
-static inline void take(size_t n, rf_piece a, rf_piece x, rf_piece y)
+INLINE void take(size_t n, rf_piece a, rf_piece x, rf_piece y)
 {
     rf_subtract(n, a.real[0], x.real, y.real);
     if (!a.imaginary)
@@ -79,7 +86,7 @@ static int invert(rf_piece pivot)
     return 1;
 }
 
-static inline int factorize_rows(const rf_border_band *band)
+INLINE int factorize_rows(const rf_border_band *band)
 {
     const size_t half = band->half, beside = rf_band_beside(band), whole = rf_whole_vectors(half);
     for (size_t p = 0; p < band->size; ++p) {
@@ -106,7 +113,7 @@ static inline int factorize_rows(const rf_border_band *band)
     return RF_OK;
 }
 
-static inline int factorize_corner(const rf_border_band *band)
+INLINE int factorize_corner(const rf_border_band *band)
 {
     const size_t size = band->size, border = band->border, beside = rf_band_beside(band);
     for (size_t p = 0; p < border; ++p) {
@@ -122,7 +129,7 @@ static inline int factorize_corner(const rf_border_band *band)
 }
 
 /* y -= row.x */
-static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
+INLINE void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
 {
     y.real[0] -= rf_product(n, row.real, x.real);
     if (!y.imaginary)
@@ -131,21 +138,20 @@ static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
     y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
 }
 
-static inline void forward(const rf_border_band *band, double *real, double *imaginary)
+/* Column by column, so that what is found at last is needed at once by a number of its own only. */
+INLINE void forward(const rf_border_band *band, double *real, double *imaginary)
 {
-    const size_t half = band->half, size = band->size;
-    for (size_t p = 1; p < size; ++p) {
-        const size_t reach = p < half ? p : half;
-        take_product(reach, in_row(band, p, half - reach), piece(real, imaginary, p - reach),
-                     piece(real, imaginary, p));
-    }
+    for (size_t p = 0; p < band->size; ++p)
+        for (size_t d = 1; d <= below(band, p); ++d)
+            take(1, in_row(band, p + d, band->half - d), piece(real, imaginary, p), piece(real, imaginary, p + d));
     for (size_t b = 0; b < band->border; ++b)
-        take_product(size + b, in_last(band, b, 0), piece(real, imaginary, 0), piece(real, imaginary, size + b));
+        take_product(band->size + b, in_last(band, b, 0), piece(real, imaginary, 0),
+                     piece(real, imaginary, band->size + b));
 }
 
-static inline void backward(const rf_border_band *band, double *real, double *imaginary)
+INLINE void backward(const rf_border_band *band, double *real, double *imaginary)
 {
-    const size_t half = band->half, size = band->size, border = band->border;
+    const size_t half = band->half, size = band->size, border = band->border, reach = rf_band_reach(band);
     for (size_t b = border; b-- > 0;) {
         const rf_piece x = piece(real, imaginary, size + b);
         take_product(border - 1 - b, in_last(band, b, size + b + 1), piece(real, imaginary, size + b + 1), x);
@@ -153,9 +159,10 @@ static inline void backward(const rf_border_band *band, double *real, double *im
     }
     for (size_t p = size; p-- > 0;) {
         const rf_piece x = piece(real, imaginary, p);
-        take_product(below(band, p), in_row(band, p, half + 1), piece(real, imaginary, p + 1), x);
-        take_product(border, in_row(band, p, rf_band_reach(band)), piece(real, imaginary, size), x);
-        scale(x, in_row(band, p, half));
+        take_product(border, in_row(band, p, reach), piece(real, imaginary, size), x);
+        if (scale(x, in_row(band, p, half)))
+            for (size_t d = 1; d <= half && d <= p; ++d)
+                take(1, in_row(band, p - d, half + d), x, piece(real, imaginary, p - d));
     }
 }
 

@@ -88,7 +88,7 @@ static inline void add(const rf_oil_parts *parts, size_t row, size_t column, dou
 {
     const int32_t at = parts->place[row], of = parts->place[column];
     rf_border_band *band = parts->band;
-    if (at < 0 || of < 0)
+    if (at < 0 || value == 0.0)
         return;
     if (at < parts->size && of < parts->size)
         band->rows[(size_t)at * parts->stride + band->half + (size_t)of - (size_t)at] += value;
@@ -96,35 +96,23 @@ static inline void add(const rf_oil_parts *parts, size_t row, size_t column, dou
         rf_add_to_band(band, (size_t)at, (size_t)of, value, 0.0);
 }
 
-/* What leaves one cell for another, in proportion to the unknown of the first. */
-static inline void add_flow(const rf_oil_parts *parts, size_t from, size_t to, double value)
-{
-    if (value == 0.0)
-        return;
-    add(parts, from, from, value);
-    add(parts, to, from, -value);
-}
-
-static void add_line(const rf_oil_parts *parts, size_t i, const double *by_pressure, const double *by_theta)
+/* The column of a cell: what leaves it for each of its neighbors, in proportion to its unknown, and what it stores. */
+static void add_cell(const rf_oil_parts *parts, size_t q, double by_pressure, double by_theta)
 {
     const rf_oil_cells *cells = parts->cells;
-    const size_t nodes = cells->nodes;
-    const double *along = cells->along + i * (nodes + 1);
-    for (size_t j = 0; j < nodes; ++j) {
-        const size_t here = i * nodes + j, beyond = after(cells, i) * nodes + j;
-        const size_t up = cells->backward ? beyond : here, down = cells->backward ? here : beyond;
-        add_flow(parts, here, beyond, by_pressure[here] * cells->around[here]);
-        add_flow(parts, beyond, here, by_pressure[beyond] * cells->around[here]);
-        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[here]));
-        if (j + 1 < nodes) {
-            add_flow(parts, here, here + 1, by_pressure[here] * along[j + 1]);
-            add_flow(parts, here + 1, here, by_pressure[here + 1] * along[j + 1]);
-        } else {
-            add(parts, here, here, by_pressure[here] * along[nodes]);
-        }
-        add(parts, here, here, by_theta[here] * cells->store[here]);
-    }
-    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * along[0]);
+    const size_t nodes = cells->nodes, all = cells->lines * nodes, i = q / nodes, j = q % nodes;
+    const size_t beyond = q + nodes < all ? q + nodes : q + nodes - all, before = q >= nodes ? q - nodes : q + all - nodes;
+    const double *along = cells->along + i * (nodes + 1) + j;
+    const double carried = by_theta * fabs(cells->wedge[cells->backward ? before : q]);
+    double onward = by_pressure * cells->around[q], back = by_pressure * cells->around[before];
+    *(cells->backward ? &back : &onward) += carried;
+    add(parts, q, q, onward + back + by_pressure * (along[0] + along[1]) + by_theta * cells->store[q]);
+    add(parts, beyond, q, -onward);
+    add(parts, before, q, -back);
+    if (j > 0)
+        add(parts, q - 1, q, -by_pressure * along[0]);
+    if (j + 1 < nodes)
+        add(parts, q + 1, q, -by_pressure * along[1]);
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */
@@ -148,8 +136,9 @@ void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, c
     memset(band->rows, 0, numbers * sizeof(double));
     if (band->imaginary_rows)
         memset(band->imaginary_rows, 0, numbers * sizeof(double));
-    for (size_t i = 0; i < cells->lines; ++i)
-        add_line(&parts, i, by_pressure, by_theta);
+    for (size_t q = 0; q < cells->lines * cells->nodes; ++q)
+        if (places->place[q] >= 0)
+            add_cell(&parts, q, by_pressure[q], by_theta[q]);
     for (size_t q = 0; real && q < cells->lines * cells->nodes; ++q)
         if (places->place[q] >= 0)
             rf_add_to_band(band, (size_t)places->place[q], (size_t)places->place[q], by_theta[q] * real[q],

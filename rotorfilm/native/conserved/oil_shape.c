@@ -60,7 +60,7 @@ void rf_set_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_g
 {
     const size_t n = shape->lines, m = shape->nodes, all = n * m;
     const rf_oil_gap linear = slope ? *slope : *gap, none = {NULL, NULL, NULL}, by = slope ? *slope : none;
-    const double long_film = shape->whole ? 4.0 : 1.0, square = shape->slenderness * shape->slenderness / long_film;
+    const double covered = (shape->whole ? 2.0 : 1.0) * shape->slenderness, square = covered * covered;
     double *wedge = numbers, *around = wedge + all, *store = around + all, *along = store + all;
     for (size_t q = 0, side = 0; q < all; ++q, ++side) {
         const size_t i = q / m, j = q % m;
