@@ -47,7 +47,7 @@ if TYPE_CHECKING:
         both_films,
         rupture_error as rupture_error,
     )
-    from .map.map_film import MapFilm as MapFilm, bearing_table
+    from .map_film import MapFilm as MapFilm, bearing_table
     from .moment_carrying_journal import MomentCarryingJournal as MomentCarryingJournal
     from .reynolds_film import (
         ExtrapolatedFilm as ExtrapolatedFilm,

@@ -29,9 +29,9 @@ static int is_inside(const rf_cells *cells, size_t j)
 
 void rf_open_cells(rf_cells *cells, const rf_ring *ring, const rf_grid *grid, double *memory)
 {
-    double **const by_line[LINE_ROWS] = {&cells->theta,      &cells->face,       &cells->at_line[0], &cells->at_line[1],
-                                         &cells->at_face[0], &cells->at_face[1], &cells->normal[0],  &cells->normal[1],
-                                         &cells->entry,      &cells->entry_slope};
+    double **const by_line[LINE_ROWS] = {
+        &cells->theta,      &cells->face,      &cells->at_line[0], &cells->at_line[1], &cells->at_face[0],
+        &cells->at_face[1], &cells->normal[0], &cells->normal[1],  &cells->entry,      &cells->entry_slope};
     double **const by_cell[6] = {&cells->around,      &cells->along,   &cells->around_slope,
                                  &cells->along_slope, &cells->dragged, &cells->dragged_slope};
     const size_t nodes = grid->nodes;
@@ -74,7 +74,8 @@ static void set_angles(const rf_cells *cells, const double a[2], const double *p
         if (k != last) {
             start = ring->turning ? widest : ring->start[k];
             size = ring->extent[k];
-            if (ring->pinned && !ring->resting) { /* the s that maps to theta is theta - 2 arg(1 - conj(a) exp(i theta)) */
+            if (ring->pinned && !ring->resting) {
+                /* the s that maps to theta is theta - 2 arg(1 - conj(a) exp(i theta)) */
                 const double end = start + size;
                 start -= 2.0 * bend(a, start, -1.0);
                 size = end - 2.0 * bend(a, end, -1.0) - start;
@@ -215,7 +216,7 @@ static void set_around(rf_cells *cells, size_t i, const strip *face, double step
     }
 }
 
-/* The conductances to the next node and out of the ends, through the halves of the cells before and behind the line. */
+/* The conductances to the next node and out of the ends, through the halves of the cells before and behind a line. */
 static void set_along(rf_cells *cells, size_t i, const strip half[2], const double wide[2])
 {
     const rf_ring *ring = cells->ring;
@@ -258,7 +259,8 @@ void rf_set_cells(rf_cells *cells, const double *q)
     }
     for (size_t i = 0, before = n - 1; i < n; before = i++) {
         const double line = cells->theta[i], *const *at = (const double *const *)cells->at_line;
-        const double wide[2] = {across * wrapped(line - cells->face[before]), across * wrapped(cells->face[i] - line)};
+        const double wide[2] = {across * wrapped(line - cells->face[before]),
+                                across * wrapped(cells->face[i] - line)};
         const strip half[2] = {row_at(cells, q, at[0][i], at[1][i], rf_depth_behind(cells, before)),
                              row_at(cells, q, at[0][i], at[1][i], rf_depth_behind(cells, i))};
         const strip face = row_at(cells, q, cells->at_face[0][i], cells->at_face[1][i], rf_depth_behind(cells, i));
@@ -334,7 +336,8 @@ void rf_bend(const rf_cells *cells, const double *x, const double *pressure, dou
             const int last = j + 1 == nodes;
             const double flux = cells->dragged && rate != 0.0 ? rate * cells->dragged_slope[q] : 0.0;
             const double around = (X[j] - after[j]) * (cells->around_slope[q] * (P[j] - beyond[j]) + flux);
-            const double along = cells->along_slope[q] * (X[j] - (last ? 0.0 : X[j + 1])) * (P[j] - (last ? 0.0 : P[j + 1]));
+            const double fall = X[j] - (last ? 0.0 : X[j + 1]), drop = P[j] - (last ? 0.0 : P[j + 1]);
+            const double along = cells->along_slope[q] * fall * drop;
             sums[0] += around;
             sums[1] += along;
             if (place) {

@@ -1,8 +1,8 @@
 /* The coefficients of a ring of cells at one place of the journal.
 
    Integrated over a cell the equation needs a conductance for each of its faces, `around` = m H^3 width/distance to
-   the next line and `along` = (L/D)^-2 m H^3 width/distance to the next node, the integral of n, exactly, and what the
-   walls drag through the face after a line beyond that of the smooth wall. */
+   the next line and `along` = (L/D)^-2 m H^3 width/distance to the next node, the integral of n, exactly, and what
+   the walls drag through the face after a line beyond that of the smooth wall. */
 #ifndef ROTORFILM_CELLS_H
 #define ROTORFILM_CELLS_H
 

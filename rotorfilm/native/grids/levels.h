@@ -12,7 +12,8 @@ typedef struct rf_levels {
     int level;
     rf_search search;
     double *source, *pressure, *answer, *flow; /* N x M of that grid; the last two are scratch */
-    uint8_t *full, *held, *known; /* N x M: nodes that are full, those that are held, full ones of the next coarser grid */
+    uint8_t *full, *held; /* N x M: nodes that are full, and those that are held ... */
+    uint8_t *known;       /* ... and those that are full on the next coarser grid */
     void *memory;
 } rf_levels;
 

@@ -6,6 +6,7 @@
 
 #include "../films/film.h"
 #include "../films/map_frame.h"
+#include "losses.h"
 #include "recess_pad.h"
 
 /* Add what a pad does to the force and, unless NULL, to its derivatives by the state. */
@@ -46,7 +47,9 @@ int rf_recess_at(const rf_recess *bearing, const double *state, double *f, doubl
         status = rf_open_pad(&at, bearing, bearing->pads + k, state);
         if (rf_pad_rests(&at))
             rests = 1;
-        else if (status == RF_OK && (status = rf_take_film(&at.film, at.drive, wrench, jacobian ? by : NULL)) == RF_OK)
+        else if (status == RF_OK)
+            status = rf_take_film(&at.film, at.drive, wrench, jacobian ? by : NULL);
+        if (status == RF_OK && !rf_pad_rests(&at))
             add_pad(bearing, &at, wrench, by, f, jacobian);
         rf_close_pad(&at);
     }
@@ -101,4 +104,46 @@ double rf_recess_least(const rf_recess *bearing, const double *position, size_t 
         }
     }
     return least;
+}
+
+/* The row of one pad: the force and what pressure does on the steps per rate, 12 P.b(0, 1); then its oil at rest. */
+static int take_losses(rf_over_pad *at, double *row)
+{
+    const double e[2] = {at->q[0], at->q[1]}, rate = at->drive[4];
+    const double rest[RF_DRIVES] = {rate * e[1], -rate * e[0], 0.0, 0.0, rate};
+    const int extrapolated = at->ring.extrapolated != 0;
+    rf_pad_oil oil;
+    int status = RF_OK;
+    row[0] = row[1] = row[2] = 0.0;
+    for (int level = 1; level >= 0 && status == RF_OK; --level) {
+        const double share = level == 0 ? extrapolated ? 4.0 / 3.0 : 1.0 : extrapolated ? -1.0 / 3.0 : 0.0;
+        double products[RF_DRIVES];
+        status = rf_solve_level(&at->film, level, at->drive);
+        rf_multiply(&at->film.cells[level], at->film.pressure, products);
+        row[0] -= 12.0 * share * products[0];
+        row[1] -= 12.0 * share * products[1];
+        row[2] += 12.0 * share * products[4];
+    }
+    if (status == RF_OK)
+        status = rf_follow_pad(&at->film, at->q, rest, &oil);
+    if (status != RF_OK)
+        return status;
+    row[3] = oil.film + oil.streamers;
+    row[4] = oil.gap;
+    row[5] = oil.entering;
+    row[6] = oil.leaving;
+    return RF_OK;
+}
+
+int rf_recess_losses(const rf_recess *bearing, const double *state, double *losses)
+{
+    int status = rf_is_broken(state, 5) ? RF_NOT_FINITE : RF_OK;
+    for (size_t k = 0; k < bearing->count && status == RF_OK; ++k) {
+        rf_over_pad at;
+        status = rf_open_pad(&at, bearing, bearing->pads + k, state);
+        if (status == RF_OK)
+            status = take_losses(&at, losses + RF_RECESS_LOSSES * k);
+        rf_close_pad(&at);
+    }
+    return status;
 }

@@ -19,7 +19,8 @@ static void add_span(rf_over_pad *at, double start, double end, int32_t cells)
 void rf_place_over_pad(rf_over_pad *at, const rf_recess *bearing, const rf_recess_pad *pad, const double *state)
 {
     const double own = bearing->clearance, rate = 0.5 * state[4], end = pad->start + pad->extent;
-    const double e[2] = {state[0] / own + pad->preload * cos(pad->anchor), state[1] / own + pad->preload * sin(pad->anchor)};
+    const double e[2] = {state[0] / own + pad->preload * cos(pad->anchor),
+                         state[1] / own + pad->preload * sin(pad->anchor)};
     const double drive[RF_DRIVES] = {state[2] / own + rate * e[1], state[3] / own - rate * e[0], 0.0, 0.0, rate};
     rf_ring *ring = &at->ring;
     memset(at, 0, sizeof *at);
@@ -52,7 +53,8 @@ static double *set_grid(rf_over_pad *at, int level, double *next)
 {
     rf_grid *grid = &at->ring.grids[level];
     const size_t lines = grid->lines, nodes = grid->nodes;
-    double *line = next, *face = line + lines, *value = face + lines, *width = value + lines, *conductance = width + nodes;
+    double *line = next, *face = line + lines, *value = face + lines;
+    double *width = value + lines, *conductance = width + nodes;
     int32_t *span = (int32_t *)(conductance + nodes), *held = span + lines;
     const size_t gap = RF_GAP_LINES >> level;
     size_t i = 0;
@@ -86,7 +88,8 @@ int rf_open_pad(rf_over_pad *at, const rf_recess *bearing, const rf_recess_pad *
     rf_place_over_pad(at, bearing, pad, state);
     if (!(rf_least_film(&at->ring, at->q, place) > 0.0))
         return RF_AT_WALL;
-    double *next = at->memory = malloc(2 * (4 * at->ring.grids[0].lines + 2 * at->ring.grids[0].nodes) * sizeof(double));
+    const rf_grid *finest = &at->ring.grids[0];
+    double *next = at->memory = malloc(2 * (4 * finest->lines + 2 * finest->nodes) * sizeof(double));
     if (!next)
         return RF_MEMORY;
     for (int level = 0; level < PAD_LEVELS; ++level)

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "../films/map_frame.h"
-#include "levels.h"
-#include "ring_losses.h"
+#include "losses.h"
 
 #define CENTER 1e-8 /* eccentricity ratio below which a plain film without source has a derivative */
 

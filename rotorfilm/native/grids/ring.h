@@ -1,17 +1,18 @@
 /* Reynolds' equation in two dimensions on a ring of cells, by finite volumes of second order.
 
-   The film is -(m H^3 P_theta)_theta - (L/D)^-2 (m H^3 P_z)_z = (w + z w').n - rate X_theta, p = 12 viscosity (R/c)^2 P,
-   with the gap H = A(z) - (e + z tau).n + D, n = (cos theta, sin theta). tau is what the end z = 1 of the journal lies
-   beside its middle, per clearance, A the profile of the wall, D the depth of a recess; w = de/dt + rate (e_y, -e_x)
-   and w' the same of tau, rate is half the speed. m is the mobility of the oil, and X what the walls drag beyond the
-   smooth H: the depth D, and what a mobility changes. Conductance and Couette flux on either side of a node are those
-   of the half cell there: what drives oil at a step is the difference of both (Rayleigh 1918).
+   The film is -(m H^3 P_theta)_theta - (L/D)^-2 (m H^3 P_z)_z = (w + z w').n - rate X_theta with
+   p = 12 viscosity (R/c)^2 P and the gap H = A(z) - (e + z tau).n + D, n = (cos theta, sin theta). tau is what the
+   end z = 1 of the journal lies beside its middle, per clearance, A the profile of the wall, D the depth of a recess;
+   w = de/dt + rate (e_y, -e_x) and w' the same of tau, rate is half the speed. m is the mobility of the oil, and X
+   what the walls drag beyond the smooth H: the depth D, and what a mobility changes. Conductance and Couette flux on
+   either side of a node are those of the half cell there: what drives oil at a step is the difference of both
+   (Rayleigh 1918).
 
    z runs from the middle, 0, to the end, 1, of the bearing, or over its whole length, from -1. Lines lie at
    exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s), uniform in s on every span between two edges: a
    Moebius map of the circle that crowds them at the minimum film, a = e/(1 + (1 - |e|^2)^.35). Edges stay on
-   lines, and the lines follow e unless they rest; the derivatives hold them. Nodes in openings are held at a pressure: an
-   opening lies in the middle of the bearing, or is as long, and ends at a node.
+   lines, and the lines follow e unless they rest; the derivatives hold them. Nodes in openings are held at a
+   pressure: an opening lies in the middle of the bearing, or is as long, and ends at a node.
 
    A ring is a bore that the journal touches at |e| = 1, or one pad, which it touches where H = 0 on its arc, so
    that |e| may be above 1. On a pad the lines crowd at its own minimum film, as if that were a bore's. */
@@ -32,9 +33,9 @@ typedef struct rf_grid {
     const double *line, *face; /* N: their places as fractions of the span */
     const double *value;       /* N: pressure of nodes that are held [1/s] */
     const int32_t *held;       /* N: how many nodes of a line are, from the middle of the bearing */
-    const double *width;       /* M: of the cells, as parts of half the length or all of it; without the half cells at its ends */
+    const double *width;       /* M: of the cells as parts of half the length, or all; without the half cells at ends */
     const double *conductance; /* M: 1/distance to the next node towards the end, as part of the same */
-    const double *place;       /* 2 M + 3: z of the end, or middle, then of faces and nodes in turn, and of the end ... */
+    const double *place;       /* 2 M + 3: z of the end or middle, of faces and nodes in turn, and of the end ... */
     const double *wall;        /* ... and A there; both NULL where A = 1 and the bearing is not whole */
     size_t within;             /* distances between nodes that the recess takes, counted from the middle */
 } rf_grid;
@@ -44,8 +45,8 @@ typedef struct rf_grid {
 #define RF_DRIVES 5   /* w, w' and the rate */
 #define RF_COLUMNS 9  /* of the derivatives: by freedoms and drives */
 
-/* How easily oil flows where the film is H thick: factors of H^3 in the flow that pressure drives, of H in the Couette
-   flux and of 1/H in the shear, and their derivatives by H. */
+/* How easily oil flows where the film is H thick: factors of H^3 in the flow that pressure drives, of H in the
+   Couette flux and of 1/H in the shear, and their derivatives by H. */
 typedef void (*rf_mobility)(const void *of, double H, double factor[3], double slope[3]);
 
 typedef struct rf_ring {
@@ -68,15 +69,16 @@ typedef struct rf_ring {
     int32_t pad;          /* whether it is one pad: all spans but the first */
 } rf_ring;
 
-/* The least H at q = (e, tau) of the bore, or of the pad, and its place in the middle: `at` is the e of a bore with that
-   film there. */
+/* The least H at q = (e, tau) of the bore, or of the pad, and its place in the middle: `at` is the e of a bore with
+   that film there. */
 RF_EXPORT_LOOP double rf_least_film(const rf_ring *ring, const double *q, double *at);
 
 /* RF_OK, or why there is no film at q[4] and drive[5]: RF_NOT_FINITE, RF_AT_WALL. */
 int rf_judge_state(const rf_ring *ring, const double *q, const double *drive);
 
-/* Force and moment f[4] = (F, T) at q[4] = (e, tau) and drive[5] = (w, w', rate), T in units of half the length, and unless
-   NULL by[4][9] = d f/d(q, drive). RF_STUCK, RF_MEMORY; RF_UNDEFINED for the derivative where nothing drives the film. Rows and columns of tau are 0 unless the bearing is whole. */
+/* Force and moment f[4] = (F, T) at q[4] = (e, tau) and drive[5] = (w, w', rate), T in units of half the length, and
+   unless NULL by[4][9] = d f/d(q, drive); rows and columns of tau are 0 unless the bearing is whole. RF_STUCK,
+   RF_MEMORY; RF_UNDEFINED for the derivative where nothing drives the film. */
 RF_EXPORT_LOOP int rf_ring_wrench(const rf_ring *ring, const double *q, const double *drive, double *f, double *by);
 
 /* The force, on the finest grid unless it is extrapolated, as any film's (films/film.h); RF_STUCK where the search
