@@ -23,7 +23,7 @@ LARGEST = {
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 88_000,
     "rotorfilm_pads": 74_000,
-    "rotorfilm_oil": 130_000,
+    "rotorfilm_oil": 112_000,
     "rotorfilm_loops": 310_000,
     "rotorfilm_master": 280_000,
 }

@@ -330,15 +330,17 @@ def oil_response(
     coupling : ndarray, shape (N, M), optional
         With it the second half of `right` is less coupling times what comes of the first.
     """
-    sets, is_complex = np.ascontiguousarray(full, dtype=np.uint8), np.iscomplexobj(storage)
-    parts = [np.array([part.real, part.imag]) for part in (storage, right)]
-    (real, imaginary), (answer, turned) = parts
-    by = None if coupling is None else np.array([coupling.real, coupling.imag])
+    is_complex, sets = np.iscomplexobj(storage), np.ascontiguousarray(full, dtype=np.uint8)
+
+    def parts(numbers: Any) -> Array:
+        return np.array([numbers.real, numbers.imag] if is_complex else [numbers], dtype=float)
+
+    stored, found, by = parts(storage), parts(right), None if coupling is None else parts(coupling)
     count = len(right) if by is None else len(right) // 2
-    others = (address(imaginary), address(turned)) if is_complex else (None, None)
-    places = address(sets), address(real), others[0], None if by is None else address(by)
-    report_search(loops()["rf_oil_response"](byref(cells.struct), *places, count, address(answer), others[1]))
-    return answer + 1j * turned if is_complex else answer
+    others = (address(stored[1]), address(found[1])) if is_complex else (None, None)
+    places = address(sets), address(stored), others[0], None if by is None else address(by)
+    report_search(loops()["rf_oil_response"](byref(cells.struct), *places, count, address(found), others[1]))
+    return found[0] + 1j * found[1] if is_complex else found[0]
 
 
 def in_c(name: str, *members: Any) -> Any:

@@ -40,15 +40,6 @@ static inline size_t below(const rf_border_band *band, size_t p)
     return left < band->half ? left : band->half;
 }
 
-void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real, double imaginary)
-{
-    const size_t far = column < band->size ? band->half + column - row : rf_band_reach(band) + column - band->size;
-    const rf_piece entry = row < band->size ? in_row(band, row, far) : in_last(band, row - band->size, column);
-    entry.real[0] += real;
-    if (entry.imaginary)
-        entry.imaginary[0] += imaginary;
-}
-
 /* Divide an entry by the pivot; whether anything is left of it. */
 INLINE int scale(rf_piece entry, rf_piece pivot)
 {
@@ -188,22 +179,16 @@ static void begin_real(const rf_border_band *band, double *x)
     forward(&real, x, NULL);
 }
 
-/* The right-hand side in the matrix. */
-static double *right_of(const rf_border_band *band, size_t row)
-{
-    return row < band->size ? band->rows + row * rf_band_stride(band) + rf_band_reach(band) + band->border
-                            : band->last + (row - band->size) * rf_last_stride(band) + band->size + band->border;
-}
-
 int rf_factorize_band(rf_border_band *band, double *right)
 {
-    for (size_t p = 0; right && p < band->size + band->border; ++p)
-        *right_of(band, p) = right[p];
+    const size_t all = band->size + band->border; /* the column of the right-hand side */
+    for (size_t p = 0; right && p < all; ++p)
+        band->rows[rf_band_place(band, p, all)] = right[p];
     const int status = factorize_real(band);
     if (!right || status != RF_OK)
         return status;
-    for (size_t p = 0; p < band->size + band->border; ++p)
-        right[p] = *right_of(band, p);
+    for (size_t p = 0; p < all; ++p)
+        right[p] = band->rows[rf_band_place(band, p, all)];
     finish_real(band, right);
     return RF_OK;
 }

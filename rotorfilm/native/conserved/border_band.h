@@ -11,7 +11,7 @@
 typedef struct rf_border_band {
     size_t size, half, border;
     double *rows; /* size x rf_band_stride: columns from `half` before the diagonal to `half` after it, the border, one more */
-    double *last; /* border x rf_last_stride: the rows of the border */
+    double *last; /* behind them, border x rf_last_stride: the rows of the border */
     double *imaginary_rows, *imaginary_last; /* NULL in a real matrix */
 } rf_border_band;
 
@@ -48,8 +48,14 @@ static inline size_t rf_band_numbers(const rf_border_band *band)
     return band->size * rf_band_stride(band) + band->border * rf_last_stride(band);
 }
 
-/* Add to an entry. */
-void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real, double imaginary);
+/* Where an entry is, from `rows` on, behind which `last` comes. */
+static inline size_t rf_band_place(const rf_border_band *band, size_t row, size_t column)
+{
+    if (row >= band->size)
+        return band->size * rf_band_stride(band) + (row - band->size) * rf_last_stride(band) + column;
+    return row * rf_band_stride(band)
+           + (column < band->size ? band->half + column - row : rf_band_reach(band) + column - band->size);
+}
 
 /* Replace the matrix by its factors; RF_OK, or RF_STUCK where it is singular. A right-hand side of a real matrix, of
    size + border, unless NULL becomes the solution on the way. */

@@ -75,73 +75,66 @@ void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_ba
     band->border = beside;
 }
 
-/* What a matrix is made of. */
-typedef struct rf_oil_parts {
+/* Where a matrix goes. */
+typedef struct target {
     const rf_oil_cells *cells;
     const int32_t *place;
     rf_border_band *band;
-    int32_t size;
-    size_t stride;
-} rf_oil_parts;
-
-static inline void add(const rf_oil_parts *parts, size_t row, size_t column, double value)
-{
-    const int32_t at = parts->place[row], of = parts->place[column];
-    rf_border_band *band = parts->band;
-    if (at < 0 || value == 0.0)
-        return;
-    if (at < parts->size && of < parts->size)
-        band->rows[(size_t)at * parts->stride + band->half + (size_t)of - (size_t)at] += value;
-    else
-        rf_add_to_band(band, (size_t)at, (size_t)of, value, 0.0);
-}
+} target;
 
 /* The column of a cell: what leaves it for each of its neighbors, in proportion to its unknown, and what it stores. */
-static void add_cell(const rf_oil_parts *parts, size_t q, double by_pressure, double by_theta)
+static void add_cell(const target *to, size_t q, double by_pressure, double by_theta)
 {
-    const rf_oil_cells *cells = parts->cells;
+    const rf_oil_cells *cells = to->cells;
     const size_t nodes = cells->nodes, all = cells->lines * nodes, i = q / nodes, j = q % nodes;
     const size_t beyond = q + nodes < all ? q + nodes : q + nodes - all, before = q >= nodes ? q - nodes : q + all - nodes;
     const double *along = cells->along + i * (nodes + 1) + j;
     const double carried = by_theta * fabs(cells->wedge[cells->backward ? before : q]);
     double onward = by_pressure * cells->around[q], back = by_pressure * cells->around[before];
     *(cells->backward ? &back : &onward) += carried;
-    add(parts, q, q, onward + back + by_pressure * (along[0] + along[1]) + by_theta * cells->store[q]);
-    add(parts, beyond, q, -onward);
-    add(parts, before, q, -back);
-    if (j > 0)
-        add(parts, q - 1, q, -by_pressure * along[0]);
-    if (j + 1 < nodes)
-        add(parts, q + 1, q, -by_pressure * along[1]);
+    const size_t rows[5] = {q, beyond, before, j > 0 ? q - 1 : q, j + 1 < nodes ? q + 1 : q};
+    const double values[5] = {
+        onward + back + by_pressure * (along[0] + along[1]) + by_theta * cells->store[q],
+        -onward,
+        -back,
+        j > 0 ? -by_pressure * along[0] : 0.0,
+        j + 1 < nodes ? -by_pressure * along[1] : 0.0,
+    };
+    for (size_t k = 0; k < 5; ++k)
+        if (to->place[rows[k]] >= 0 && values[k] != 0.0)
+            to->band->rows[rf_band_place(to->band, (size_t)to->place[rows[k]], (size_t)to->place[q])] += values[k];
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */
-static void fill_empty_rows(const rf_oil_parts *parts, size_t cut)
+static void fill_empty_rows(const target *to, size_t cut)
 {
-    const rf_oil_cells *cells = parts->cells;
+    const rf_oil_cells *cells = to->cells;
     const size_t nodes = cells->nodes, all = cells->lines * nodes, first = (cut + 1) * nodes;
-    for (size_t p = 0; p < parts->band->size; ++p)
+    for (size_t p = 0; p < to->band->size; ++p)
         if (cells->opening[(p + first) % all] != RF_FILM_CELL)
-            rf_add_to_band(parts->band, p, p, 1.0, 0.0);
-    for (size_t b = film_cells_of(cells, cut); b < parts->band->border; ++b)
+            to->band->rows[rf_band_place(to->band, p, p)] = 1.0;
+    for (size_t b = film_cells_of(cells, cut); b < to->band->border; ++b)
         if (!cells->fed[b - film_cells_of(cells, cut)])
-            rf_add_to_band(parts->band, parts->band->size + b, parts->band->size + b, 1.0, 0.0);
+            to->band->rows[rf_band_place(to->band, to->band->size + b, to->band->size + b)] = 1.0;
 }
 
 void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, const double *by_pressure,
                        const double *by_theta, const double *real, const double *imaginary, rf_border_band *band)
 {
-    const rf_oil_parts parts = {cells, places->place, band, (int32_t)band->size, rf_band_stride(band)};
+    const target to = {cells, places->place, band};
     const size_t numbers = rf_band_numbers(band);
     memset(band->rows, 0, numbers * sizeof(double));
     if (band->imaginary_rows)
         memset(band->imaginary_rows, 0, numbers * sizeof(double));
-    for (size_t q = 0; q < cells->lines * cells->nodes; ++q)
-        if (places->place[q] >= 0)
-            add_cell(&parts, q, by_pressure[q], by_theta[q]);
-    for (size_t q = 0; real && q < cells->lines * cells->nodes; ++q)
-        if (places->place[q] >= 0)
-            rf_add_to_band(band, (size_t)places->place[q], (size_t)places->place[q], by_theta[q] * real[q],
-                           imaginary ? by_theta[q] * imaginary[q] : 0.0);
-    fill_empty_rows(&parts, places->cut);
+    for (size_t q = 0; q < cells->lines * cells->nodes; ++q) {
+        if (places->place[q] < 0)
+            continue;
+        add_cell(&to, q, by_pressure[q], by_theta[q]);
+        const size_t at = rf_band_place(band, (size_t)places->place[q], (size_t)places->place[q]);
+        if (real)
+            band->rows[at] += by_theta[q] * real[q];
+        if (imaginary)
+            band->imaginary_rows[at] += by_theta[q] * imaginary[q];
+    }
+    fill_empty_rows(&to, places->cut);
 }
