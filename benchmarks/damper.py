@@ -116,8 +116,8 @@ def native() -> None:
     rest = np.column_stack([0.05 * rng.normal(size=(2000, 2)), np.zeros(2000)])
     rows = np.column_stack([C * chi * np.cos(phi), C * chi * np.sin(phi), rest])
     tables = film.native().tables
-    cells = [count - 5 for count in tables["coefficients"].shape]
-    head = [*cells, tables["reach"][0], tables["center"][0], C, film.force_scale]
+    cells = [count - 5 for count in tables["coefficients"].shape[1:]]
+    head = [*cells, tables["map"][0], tables["center"][0], C, film.force_scale]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         path = export_fmu(film, folder / "film.fmu", component="film")

@@ -104,9 +104,10 @@ def time_c(native: Path, folder: Path, states: np.ndarray) -> None:
     host = compile_c("fmu_host.c", folder / "host")
     unpacked = Path(fmpy.extract(str(native), unzipdir=str(folder / "in-c")))
     library = next((unpacked / "binaries").rglob("bearing.*"))
-    coefficients, reach, log_center = packaged_table().at(BEARING.slenderness)
+    table = packaged_table()
+    coefficients, log_center = table.at(BEARING.slenderness)
     cells = [count - 5 for count in coefficients.shape]
-    head = [*cells, reach, log_center, BEARING.clearance, BEARING.force_scale]
+    head = [*cells, table.reach, log_center, BEARING.clearance, BEARING.force_scale]
     np.array([*head, *coefficients.ravel()]).tofile(folder / "kernel.bin")
     states.tofile(folder / "states.bin")
     description = fmpy.read_model_description(str(native))

@@ -81,7 +81,7 @@ int main(int argc, char **argv)
 
     size_t size, count;
     const double *map = read_numbers(argv[5], &size), *states = read_numbers(argv[6], &count);
-    const rf_map plain = {(int32_t)map[0], (int32_t)map[1], map[2], map[3], map + 6};
+    const rf_map plain = {.x = {(int32_t)map[0], 0.0, map[2]}, .s = {(int32_t)map[1], -1.0, 1.0}, .center = map + 3, .coefficients = map + 6};
     rf_journal journal = {NULL, &plain, map[4], map[5]};
     *(void **)&journal.film = function(library, "rf_map_film");
     const unsigned first = (unsigned)atoi(argv[4]);

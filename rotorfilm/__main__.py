@@ -7,8 +7,8 @@ import sys
 def main() -> None:
     """Run the program with the arguments that it was started with.
 
-    Matrices of rotors are small: threads of a BLAS wait for each other longer than they work. So there is one,
-    unless the environment says otherwise; jobs of many scenes take processes.
+    Matrices of rotors are small: threads of a BLAS wait for each other longer than they work. So there is
+    one, unless the environment says otherwise; jobs of many scenes take processes.
     """
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
         os.environ.setdefault(name, "1")

@@ -114,7 +114,8 @@ def test_films_without_stations_name_themselves(ask):
 @pytest.mark.parametrize("ask", [campbell, rotor_threshold, unbalance_response, rotor_transmissibility])
 def test_a_rotor_of_the_wrong_kind_names_itself(ask):
     with pytest.raises(
-        InputError, match="rotor must be a flexible rotor such as a ShaftRotor, got LinearBearing"
+        InputError,
+        match="rotor must be a flexible rotor such as a ShaftRotor or a RigidShaft, got LinearBearing",
     ):
         ask(SPRING, {"left": SPRING}, SPEEDS)
 

@@ -23,6 +23,9 @@ from rotorfilm.bearings.journal.map.map_build import (
 from rotorfilm.bearings.journal.map.map_film import LOSS_FILE as TABLE
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "map" / "data" / TABLE
+QUANTUM = 1e-7
+"""Unit of the stored coefficients, far below the error of the nodes."""
+
 CELLS, REACH, RANGE = (14, 24, 12), 0.99, (0.1, 4.0)
 """Cells in X, s and ln(L/D); largest eccentricity ratio; smallest and largest length/diameter."""
 
@@ -57,7 +60,7 @@ def main() -> None:
     table = fit_loss_table(
         nodes(arguments.workers), slenderness_range=RANGE, largest_eccentricity_ratio=REACH
     )
-    table.save(arguments.out)
+    table.save(arguments.out, QUANTUM)
     print(f"{arguments.out}: {arguments.out.stat().st_size} bytes")
 
 

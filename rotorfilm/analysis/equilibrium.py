@@ -762,9 +762,10 @@ def near_states(film: FieldFilm, load: Array, speed: float, first: Array) -> Ite
 def _places(film: FieldFilm, load: Array, speed: float, first: Array, temperature: float) -> Iterator[Array]:
     yield first
     points = []
+    clearance = float(film.bearing.clearance) * min(relative_film(film.bearing, np.zeros(2)), 1.0)
     for chi in SCANNED:
         for angle in np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False):
-            place = chi * film.bearing.clearance * np.array([math.cos(angle), math.sin(angle)])
+            place = chi * clearance * np.array([math.cos(angle), math.sin(angle)])
             target = _target(film.frozen(place, speed, temperature), load, speed)
             points.append(_point(target, *_start_at(target, *place), 0))
     for point in sorted(points, key=lambda point: point.norm)[:TRIED]:

@@ -472,6 +472,8 @@ def whirl_margin(coefficients: Coefficients, mass: float) -> float:
 
 
 def _why_no_border(coefficients: Coefficients) -> str:
+    if not np.any(coefficients.damping):
+        return "no damping (C = 0): whirl neither grows nor decays by it, whatever the mass"
     if damping_has_rank_one(coefficients):
         return "damping matrix has rank 1 (det C = 0): stability does not depend on the mass"
     if np.trace(coefficients.damping) <= 0.0 or _determinant(coefficients.damping) < 0.0:

@@ -394,6 +394,11 @@ class FilmUnits:
         return self.film_viscosity * self.film_length * self.radius**3 / self.clearance**2
 
     @property
+    def pressure_scale(self: Dimensions) -> float:
+        """12 viscosity radius^2 / clearance^2 [Pa s], the film's unit of pressure per 1/s."""
+        return 12.0 * self.film_viscosity * (self.radius / self.clearance) ** 2
+
+    @property
     def nominal_force(self: Any) -> float:
         """Force of a middling motion at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)

@@ -415,7 +415,7 @@ def _number(value: np.ndarray) -> str:
         return f"{value.real:.6g}{value.imag:+.6g}i"
     if value.dtype.kind in "iu":
         return str(value)
-    return f"{float(value):.6g}" if value.dtype.kind == "f" else shortened(str(value))
+    return f"{float(value) + 0.0:.6g}" if value.dtype.kind == "f" else shortened(str(value))
 
 
 def is_number(value: object) -> bool:
@@ -449,7 +449,7 @@ def _array(name: str, value: np.ndarray, unit: str) -> list[str]:
         return [shortened(str(value))] if value.size else []
     if value.shape == (2, 2) and value.dtype.kind != "b":
         value = without_round_off(value)
-        rows = [[f"{a}{b} {value[i, j]:14.7g}" for j, b in enumerate(AXES)] for i, a in enumerate(AXES)]
+        rows = [[f"{a}{b} {value[i, j] + 0.0:14.7g}" for j, b in enumerate(AXES)] for i, a in enumerate(AXES)]
         return [f"{'   '.join(row)} {_spelled(unit)}".rstrip() for row in rows]
     return [_summary(name, value, unit)] if value.size else []
 

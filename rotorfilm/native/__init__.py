@@ -7,10 +7,10 @@ from ..core.sources import show
 if TYPE_CHECKING:
     from .film_kernels import (
         FilmKernel as FilmKernel,
-        GrooveMapKernel as GrooveMapKernel,
         JournalKernel as JournalKernel,
         LobesKernel as LobesKernel,
         MapKernel as MapKernel,
+        MapKind as MapKind,
         ShortKernel as ShortKernel,
         Status as Status,
     )

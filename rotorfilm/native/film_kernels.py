@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
-from enum import IntEnum
+from ctypes import addressof, byref, c_double, c_size_t
+from enum import Enum, IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.model import Array
 from .film_call import MASSLESS, address_of
 from .library import functions, loops
-from .structs import structure
+from .structs import constant, structure
 
 
 class Status(IntEnum):
@@ -60,12 +61,11 @@ class FilmKernel:
         Whether it has a table, beyond which it goes on.
     """
 
-    _function: ClassVar[str]
-    _library: ClassVar[staticmethod[[], dict[str, Any]]] = staticmethod(functions)
+    _function: str
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0
-    openings: ClassVar[bool] = False
+    openings: bool = False
     is_table: ClassVar[bool] = False
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -77,9 +77,9 @@ class FilmKernel:
         return None
 
     @property
-    def film(self) -> int | None:
+    def film(self) -> int:
         """The address of its rf_film."""
-        return cast(self._library()[self._function], c_void_p).value
+        return address_of(self._function)
 
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""
@@ -104,7 +104,7 @@ class ShortKernel(FilmKernel):
         Length / diameter.
     """
 
-    _function: ClassVar[str] = "rf_short_film"
+    _function = "rf_short_film"
 
     def __init__(self, slenderness: float) -> None:
         self._arguments = (slenderness,)
@@ -116,102 +116,74 @@ class ShortKernel(FilmKernel):
         return {}
 
 
+class MapKind(Enum):
+    """The coordinates of an impedance map, by their function in `native/films/map_kernel.h`."""
+
+    PLAIN = "rf_map_film"
+    GROOVED = "rf_groove_film"
+    PAD = "rf_pad_film"
+
+
 class MapKernel(FilmKernel):
-    """The dimensionless film force of one bearing from its impedance map.
+    """The dimensionless film force of one impedance map.
 
     Parameters
     ----------
-    coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
-        Quintic B-spline coefficients of M(X, T).
-    reach : float
-        X of the last node.
-    log_center : float
-        L0, the logarithm of -J/|w|^2 at the center.
-    slenderness : float
-        Length / diameter for the film at the wall, as which J goes on beyond the last node; 0, or a map that
-        is no such film at its last node, goes on as a power of X.
-    share : float
-        Of the film at the wall in units of a journal.
+    kind : MapKind
+        Its coordinates.
+    tables : mapping of str to ndarray
+        `coefficients`, `center` and `map`, as the C library reads them (`native/films/map_table.h`).
+
+    Raises
+    ------
+    ValueError
+        If the tables are not finite or do not fit each other.
     """
 
-    _function: ClassVar[str] = "rf_map_film"
     is_table: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        coefficients: Array,
-        reach: float,
-        log_center: float,
-        slenderness: float = 0.0,
-        share: float = 1.0,
-    ) -> None:
-        self._arguments = (coefficients, reach, log_center, slenderness, share)
-        self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
-        cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
-        if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
-            raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        place = self.coefficients.ctypes.data
-        self.struct = structure("rf_map")(cells_x, cells_t, reach, log_center, place)
-        functions()["rf_map_to_wall"](byref(self.struct), slenderness, share)
+    def __init__(self, kind: MapKind, tables: Mapping[str, ArrayLike]) -> None:
+        self._arguments = kind, tables
+        self._function, self.openings = kind.value, kind is MapKind.GROOVED
+        self._tables = as_floats(tables)
+        number = constant(f"RF_{kind.name}")
+        self.struct = taken(structure("rf_map")(), "rf_take_map", self._tables, number, b"")
+        if kind is MapKind.PLAIN:
+            functions()["rf_map_to_wall"](byref(self.struct))
         self.error = functions()["rf_map_error"](byref(self.struct))
 
     @property
-    def tables(self) -> dict[str, Array] | None:
-        """The map; see `FilmKernel.tables`."""
-        center, reach = np.array([self.struct.center]), np.array([self.struct.x_end])
-        return {"coefficients": self.coefficients[None], "center": center, "reach": reach}
-
-
-class GrooveMapKernel(MapKernel):
-    """The dimensionless film force of one bearing with axial openings from its impedance map.
-
-    Parameters
-    ----------
-    coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
-        Quintic B-spline coefficients of M(X, theta, s), in the angles those centered on the nodes.
-    reach : float
-        X of the last node.
-    log_center : ndarray, shape (cells_w,)
-        Those of L0 over the direction of the source.
-    crowding : float
-        Ratio of tan s and the tangent of the angle from the eccentricity to the source.
-    axis : float [rad]
-        Angle of the axis of the openings in the bearing frame.
-    slenderness : float
-        Length / diameter.
-    """
-
-    _function: ClassVar[str] = "rf_groove_film"
-    openings: ClassVar[bool] = True
-
-    def __init__(
-        self,
-        coefficients: Array,
-        reach: float,
-        log_center: Array,
-        crowding: float,
-        axis: float,
-        slenderness: float,
-    ) -> None:
-        self._arguments = (coefficients, reach, log_center, crowding, axis, slenderness)
-        wide = periodic(periodic(coefficients, 1), 2)
-        self.coefficients = np.ascontiguousarray(wide, dtype=float)
-        self.log_center = np.ascontiguousarray(periodic(log_center, 0), dtype=float)
-        cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
-        places = self.log_center.ctypes.data, self.coefficients.ctypes.data
-        counts = cells_x, cells_e, cells_s, len(log_center)
-        self.struct = structure("rf_groove_map")(*counts, reach, crowding, axis, *places, slenderness)
-        self.error = functions()["rf_groove_error"](byref(self.struct))
-
-    @property
     def tables(self) -> dict[str, Array]:
-        """The map as all kernels with openings read it."""
-        numbers = (self.struct.slenderness, self.struct.x_end, self.struct.squeeze, self.struct.axis)
-        return {
-            "coefficients": self.coefficients,
-            "center": self.log_center,
-            "map": np.array(numbers),
-        }
+        """The map; see `FilmKernel.tables`."""
+        return self._tables
+
+
+def as_floats(tables: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Return tables as the C library reads them; ValueError if a number is not finite."""
+    found = {name: np.ascontiguousarray(table, dtype=float) for name, table in tables.items()}
+    for name, table in found.items():
+        if not np.isfinite(table).all():
+            raise ValueError(f"{name} must be finite, got shape {table.shape}")
+    return found
+
+
+def taken(struct: Any, function: str, tables: Mapping[str, Array], *arguments: Any) -> Any:
+    """Return a structure that a function of the C library takes from tables, which must live as long.
+
+    Raises
+    ------
+    ValueError
+        If the tables do not fit each other.
+    """
+    rows = (structure("rf_table") * len(tables))()
+    for row, (name, table) in zip(rows, tables.items(), strict=True):
+        row.name, row.axes, row.numbers = name.encode(), table.ndim, table.ctypes.data
+        row.extent[: table.ndim] = table.shape
+    why = structure("rf_message")()
+    given = byref(structure("rf_tables")(addressof(rows), len(rows)))
+    if {**functions(), **loops()}[function](byref(struct), *arguments, given, byref(why)):
+        raise ValueError(why.text.decode())
+    return struct
 
 
 def periodic(coefficients: Array, axis: int) -> Array:

@@ -1,9 +1,9 @@
-"""The film on one pad from its map, in the C library, on NumPy arrays."""
+"""Bearings of tilting pads in compiled code (`native/pads/tilting.h`), on NumPy arrays."""
 
 from __future__ import annotations
 
 from ctypes import addressof, byref, c_size_t, c_void_p
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,50 +11,6 @@ from ..core.model import Array, Linearization
 from .film_kernels import Batch, FilmKernel
 from .library import loops
 from .structs import structure
-
-
-class PadMapKernel(FilmKernel):
-    """The dimensionless force of the film on one pad from its impedance map, in the frame of the pad.
-
-    Parameters
-    ----------
-    coefficients : ndarray, shape (cells_u + 5, cells_y + 5, cells_phi + 5)
-        Quintic B-spline coefficients of M(u, Y, phi).
-    extent : float [rad]
-        Angle that the pad covers, below pi.
-    u_range : (float, float)
-        First and last node of u.
-    y_end : float
-        Last node of Y; the first is opposite.
-    """
-
-    _function: ClassVar[str] = "rf_pad_film"
-    is_table: ClassVar[bool] = True
-    # There, so that the FMUs of other bearings do without it.
-    _library = staticmethod(loops)
-
-    def __init__(
-        self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float
-    ) -> None:
-        self._arguments = (coefficients, extent, u_range, y_end)
-        self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
-        cells = (count - 5 for count in self.coefficients.shape)
-        self.struct = structure("rf_pad_map")(*cells, *u_range, y_end)
-        self.struct.coefficients = self.coefficients.ctypes.data
-        loops()["rf_shape_pad"](byref(self.struct), extent)
-
-    @property
-    def tables(self) -> dict[str, Array]:
-        """What the kernel of a bearing of pads reads of it."""
-        at = self.struct
-        return {
-            "coefficients": self.coefficients,
-            "shape": np.array([self._arguments[1], at.u_first, at.u_last, at.y_end]),
-        }
-
-
-# Bearings of tilting pads in compiled code (`native/pads/tilting.h`), on NumPy arrays.
-
 
 REST = ("tilt", "pivot", "load", "stiffness", "by_speed", "least", "unloaded")
 """The numbers of rf_tilting_rest."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from ctypes import byref, c_double
 from dataclasses import dataclass, field, replace
 from typing import Protocol, runtime_checkable
 
@@ -14,7 +13,6 @@ from ..core.errors import InputError
 from ..core.model import Array, Linearization
 from ..core.signals import Signal
 from .library import functions
-from .structs import structure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,16 +176,14 @@ def sized_spec(spec: NativeSpec) -> NativeSpec | None:
     """
     layers = spec.tables.get("coefficients", np.zeros(0))
     numbers = {parameter.name: parameter.value for parameter in spec.parameters}
-    if layers.ndim != 3 or len(layers) == 1 or not {"radius", "length"} <= set(numbers):
+    if layers.ndim != 3 or len(layers) == 1 or "range" not in spec.tables:
         return None
     slenderness = numbers["length"] / (2.0 * numbers["radius"])
-    low, high = spec.tables["range"]
-    own, center = slice_table(layers, spec.tables["center"], (float(low), float(high)), slenderness)
+    low, high = spec.tables["range"].tolist()
     tables = {
-        "coefficients": own[None],
-        "center": np.array([center]),
-        "range": np.array([slenderness, slenderness]),
-    }
+        name: slice_table(spec.tables[name], (low, high), slenderness)[None]
+        for name in ("coefficients", "center")
+    } | {"range": np.array([slenderness, slenderness])}
     parameters = tuple(
         replace(p, tunable=False, description=f"{p.description.partition(';')[0]}{_bounds(None)}")
         if p.name in ("radius", "length")
@@ -208,33 +204,21 @@ def _bounds(slenderness_range: Array | None) -> str:
 # The map of one bearing from the table of all.
 
 
-def slice_table(
-    coefficients: Array, center: Array, slenderness_range: tuple[float, float], slenderness: float
-) -> tuple[Array, float]:
-    """Return the map of one bearing from that of all.
+def slice_table(layers: Array, slenderness_range: tuple[float, float], slenderness: float) -> Array:
+    """Return the numbers of one bearing from those of all.
 
     Parameters
     ----------
-    coefficients : ndarray, shape (s, x, t)
-        Quintic B-spline coefficients over ln(L/D), X and T; s = 1 for a single bearing.
-    center : ndarray, shape (s,)
-        The same of L0.
+    layers : ndarray, shape (s, ...)
+        Quintic B-spline coefficients over ln(L/D); s = 1 for a single bearing.
     slenderness_range : (float, float)
         Smallest and largest L/D.
     slenderness : float
         L/D within that range.
-
-    Returns
-    -------
-    coefficients : ndarray, shape (x, t)
-    center : float
     """
-    layers, x, t = coefficients.shape
-    all_layers, centers = (np.ascontiguousarray(a, dtype=float) for a in (coefficients, center))
-    cells = (layers - 5 if layers > 1 else 0, x - 5, t - 5)
-    table = structure("rf_map_table")(*cells, *slenderness_range, centers.ctypes.data, all_layers.ctypes.data)
-    collapsed, middle = np.empty((x, t)), c_double()
-    status = functions()["rf_map_slice"](byref(table), slenderness, collapsed.ctypes.data, byref(middle))
-    if status:
+    numbers, ends = np.ascontiguousarray(layers, dtype=float), np.array(slenderness_range, dtype=float)
+    own = np.empty(numbers.shape[1:])
+    places = ends.ctypes.data, slenderness, own.ctypes.data
+    if functions()["rf_map_slice"](numbers.ctypes.data, len(numbers), own.size, *places):
         raise ValueError(f"slenderness must be within {slenderness_range}, got {slenderness!r}")
-    return collapsed, middle.value
+    return own

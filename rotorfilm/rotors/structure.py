@@ -253,7 +253,7 @@ class MatrixRotor(FlexibleRotor):
 
 def require_flexible(rotor: object) -> None:
     """Raise InputError unless `rotor` has the matrices of a flexible rotor."""
-    require_kind("rotor", rotor, FlexibleRotor, "a flexible rotor such as a ShaftRotor")
+    require_kind("rotor", rotor, FlexibleRotor, "a flexible rotor such as a ShaftRotor or a RigidShaft")
 
 
 def solved_equations(s: Structure) -> Operators:

@@ -111,7 +111,8 @@ def models_of(scene: Any) -> SceneModels:
     given = [name for name in reversed(FAMILIES) if name in scene.tables]
     place = next((FAMILIES[name].models for name in given if FAMILIES[name].models), None)
     if place is None:
-        raise InputError(f"{' or '.join(FAMILIES)} must be a bearing under a rotor for FMUs, got {given}")
+        known = [name for name, family in FAMILIES.items() if family.models]
+        raise InputError(f"scene must have one of the tables {known} for FMUs, got {given}")
     found: SceneModels = brought(place)(scene)
     return found
 

@@ -163,7 +163,7 @@ def field_rest(film: HeatedFilm | HeatedJFOFilm, load: ArrayLike, speed: float) 
     """Return the rest on a film with a temperature field (T2, T3)."""
     whole: Any = film  # a force at rest, of a film that conserves its oil, is what these take
     found = heated_equilibrium(whole, load, speed)
-    return rest_of_state(film.bearing, found.rest, found.state.film, found.state)
+    return rest_of_state(whole.bearing, found.rest, found.state.film, found.state)
 
 
 def rest_of_state(

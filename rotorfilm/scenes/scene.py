@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -427,12 +428,21 @@ def parsed(document: str, source: str) -> dict[str, Any]:
     try:
         return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
     except tomllib.TOMLDecodeError as error:
-        where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
-        raise SceneError(f"{source}: not valid TOML: {shortened(where)}") from None
+        lines = document.splitlines()
+        where = str(error).replace("(at end of document)", f"(at line {len(lines)}, the last)")
+        raise SceneError(f"{source}: not valid TOML: {shortened(where)}{_quotes(lines, where)}") from None
     except RecursionError:
         raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
     except ValueError:  # Python reads no integer of more than 4300 digits
         raise SceneError(f"{source}: integers must not have thousands of digits") from None
+
+
+def _quotes(lines: list[str], where: str) -> str:
+    """Return that a number with a unit must be in quotes, where a message tells of a line with one."""
+    told = re.search(r"at line (\d+)", where)
+    line = lines[int(told[1]) - 1] if told and lines else ""
+    bare = re.match(r"\s*[\w.-]+\s*=\s*([-+.\d][-+.\w]*\s+[A-Za-z%][^#\"]*)", line)
+    return f'; a number with a unit must be in quotes, as "{bare[1].strip()}"' if bare else ""
 
 
 def varied(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:

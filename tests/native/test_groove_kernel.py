@@ -6,13 +6,21 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from rotorfilm.native import GrooveMapKernel, JournalKernel, Status
+from rotorfilm.native import JournalKernel, MapKernel, MapKind, Status
+from rotorfilm.native.film_kernels import periodic as widened
 
 CELLS, REACH, SQUEEZE, AXIS = (7, 9, 12, 15), 3.0, 0.7, 0.4
 TURN = 2.0 * np.pi
 rng = np.random.default_rng(5)
 M, L0 = rng.normal(size=(CELLS[0] + 5, *CELLS[1:3])) * 0.2, rng.normal(size=CELLS[3]) * 0.2
-MAP = GrooveMapKernel(M, REACH, L0, SQUEEZE, AXIS, 0.5)
+MAP = MapKernel(
+    MapKind.GROOVED,
+    {
+        "coefficients": widened(widened(M, 1), 2),
+        "center": widened(L0, 0),
+        "map": [0.5, REACH, SQUEEZE, AXIS],
+    },
+)
 
 
 def periodic(c, angle, axis, derivative=0):
@@ -23,7 +31,7 @@ def periodic(c, angle, axis, derivative=0):
 
 
 def logarithm(chi, theta, phi):
-    """Return ln(-J/|w|^2) as groove_kernel.h defines it."""
+    """Return ln(-J/|w|^2) as map_kernel.h defines it."""
     x, s = chi / (1.0 - chi**2) ** 0.25, np.arctan2(SQUEEZE * np.sin(phi - theta), np.cos(phi - theta))
     along = BSpline(np.arange(-5, CELLS[0] + 6) * REACH / CELLS[0], M, 5)(x)
     return periodic(L0, phi - AXIS, 0) + chi * periodic(periodic(along, theta - AXIS, 0), s, 0)

@@ -21,10 +21,10 @@ LARGEST = {
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 92_000,
     "rotorfilm_grid_systems": 144_000,
-    "rotorfilm_heat": 82_000,
+    "rotorfilm_heat": 88_000,
     "rotorfilm_pads": 74_000,
-    "rotorfilm_oil": 116_000,
-    "rotorfilm_loops": 285_000,
+    "rotorfilm_oil": 130_000,
+    "rotorfilm_loops": 292_000,
     "rotorfilm_master": 280_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""

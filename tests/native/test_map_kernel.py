@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from rotorfilm.native import JournalKernel, MapKernel, Status, slice_table
+from rotorfilm.native import JournalKernel, MapKernel, MapKind, Status, slice_table
 
 CELLS_X, CELLS_T, REACH, CENTER = 7, 9, 3.0, -0.4
 
@@ -20,7 +20,12 @@ def random_coefficients():
     return c
 
 
-MAP = MapKernel(random_coefficients(), REACH, CENTER)
+def plain_map(coefficients, reach, center):
+    """Return a map that goes on as a power of X."""
+    return MapKernel(MapKind.PLAIN, {"coefficients": coefficients[None], "center": [center], "map": [reach]})
+
+
+MAP = plain_map(random_coefficients(), REACH, CENTER)
 
 
 def spline_value(x, t, derivatives=(0, 0)):
@@ -195,8 +200,14 @@ def test_journal_kernel_is_the_map_in_si_units():
 
 
 def test_coefficients_must_fit():
-    with pytest.raises(ValueError, match="6 x 6 at least"):
-        MapKernel(np.zeros((5, 6)), 1.0, 0.0)
+    with pytest.raises(ValueError, match=r"6 x 6 at least .* got 1 x 5 x 6, 1 and 1"):
+        plain_map(np.zeros((5, 6)), 1.0, 0.0)
+    with pytest.raises(ValueError, match="must be numbers of a film, got -1"):
+        plain_map(np.zeros((6, 6)), -1.0, 0.0)
+    with pytest.raises(ValueError, match="center must be finite"):
+        plain_map(np.zeros((6, 6)), 1.0, np.nan)
+    with pytest.raises(ValueError, match="tables must contain center, got 1 others"):
+        MapKernel(MapKind.PLAIN, {"coefficients": np.zeros((1, 6, 6))})
     with pytest.raises(ValueError, match="speed must have shape"):
         JournalKernel(MAP, 1e-4, 1.0).force(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros(2))
 
@@ -214,12 +225,12 @@ def test_slices_of_the_universal_table_are_its_splines():
     coefficients, center = rng.normal(size=(12, 7, 9)), rng.normal(size=12)
     knots = np.log(0.1) + np.arange(-5, 13) * np.log(4.0 / 0.1) / 7
     for slenderness in (0.1, 0.10001, 0.25, 1.0, 3.999, 4.0):
-        sliced, middle = slice_table(coefficients, center, (0.1, 4.0), slenderness)
+        sliced, middle = (slice_table(each, (0.1, 4.0), slenderness) for each in (coefficients, center))
         at = np.clip(np.log(slenderness), np.log(0.1), np.log(4.0))
         np.testing.assert_allclose(sliced, BSpline(knots, coefficients, 5)(at), atol=1e-14)
         assert middle == pytest.approx(float(BSpline(knots, center, 5)(at)), abs=1e-14)
-    only, middle = slice_table(coefficients[:1], center[:1], (0.5, 0.5), 0.5)
+    only, middle = (slice_table(each[:1], (0.5, 0.5), 0.5) for each in (coefficients, center))
     np.testing.assert_array_equal(only, coefficients[0])
     assert middle == center[0]
     with pytest.raises(ValueError, match=r"slenderness must be within \(0.1, 4.0\), got 4.1"):
-        slice_table(coefficients, center, (0.1, 4.0), 4.1)
+        slice_table(coefficients, (0.1, 4.0), 4.1)

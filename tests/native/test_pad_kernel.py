@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from rotorfilm.native import Status
-from rotorfilm.native.pad_kernels import PadMapKernel
+from rotorfilm.native import MapKernel, MapKind, Status
 
 CELLS, U, Y_END, EXTENT = (7, 8, 11), (-0.6, 2.4), 1.5, 1.8
 B = 0.5 * EXTENT
 EDGE = 0.5 * np.pi + B
 rng = np.random.default_rng(7)
 M = rng.normal(size=[count + 5 for count in CELLS]) * 0.2
-MAP = PadMapKernel(M, EXTENT, U, Y_END)
+MAP = MapKernel(MapKind.PAD, {"coefficients": M, "map": [EXTENT, *U, Y_END]})
 
 
 def axis(coefficients, first, last, at):
@@ -30,7 +29,7 @@ def wall(xi):
 
 
 def reference_potential(e, w):
-    """Return J as pad_kernel.h defines it."""
+    """Return J as map_kernel.h defines it."""
     phi, step = np.arctan2(w[1], w[0]), 2.0 * EDGE / (CELLS[2] + 1)
     m = axis(M, *U, -np.log(1.0 - e[0]))
     m = axis(m, -Y_END, Y_END, np.arctanh(e[1] / wall(e[0])))

@@ -24,7 +24,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings import LocalMelting, MapTable, f4k20_bush
 from rotorfilm.fmu.reference import LinearSystem
-from rotorfilm.native import GrooveMapKernel
+from rotorfilm.native.film_kernels import periodic
 from rotorfilm.native.resource import FILE_NAME
 from rotorfilm.rotors import mount
 
@@ -67,9 +67,9 @@ class RoughGrooves(JournalBearing):
     def native(self):
         """Return its kernel."""
         rng = np.random.default_rng(3)
-        film = GrooveMapKernel(0.1 * rng.normal(size=(7, 6, 8)), 3.0, rng.normal(size=12), 0.7, 0.4, 0.5)
-        numbers = np.array([self.slenderness, 3.0, 0.7, 0.4])
-        tables = {"coefficients": film.coefficients, "center": film.log_center, "map": numbers}
+        rough, numbers = 0.1 * rng.normal(size=(7, 6, 8)), np.array([self.slenderness, 3.0, 0.7, 0.4])
+        wide = periodic(periodic(rough, 1), 2)
+        tables = {"coefficients": wide, "center": periodic(rng.normal(size=12), 0), "map": numbers}
         return replace(JournalBearing.native(small_bearing()), kernel="grooved_journal", tables=tables)
 
 

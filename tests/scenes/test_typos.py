@@ -106,6 +106,7 @@ def test_capital_letters_are_a_typo_too():
         ("schema = 1\n[journal]\n[journal]\n", r"line 3, column 9"),
         ('schema = 1\n[journal]\nfilm = """short\n', r"line 3, the last"),
         ("schema = 1\ntitle = 'a\nb'\n", r"line 2, column 11"),
+        ("schema = 1\n[journal]\nlength = 60 mm\n", r'in quotes, as "60 mm"'),
     ],
 )
 def test_syntax_error_is_reported_with_its_line(document, line):

@@ -24,7 +24,7 @@ from ...core.sources import source_digest
 from ...native import MapKernel
 from ..films.law import BoundKernel
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
-from ..films.map_table import VERSION, MapTable, cached_table, table_path
+from ..films.map_table import MapTable, cached_table, table_path
 from ..journal import MapFilm
 from .squeeze_films import (
     CavitatedSqueezeFilm,
@@ -141,7 +141,7 @@ def squeeze_path(
     slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
 ) -> Path:
     """Return where a table lies; the name is a digest of all that decides its content."""
-    return table_path("damper", (VERSION, source_digest(__name__), slenderness, layer, cavitated, cells))
+    return table_path("damper", (source_digest(__name__), slenderness, layer, cavitated, cells))
 
 
 def _cavitated_table(slenderness: float, layer: PorousLayer | None, cells: tuple[int, int]) -> MapTable:
@@ -288,7 +288,7 @@ class SqueezeMapFilm(MapFilm):
 
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, wall: tuple[float, float]) -> MapKernel:
-    return MapKernel(*table.at(RATIO), *wall)
+    return table.kernel(RATIO, wall)
 
 
 @dataclass(frozen=True)
@@ -315,11 +315,7 @@ class MappedSqueezeFilm:
 
     def native_tables(self) -> Mapping[str, Array]:
         """Return the tables of the kernel "damper"."""
-        tables = dict(self.film.native(RATIO)[1])
-        return {name: tables[name] for name in ("center", "reach")} | {
-            "coefficients": tables["coefficients"][0],
-            "wall": np.array(self.film.wall),
-        }
+        return self.film._kernel(RATIO).tables
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""

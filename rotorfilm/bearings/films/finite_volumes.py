@@ -15,7 +15,7 @@ from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_size_t, c_void_p, cast
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -356,8 +356,7 @@ class RingKernel(FilmKernel):
         Whether the lines rest, uniform on every span, where the journal moves.
     """
 
-    _function: ClassVar[str] = "rf_ring_film"
-    _library = staticmethod(loops)
+    _function = "rf_ring_film"
 
     def __init__(
         self,

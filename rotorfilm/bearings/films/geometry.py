@@ -242,6 +242,10 @@ def _require_apart(first: Span, second: Span, room: float) -> None:
         )
 
 
+_MEETING = 1e-12
+"""Gap between two pads [rad] below which they meet at a line."""
+
+
 def _gaps(pads: tuple[Pad, ...]) -> list[Span]:
     """Return the gaps after each pad; a line where two pads meet, none after a pad of 2 pi."""
     if len(pads) == 1 and pads[0].extent == TURN:
@@ -252,7 +256,8 @@ def _gaps(pads: tuple[Pad, ...]) -> list[Span]:
         room = (following.start - pad.start) % TURN or TURN
         if pad.extent > room * (1.0 + 1e-12):
             raise InputError(f"pads must not overlap, got {pad!r} and {following!r}")
-        gaps.append(Span((pad.start + pad.extent) % TURN, max(room - pad.extent, 0.0), 0.0))
+        gap = room - pad.extent
+        gaps.append(Span((pad.start + pad.extent) % TURN, gap if gap > _MEETING else 0.0, 0.0))
     return gaps
 
 

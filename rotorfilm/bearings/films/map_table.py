@@ -10,16 +10,17 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 from __future__ import annotations
 
 import hashlib
+import json
 import logging
+import math
 import os
 import struct
 import zlib
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Any, ClassVar, Self, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,34 +30,90 @@ from ...core.files import read_sealed, write_atomically, write_sealed
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
-from ...native import slice_table
+from ...native import MapKernel, MapKind, slice_table
 
-# How tables lie in files: a mark, a version, a checksum and sizes, then little-endian numbers.
-
-
-_HEADER = struct.Struct("<8sIIiiii")
-
-Sizes = tuple[int, int, int, int]
-
-Layout = tuple[tuple[str, int], ...]
-"""Little-endian dtype and count of each array of a table."""
+# How tables lie in files: a mark, a version, a checksum, a line of text which names the class and tells the
+# arrays, and their little-endian numbers.
 
 
-class StoredTable(ABC):
-    """A table that is its bytes: saved, loaded, compared and hashed by them."""
+MAGIC = b"RFTABLES"
+VERSION = 1
 
-    @abstractmethod
-    def to_bytes(self) -> bytes:
-        """Return the table as little-endian bytes."""
+_HEADER = struct.Struct("<8sII")
+
+BASIS = "coefficients"
+"""Field of which numbers may be stored as multiples of a quantum."""
+
+
+class StoredTable:
+    """A dataclass of numbers and arrays that is its bytes: saved, loaded, compared and hashed by them."""
+
+    def to_bytes(self, quantum: float = 0.0) -> bytes:
+        """Return the table as bytes.
+
+        Parameters
+        ----------
+        quantum : float
+            Where positive, coefficients are rounded to multiples of it, of 4 bytes each instead of 8.
+
+        Raises
+        ------
+        InputError
+            If a coefficient is beyond 2^31 quanta.
+        """
+        arrays = {name: np.asarray(value, dtype="<f8") for name, value in self._parts().items()}
+        if quantum:
+            arrays[BASIS] = _multiples(arrays[BASIS], quantum)
+        rows = [(name, array.dtype.str, array.shape) for name, array in arrays.items()]
+        line = json.dumps([type(self).__name__, quantum, rows]).encode() + b"\n"
+        body = b"".join([line, *(array.tobytes() for array in arrays.values())])
+        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body)) + body
 
     @classmethod
-    @abstractmethod
     def from_bytes(cls, content: bytes) -> Self:
-        """Return the table that `to_bytes` wrote."""
+        """Return the table that `to_bytes` wrote.
 
-    def save(self, path: str | Path) -> None:
-        """Write the table to a file."""
-        write_atomically(path, self.to_bytes())
+        Raises
+        ------
+        RotorfilmError
+            If the content is not such a table, of another version, truncated or damaged.
+        """
+        name = cls.__name__
+        if len(content) < _HEADER.size or not content.startswith(MAGIC):
+            raise RotorfilmError(f"{name}: the content does not begin with the mark of a table")
+        _, version, checksum = _HEADER.unpack_from(content)
+        if version != VERSION:
+            raise RotorfilmError(
+                f"{name}: version must be {VERSION}, got {version}; make it again with this rotorfilm"
+            )
+        body = content[_HEADER.size :]
+        if zlib.crc32(body) != checksum:
+            raise RotorfilmError(f"{name}: the checksum does not fit, the content is damaged")
+        line = body.partition(b"\n")[0]
+        kind, quantum, rows = json.loads(line)
+        if kind != name:
+            raise RotorfilmError(f"{name}: the content must be that of such a table, got a {kind}")
+        found, start = {}, len(line) + 1
+        for part, dtype, shape in rows:
+            count = math.prod(shape)
+            array = np.frombuffer(body, dtype=dtype, offset=start, count=count).astype(float)
+            found[part] = array.reshape(shape) * (quantum if "i" in dtype else 1.0)
+            start += count * np.dtype(dtype).itemsize
+        return cls(**{part: cls._restored(part, array) for part, array in found.items()})
+
+    def _parts(self) -> dict[str, Any]:
+        """Return the fields by name: numbers or arrays."""
+        return {part.name: getattr(self, part.name) for part in fields(cast(Any, self))}
+
+    @classmethod
+    def _restored(cls, name: str, array: Array) -> Any:
+        """Return a field from its array."""
+        tuples = {part.name for part in fields(cast(Any, cls)) if str(part.type).startswith("tuple")}
+        return float(array) if array.ndim == 0 else tuple(array.tolist()) if name in tuples else array
+
+    def save(self, path: str | Path, quantum: float = 0.0) -> None:
+        """Write the table to a file; see `to_bytes`."""
+        write_atomically(path, self.to_bytes(quantum))
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
@@ -74,61 +131,70 @@ class StoredTable(ABC):
         return hash(self._content)
 
 
-def seal(mark: bytes, version: int, sizes: Sizes, *arrays: Array | NDArray[np.int32]) -> bytes:
-    """Return the bytes of a table; the mark has eight of them."""
-    body = b"".join(array.astype(array.dtype.newbyteorder("<")).tobytes() for array in arrays)
-    return _HEADER.pack(mark, version, zlib.crc32(body), *sizes) + body
+def _multiples(numbers: Array, quantum: float) -> NDArray[np.int32]:
+    multiples = np.rint(numbers / quantum)
+    if not np.abs(multiples).max() < 2.0**31:
+        least = np.abs(numbers).max() / 2.0**31
+        raise InputError(f"quantum must be above {least:.3g} for these coefficients, got {quantum!r}")
+    return multiples.astype("<i4")
 
 
-def unseal(
-    kind: str, mark: bytes, version: int, layout: Callable[[Sizes], Layout], content: bytes
-) -> tuple[Any, ...]:
-    """Return the sizes, and then as floats the arrays that `seal` wrote.
-
-    Parameters
-    ----------
-    kind : str
-        What messages call the table.
-    mark, version
-        As given to `seal`.
-    layout : callable
-        The arrays of a table of given sizes; empty where sizes cannot be.
-    content : bytes
-
-    Raises
-    ------
-    RotorfilmError
-        If the content is not such a table, of another version, truncated or damaged.
-    """
-    if len(content) < _HEADER.size or not content.startswith(mark):
-        raise RotorfilmError(f"{kind}: the content does not begin with the mark of a {kind}")
-    _, found, checksum, *entries = _HEADER.unpack_from(content)
-    sizes: Sizes = (entries[0], entries[1], entries[2], entries[3])
-    if found != version:
-        raise RotorfilmError(
-            f"{kind}: version must be {version}, got {found}; make it again with this rotorfilm"
+def require_shapes(table: object, **shapes: tuple[int | None, ...]) -> None:
+    """Raise InputError unless fields are finite arrays of these shapes; None is any number from 6 on."""
+    for name, shape in shapes.items():
+        array = np.asarray(getattr(table, name))
+        fits = array.ndim == len(shape) and all(
+            n >= LEAST if want is None else n == want for n, want in zip(array.shape, shape, strict=True)
         )
-    arrays = layout(sizes)
-    expected = _HEADER.size + sum(np.dtype(dtype).itemsize * count for dtype, count in arrays)
-    if not arrays or len(content) != expected:
-        raise RotorfilmError(f"{kind}: size must be {expected} bytes for {sizes}, got {len(content)}")
-    if zlib.crc32(content[_HEADER.size :]) != checksum:
-        raise RotorfilmError(f"{kind}: the checksum does not fit, the content is damaged")
-    return (sizes, *_arrays(arrays, content))
+        if not (fits and np.isfinite(array).all()):
+            wanted = ", ".join(f"{LEAST} or more" if n is None else str(n) for n in shape)
+            raise InputError(f"{name} must be finite, of shape ({wanted}), got shape {array.shape}")
 
 
-def _arrays(layout: Layout, content: bytes) -> Iterator[Array]:
-    start = _HEADER.size
-    for kind, count in layout:
-        yield np.frombuffer(content, dtype=kind, offset=start, count=count).astype(float)
-        start += np.dtype(kind).itemsize * count
+LEAST = 6
+"""Coefficients of a quintic spline."""
+
+
+BANDS, ERRORS = 8, 5
+"""Most rows of the bounds of a map, and their columns."""
+
+
+class BoundedTable(StoredTable):
+    """A map with the largest errors that were found when it was made, in bands of the room of the journal.
+
+    Attributes
+    ----------
+    bounds : ndarray, shape (bands, 5)
+        Each band has the last place of it, and errors of the force, of K and C, of shear and of flows.
+    """
+
+    bounds: Array
+    _outward: ClassVar[bool] = True
+    """Whether places grow to the wall, as eccentricity ratios, or fall to it, as the least film."""
+
+    def bound(self, place: float, *, slopes: bool) -> float:
+        """Return the largest error [1] of the force, or of K and C, at a place; infinite where unknown."""
+        return self._bound(place, 2 if slopes else 1)
+
+    def loss_bound(self, place: float) -> tuple[float, float]:
+        """Return the largest errors [1] of shear and flows at a place; infinite where unknown."""
+        return self._bound(place, 3), self._bound(place, 4)
+
+    def _bound(self, place: float, column: int) -> float:
+        ends = self.bounds[:, 0]
+        errors = self.bounds[ends >= place if self._outward else ends <= place, column]
+        return float(errors[0]) if len(errors) else math.inf
+
+    def _require_bounds(self) -> None:
+        shape = np.shape(self.bounds)
+        if shape[1:] != (ERRORS,) or len(self.bounds) > BANDS or not np.all(self.bounds >= 0.0):
+            raise InputError(
+                f"bounds must have shape (bands, {ERRORS}), {BANDS} bands at most, and not be negative, "
+                f"got {self.bounds!r}"
+            )
 
 
 # The impedance map of every plain journal bearing as one table: collapsing, saving, loading.
-
-
-MAGIC = b"RFILMMAP"
-VERSION = 2
 
 
 @quantities
@@ -159,19 +225,18 @@ class MapTable(StoredTable):
     coefficients: Array = field(repr=False)
 
     def __post_init__(self) -> None:
-        shape, count = np.shape(self.coefficients), np.size(self.log_center)
-        low, high = self.slenderness_range
-        if len(shape) != 3 or min(shape[1:]) < 6 or shape[0] != count or 1 < count < 10:
+        count, (low, high) = len(self.log_center), self.slenderness_range
+        self._require_shapes(count)
+        if not (0.0 < low <= high < np.inf and (low < high) == (count > 1) and (count == 1 or count >= 10)):
             raise InputError(
-                "coefficients must have shape (s, x, t) with x, t >= 6 and log_center (s,), s 1 or >= 10, "
-                f"got shapes {shape} and {np.shape(self.log_center)}"
+                "slenderness_range must be positive, ascending, with 10 coefficients at least unless of one "
+                f"bearing, got {self.slenderness_range!r} and {count}"
             )
-        if not (0.0 < low <= high < np.inf and (low < high) == (count > 1)):
-            raise InputError(f"slenderness_range must be positive, ascending, got {self.slenderness_range!r}")
-        if not (0.0 < self.reach < np.inf and np.isfinite(self.coefficients).all()):
-            raise InputError(f"reach must be positive and coefficients finite, got reach {self.reach!r}")
-        if not np.isfinite(self.log_center).all():
-            raise InputError("log_center must be finite")
+        if not 0.0 < self.reach < np.inf:
+            raise InputError(f"reach must be positive, got {self.reach!r}")
+
+    def _require_shapes(self, count: int) -> None:
+        require_shapes(self, log_center=(count,), coefficients=(count, None, None))
 
     @property
     def largest_eccentricity_ratio(self) -> float:
@@ -183,8 +248,8 @@ class MapTable(StoredTable):
         low, high = self.slenderness_range
         return low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12)
 
-    def at(self, slenderness: float) -> tuple[Array, float, float]:
-        """Return the map of one bearing: coefficients (cells_x + 5, cells_t + 5), X of the last node, and L0.
+    def at(self, slenderness: float) -> tuple[Array, Array]:
+        """Return the map of one bearing: coefficients (cells_x + 5, cells_t + 5), and L0.
 
         Parameters
         ----------
@@ -202,57 +267,31 @@ class MapTable(StoredTable):
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
                 f"got {slenderness!r}; MapFilm() without a table takes more"
             )
-        collapsed, center = slice_table(
-            self.coefficients, self.log_center, self.slenderness_range, slenderness
-        )
-        return collapsed, self.reach, center
+        arrays = self.coefficients, self.log_center
+        own, center = (slice_table(array, self.slenderness_range, slenderness) for array in arrays)
+        return own, center
 
-    def to_bytes(self, quantum: float = 0.0) -> bytes:
-        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers.
+    def kernel(self, slenderness: float, wall: tuple[float, float]) -> MapKernel:
+        """Return the compiled film of one bearing.
 
         Parameters
         ----------
-        quantum : float
-            Where positive, M's coefficients are rounded to multiples of it, of 4 bytes each instead of 8.
+        slenderness : float [1]
+            Bearing length / diameter.
+        wall : (float, float) [1]
+            Length / diameter of the film at the wall, as which it goes on beyond the table, and the share of
+            that film in units of a journal. With 0, or where the last node is no such film, J goes on as a
+            power of X.
 
         Raises
         ------
         InputError
-            If a coefficient is beyond 2^31 quanta.
+            If the slenderness is outside the table.
         """
-        numbers = np.array([self.reach, *self.slenderness_range, quantum, *np.ravel(self.log_center)])
-        s, x, t = self.coefficients.shape
-        return seal(MAGIC, VERSION, (s, x, t, 4 if quantum else 8), numbers, self._packed(quantum))
-
-    def _packed(self, quantum: float) -> Array | NDArray[np.int32]:
-        if not quantum:
-            return self.coefficients
-        multiples = np.rint(self.coefficients / quantum)
-        if not np.abs(multiples).max() < 2.0**31:
-            least = np.abs(self.coefficients).max() / 2.0**31
-            raise InputError(f"quantum must be above {least:.3g} for these coefficients, got {quantum!r}")
-        return multiples.astype(np.int32)
-
-    @classmethod
-    def from_bytes(cls, content: bytes) -> Self:
-        """Return the table that `to_bytes` wrote.
-
-        Raises
-        ------
-        RotorfilmError
-            If the content is not such a table, of another version, truncated or damaged.
-        """
-        sizes, numbers, packed = unseal("map table", MAGIC, VERSION, _layout, content)
-        return cls(
-            slenderness_range=(float(numbers[1]), float(numbers[2])),
-            reach=float(numbers[0]),
-            log_center=numbers[4:],
-            coefficients=packed.reshape(sizes[:3]) * (numbers[3] or 1.0),
-        )
-
-    def save(self, path: str | Path, quantum: float = 0.0) -> None:
-        """Write the table to a file; see `to_bytes`."""
-        write_atomically(path, self.to_bytes(quantum))
+        own, center = self.at(slenderness)
+        numbers = np.array([self.reach, *wall])
+        tables = {"coefficients": own[None], "center": center[None], "map": numbers}
+        return MapKernel(MapKind.PLAIN, tables)
 
 
 def stretch(eccentricity_ratio: Array | float) -> Array:
@@ -265,17 +304,6 @@ def unstretch(X: Array | float) -> Array:
     """Return the eccentricity ratio of X: the root of chi^4 + X^4 chi^2 = X^4."""
     squared = np.asarray(X, dtype=float) ** 2
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
-
-
-def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: its numbers, then the coefficients of M."""
-    entries, cells_x, cells_t, width = sizes
-    possible = min(entries, cells_x, cells_t) > 0 and width in (4, 8)
-    return (
-        (("<f8", 4 + entries), (f"<{'f' if width == 8 else 'i'}{width}", entries * cells_x * cells_t))
-        if possible
-        else ()
-    )
 
 
 # Tables on disk: made once, found again, whole or not there.

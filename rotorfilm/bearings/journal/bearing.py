@@ -157,10 +157,8 @@ class JournalBearing(FilmReaction, WarmBearing):
         """Axial length that is film [m]: without that of a circumferential groove."""
         return film_length(self.length, self.circumferential_groove)
 
-    @property
-    def pressure_scale(self) -> float:
-        """12 viscosity radius^2 / clearance^2 [Pa s], the film's unit of pressure per 1/s."""
-        return 12.0 * self.film_viscosity * (self.radius / self.clearance) ** 2
+    def centers_at(self, angle: Array) -> None:
+        """Return None: the wall's only center of curvature is that of the bearing."""
 
     @cached_property
     def geometry(self) -> FilmGeometry:

@@ -6,16 +6,16 @@ All flows are in units of clearance x radius x length/2, that is in 1/s.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.model import Array
-from ...core.port import Tangent
-from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil, thickness
+from ...core.port import Tangent, has_wall
+from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil
 from ..films.law import kinematics
 from ..films.mass_conserving import Fluidity
-from ..reaction import NOMINAL_SPEED, StaticReaction
+from ..reaction import StaticReaction
 
 
 class FilmFlow(NamedTuple):
@@ -119,10 +119,9 @@ def film_flow(
     cells = film.cells
     full = np.pad(found.full, ((0, 0), (0, 1)), mode="edge")
     pressure = np.pad(found.pressure, ((0, 0), (0, 1)))
-    H, at_lines = thickness(eccentricity, cells.face), thickness(eccentricity, cells.theta)
-    drag = (
-        speed * _driven(cells, full, H, at_lines, speed) * film.fluidity.mean_at_faces().dragged * cells.width
-    )
+    H, at_lines = (cells.thickness(eccentricity, angles) for angles in (cells.face, cells.theta))
+    drag = speed * film.fluidity.mean_at_faces().dragged * cells.width
+    drag *= _driven(cells, full, eccentricity, speed)
     pressed = np.zeros(cells.shape)
     pressed[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1]
     axial = np.zeros(cells.shape)
@@ -151,16 +150,19 @@ def film_flow(
     )
 
 
-def _driven(cells: FilmCells, full: np.ndarray, H: Array, at_lines: Array, speed: float) -> Array:
+def _driven(cells: FilmCells, full: np.ndarray, eccentricity: Array, speed: float) -> Array:
     """Return the thickness of what the walls drag through the faces after the lines, shape (N, M + 1).
 
     Oil that an opening leaves to the ruptured zone is as thick as the gap at the edge of the opening.
     """
     shifts = (0, -1) if speed > 0.0 else (-1, 0)
     giving, taking = (np.roll(cells.held, shift) for shift in shifts)
-    edge = giving & ~taking
-    emptied = edge[:, None] & ~np.roll(full, shifts[1], axis=0)
-    return np.where(emptied, np.roll(at_lines, shifts[0])[:, None], H[:, None])
+    emptied = (giving & ~taking)[:, None] & ~np.roll(full, shifts[1], axis=0)
+    at_edge, at_face = (
+        cells.thickness(eccentricity, angles)[:, None]
+        for angles in (np.roll(cells.theta, shifts[0]), cells.face)
+    )
+    return np.where(emptied, at_edge, at_face)
 
 
 def through(around: Array, axial: Array, central: Array | None = None) -> tuple[Array, Array]:
@@ -262,6 +264,10 @@ class FilmCells(NamedTuple):
         The pressure held there.
     opening : ndarray of int, shape (N,)
         Opening of a line that is held, -1 of others.
+    center : ndarray, shape (2, N) [1]
+        Center of curvature of the wall at a line and after it, over the clearance.
+    film : ndarray, shape (N,)
+        1 where there is a film after a line, and 0 in openings, in which the gap counts as 1.
     slenderness : float [1]
         Length / diameter.
     """
@@ -276,6 +282,8 @@ class FilmCells(NamedTuple):
     held: np.ndarray
     value: Array
     opening: np.ndarray
+    center: Array
+    film: Array
     slenderness: float
 
     @property
@@ -288,16 +296,37 @@ class FilmCells(NamedTuple):
         before, after = np.roll(self.face, 1), self.face
         return np.stack([np.sin(after) - np.sin(before), np.cos(before) - np.cos(after)])
 
+    def thickness(self, eccentricity: Array, angle: Array) -> Array:
+        """Return H at angles (..., N) that belong to the lines."""
+        x, y = eccentricity[:, None] - self.center
+        return np.asarray(1.0 - self.film * (x * np.cos(angle) + y * np.sin(angle)))
+
     def integral_of_inverse(self, eccentricity: Array) -> Array:
         """Return the integral of 1/H over the cells of the lines, shape (N,)."""
-        angles = self.start[:, None] + 0.5 * self.extent[:, None] * (1.0 + _GAUSS_NODES)
-        return 0.5 * self.extent * (_GAUSS_WEIGHTS / thickness(eccentricity, angles)).sum(axis=1)
+        angles = self.start + 0.5 * self.extent * (1.0 + _GAUSS_NODES[:, None])
+        return 0.5 * self.extent * (_GAUSS_WEIGHTS @ (1.0 / self.thickness(eccentricity, angles)))
 
 
-def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array) -> FilmCells:
-    """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,)."""
-    distance = float(eccentricity @ eccentricity)
-    a = complex(eccentricity[0], eccentricity[1]) / (1.0 + (1.0 - distance) ** CROWDING)
+def film_cells(
+    spans: Spans, grid: Grid, slenderness: float, eccentricity: Array, centers: Array | None = None
+) -> FilmCells:
+    """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,).
+
+    Parameters
+    ----------
+    spans : Spans
+    grid : Grid
+    slenderness : float [1]
+        Length / diameter.
+    eccentricity : ndarray, shape (2,) [1]
+    centers : ndarray, shape (2, spans), optional [1]
+        Of curvature of the wall on each span, over the clearance; by default all are those of the bearing.
+        On an arc about a center of its own lines crowd at its own minimum film.
+    """
+    e = np.repeat(eccentricity[:, None], len(spans.start), axis=1)
+    if centers is not None:
+        e = (e - centers) * _within(spans, e - centers)
+    a = (e[0] + 1j * e[1]) / (1.0 + np.maximum(1.0 - (e * e).sum(axis=0), 0.0) ** CROWDING)
     theta, face = _angles(spans, grid.span, grid.line, a), _angles(spans, grid.span, grid.face, a)
     held = grid.held > 0
     after_held, before_held = held & ~np.roll(held, 1), np.roll(held, -1)
@@ -317,20 +346,30 @@ def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array
         held=held,
         value=grid.value,
         opening=opening,
+        center=np.zeros((2, 1)) if centers is None else centers[:, grid.span],
+        film=grid.film,
         slenderness=slenderness,
     )
 
 
-def _angles(spans: Spans, span: np.ndarray, place: Array, a: complex) -> Array:
+def _within(spans: Spans, e: Array) -> Array:
+    """Return the cosine between eccentricities (2, spans) and their arcs, at least 0."""
+    half = 0.5 * spans.extent
+    away = np.arctan2(e[1], e[0]) - spans.start - half
+    away = np.abs((away + np.pi) % (2.0 * np.pi) - np.pi) - half
+    return np.cos(np.clip(away, 0.0, 0.5 * np.pi))
+
+
+def _angles(spans: Spans, span: np.ndarray, place: Array, a: Array) -> Array:
     """Return the angles of places on spans: exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s)."""
     start, end = spans.start, spans.start + spans.extent
     if spans.pinned:
         start, end = (angle - 2.0 * _bend(-a, angle) for angle in (start, end))
     s = start[span] + (end - start)[span] * place
-    return np.asarray(s - 2.0 * _bend(a, s))
+    return np.asarray(s - 2.0 * _bend(a[span], s))
 
 
-def _bend(a: complex, s: Array) -> Array:
+def _bend(a: Array, s: Array) -> Array:
     return np.angle(1.0 + a.conjugate() * np.exp(1j * s))
 
 
@@ -384,10 +423,8 @@ class FrozenFilm(StaticReaction):
         How easily the oil of each cell flows.
     empty : ndarray of bool, shape (N, M)
         Nodes that no film may start at, since no oil gets there.
-    clearance : float [m]
-        Radial clearance.
-    force_per_rate : float [N s]
-        viscosity length radius^3 / clearance^2 of the viscosity that the fluidity is relative to.
+    bearing : JournalBearing or LobedBearing
+        Of the viscosity that the fluidity is relative to.
     frozen_at : (float, float) or None [m]
         Position of the journal at which it was; None of fresh oil.
     """
@@ -395,14 +432,28 @@ class FrozenFilm(StaticReaction):
     cells: FilmCells
     fluidity: Fluidity
     empty: np.ndarray
-    clearance: float
-    force_per_rate: float
+    bearing: Any
     frozen_at: tuple[float, float] | None = None
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m], of arcs about centers of their own theirs."""
+        return float(self.bearing.clearance)
 
     @property
     def nominal_force(self) -> float:
         """Typical force [N]."""
-        return self.force_per_rate * NOMINAL_SPEED * min(1.0, self.cells.slenderness**2)
+        return float(self.bearing.nominal_force)
+
+    def minimum_film(self, position: Array) -> Array:
+        """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
+        if has_wall(self.bearing):
+            return np.asarray(self.bearing.minimum_film(position))
+        return np.asarray(self.clearance - np.hypot(*position))
+
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError where a journal at positions (2, ...) [m] touches the bearing."""
+        self.bearing.require_film(position)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for float arrays of equal batch shape."""
@@ -424,6 +475,7 @@ class FrozenFilm(StaticReaction):
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float
         ) -> tuple[float, float, list[float]]:
+            self.require_film(np.array((x, y)))
             found = self._response(np.array((x, y)), np.array((vx, vy)), speed)
             force_x, force_y = found[:, 0].tolist()
             return force_x, force_y, found[:, 1:].ravel().tolist()
@@ -446,12 +498,12 @@ class FrozenFilm(StaticReaction):
         speed : float [rad/s]
         """
         cells, normal, faces = self.cells, self.cells.normal(), self.fluidity.mean_at_faces()
-        width, H = cells.width[:-1], thickness(eccentricity, cells.face)
+        width, H = cells.width[:-1], cells.thickness(eccentricity, cells.face)
         across = cells.slenderness**-2 * ((cells.face - np.roll(cells.face, 1)) % (2.0 * np.pi))
         dragged = speed * H[:, None] * faces.dragged[:, :-1]
         stencil = Stencil(
             around=(H**3 / cells.gap)[:, None] * faces.pressed[:, :-1] * width,
-            along=(thickness(eccentricity, cells.theta) ** 3 * across)[:, None]
+            along=(cells.thickness(eccentricity, cells.theta) ** 3 * across)[:, None]
             * _to_the_end(self.fluidity.pressed)
             * cells.conductance,
             source=width * (np.roll(dragged, 1, axis=0) - dragged + (squeeze @ normal)[:, None]),
@@ -476,29 +528,28 @@ class FrozenFilm(StaticReaction):
         changes = [
             *(bent.outflow(pressure) - bent.source for bent in self._bent(e, float(speed), found.stencil)),
             *(-normal[:, None] * width for normal in found.normal),
-            -self._dragged_in(thickness(e, self.cells.face)),
+            -self._dragged_in(self.cells.thickness(e, self.cells.face)),
         ]
         response[:, 1:] = 12.0 * np.tensordot(V, np.stack(changes), axes=([1, 2], [1, 2]))
         response[:, 1:5] /= self.clearance
-        return self.force_per_rate * response
+        return float(self.bearing.force_scale) * response
 
     def _bent(self, e: Array, speed: float, stencil: Stencil) -> list[Stencil]:
         """Return the derivatives of the stencil by the eccentricity."""
-        bent = []
-        at_face, at_line = (self._directions(angles) for angles in (self.cells.face, self.cells.theta))
+        cells, bent = self.cells, []
+        at_face, at_line = (
+            cells.film * np.stack([np.cos(angles), np.sin(angles)]) for angles in (cells.face, cells.theta)
+        )
         for n_face, n_line in zip(at_face, at_line, strict=True):
             bent.append(
                 Stencil(
-                    around=-3.0 * (n_face / thickness(e, self.cells.face))[:, None] * stencil.around,
-                    along=-3.0 * (n_line / thickness(e, self.cells.theta))[:, None] * stencil.along,
+                    around=-3.0 * (n_face / cells.thickness(e, cells.face))[:, None] * stencil.around,
+                    along=-3.0 * (n_line / cells.thickness(e, cells.theta))[:, None] * stencil.along,
                     source=speed * self._dragged_in(-n_face),
                     held=stencil.held,
                 )
             )
         return bent
-
-    def _directions(self, angles: Array) -> Array:
-        return np.stack([np.cos(angles), np.sin(angles)])
 
     def _dragged_in(self, H: Array) -> Array:
         """Return what walls at unit speed drag into each cell, over thickness H (N,) at the faces."""

@@ -1,6 +1,6 @@
 """The impedance map of one bearing with axial openings as a table: saving, loading.
 
-With J(e, w) = min over films of the dissipation potential (`native/films/groove_kernel.h`),
+With J(e, w) = min over films of the dissipation potential (`native/films/map_kernel.h`),
 
     ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,8 +22,9 @@ from ...core.errors import InputError
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
-from ...native import GrooveMapKernel
-from ...native.loss_kernels import GrooveLossKernel
+from ...native import MapKernel, MapKind
+from ...native.film_kernels import periodic
+from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import (
     COARSENING,
     LONG,
@@ -48,17 +49,7 @@ from ..films.map_fit import (
     quintic_coefficients,
     state_errors,
 )
-from ..films.map_table import Layout, Sizes, StoredTable, seal, stretch, unseal, unstretch
-
-MAGIC = b"RFGROOVE"
-VERSION = 3
-"""Since 2 a table has bounds of its error, since 3 shear and flow."""
-
-BANDS = 8
-"""Most bands of eccentricity ratios with a bound each."""
-
-ERRORS = 5
-"""Columns of the bounds: an eccentricity ratio, and errors up to it."""
+from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch, unstretch
 
 DIRECTIONS = 192
 """Nodes of L0 over the direction of the source."""
@@ -66,7 +57,7 @@ DIRECTIONS = 192
 
 @quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
-class GrooveMapTable(StoredTable):
+class GrooveMapTable(BoundedTable):
     """The potential J of the film of one bearing with openings at ambient pressure.
 
     Parameters
@@ -109,30 +100,14 @@ class GrooveMapTable(StoredTable):
     bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
 
     def __post_init__(self) -> None:
-        shape = np.shape(self.coefficients)
-        if len(shape) != 3 or min(shape) < 6 or np.shape(self.log_center) != (DIRECTIONS,):
-            raise InputError(
-                f"coefficients must have shape (x, e, s) of 6 at least and log_center ({DIRECTIONS},), "
-                f"got shapes {shape} and {np.shape(self.log_center)}"
-            )
-        expected = _loss_shapes(shape[0], shape[1], len(self.grooves))
-        if (np.shape(self.shear), np.shape(self.flows)) != expected:
-            raise InputError(
-                f"shear and flows must have shapes {expected[0]} and {expected[1]}, "
-                f"got {np.shape(self.shear)} and {np.shape(self.flows)}"
-            )
-        splines = self.coefficients, self.log_center, self.shear, self.flows
-        if not all(np.isfinite(each).all() for each in splines):
-            raise InputError("coefficients, log_center, shear and flows must be finite")
-        if (
-            np.shape(self.bounds)[1:] != (ERRORS,)
-            or len(self.bounds) > BANDS
-            or not np.all(self.bounds >= 0.0)
-        ):
-            raise InputError(
-                f"bounds must have shape (bands, {ERRORS}), {BANDS} bands at most, and not be negative, "
-                f"got {self.bounds!r}"
-            )
+        require_shapes(self, log_center=(DIRECTIONS,), coefficients=(None, None, None))
+        cells_x, cells_e, _ = np.shape(self.coefficients)
+        require_shapes(
+            self,
+            shear=(2, 3, cells_x, cells_e, CELLS + 5),
+            flows=(2, 2, len(self.grooves), cells_x, cells_e),
+        )
+        self._require_bounds()
         if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
             raise InputError(
                 "slenderness and reach must be positive and crowding in (0, 1], "
@@ -144,76 +119,38 @@ class GrooveMapTable(StoredTable):
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
-    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
-        """Return the largest error [1] of the force at rest, or of K and C; infinite where it is unknown."""
-        return self._bound(eccentricity_ratio, 2 if slopes else 1)
+    def kernel(self, axis: float) -> MapKernel:
+        """Return the compiled film, the axis of the openings being at this angle [rad]."""
+        return MapKernel(
+            MapKind.GROOVED,
+            {
+                "coefficients": periodic(periodic(self.coefficients, 1), 2),
+                "center": periodic(self.log_center, 0),
+                "map": [self.slenderness, self.reach, self.crowding, axis],
+            },
+        )
 
-    def loss_bound(self, eccentricity_ratio: float) -> tuple[float, float]:
-        """Return the largest errors [1] of shear, most of the power, and flow; infinite where unknown."""
-        return self._bound(eccentricity_ratio, 3), self._bound(eccentricity_ratio, 4)
-
-    def _bound(self, eccentricity_ratio: float, column: int) -> float:
-        errors = self.bounds[self.bounds[:, 0] >= eccentricity_ratio, column]
-        return float(errors[0]) if len(errors) else math.inf
-
-    def loss_kernel(self, axis: float) -> GrooveLossKernel:
+    def loss_kernel(self, axis: float) -> LossKernel:
         """Return shear and flow in compiled code, the axis of the openings being at this angle [rad]."""
-        numbers = self.reach, self.crowding, axis
-        return GrooveLossKernel(self.shear, self.flows, land_edges(self.grooves), numbers)
+        shear, flows = periodic(self.shear, 3), periodic(self.flows, 4)
+        return LossKernel(
+            {
+                "loss_coefficients": shear.reshape(-1, *shear.shape[2:]),
+                "loss_flows": flows.reshape(-1, *flows.shape[3:]),
+                "loss_edges": land_edges(self.grooves),
+                "loss_map": [self.reach, self.crowding, axis],
+            }
+        )
 
-    def to_bytes(self) -> bytes:
-        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
-        openings = [angle for groove in self.grooves for angle in (groove.center, groove.width)]
-        numbers = [self.slenderness, self.reach, self.crowding, len(self.bounds), *openings]
-        cells_x, cells_e, cells_s = self.coefficients.shape
-        sizes = (cells_x, cells_e, cells_s, len(self.grooves))
-        bands = np.zeros((BANDS, ERRORS))
-        bands[: len(self.bounds)] = self.bounds
-        splines = self.log_center, self.coefficients, self.shear, self.flows
-        return seal(MAGIC, VERSION, sizes, np.array(numbers), bands, *splines)
+    def _parts(self) -> dict[str, Any]:
+        angles = [(groove.center, groove.width) for groove in self.grooves]
+        return super()._parts() | {"grooves": angles}
 
     @classmethod
-    def from_bytes(cls, content: bytes) -> Self:
-        """Return the table that `to_bytes` wrote.
-
-        Raises
-        ------
-        RotorfilmError
-            If the content is not such a table, of another version, truncated or damaged.
-        """
-        sizes, numbers, bands, center, *splines = unseal("groove table", MAGIC, VERSION, _layout, content)
-        shapes = (sizes[:3], *_loss_shapes(sizes[0], sizes[1], sizes[3]))
-        coefficients, shear, flows = (
-            each.reshape(shape) for each, shape in zip(splines, shapes, strict=True)
-        )
-        scalars, openings = np.split(numbers, [4])
-        slenderness, reach, crowding, known = scalars.tolist()
-        return cls(
-            slenderness=slenderness,
-            grooves=tuple(Groove(center=c, width=w) for c, w in openings.reshape(-1, 2).tolist()),
-            reach=reach,
-            crowding=crowding,
-            log_center=center,
-            coefficients=coefficients,
-            shear=shear,
-            flows=flows,
-            bounds=bands.reshape(BANDS, ERRORS)[: int(known)],
-        )
-
-
-def _loss_shapes(cells_x: int, cells_e: int, openings: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Return the shapes of shear and flows beside M with so many coefficients over X and theta."""
-    return (2, 3, cells_x, cells_e, CELLS + 5), (2, 2, openings, cells_x, cells_e)
-
-
-def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: numbers and openings, bounds, L0, M, shear and flows."""
-    cells_x, cells_e, cells_s, grooves = sizes
-    if min(sizes) < 1:
-        return ()
-    counts = 4 + 2 * grooves, ERRORS * BANDS, DIRECTIONS, cells_x * cells_e * cells_s
-    losses = (math.prod(shape) for shape in _loss_shapes(cells_x, cells_e, grooves))
-    return tuple(("<f8", count) for count in (*counts, *losses))
+    def _restored(cls, name: str, array: Array) -> Any:
+        if name == "grooves":
+            return tuple(Groove(center=c, width=w) for c, w in array.tolist())
+        return super()._restored(name, array)
 
 
 # Shear and flow of a bearing with openings: their nodes by the two-dimensional film, and their
@@ -307,7 +244,7 @@ def bound_losses(film: RingKernel, e: Array, w: Array) -> Array:
     return np.stack([found[0] + found[1], found[2], found[3 + openings :].sum(axis=0)])
 
 
-def loss_errors(kernel: GrooveLossKernel, e: Array, w: Array, exact: Array) -> tuple[Array, Array]:
+def loss_errors(kernel: LossKernel, e: Array, w: Array, exact: Array) -> tuple[Array, Array]:
     """Return the relative errors, (n,), of shear, and of the flow of fresh oil where openings replace all."""
     film, streamers, flow = kernel.losses(e, w).losses
     arriving = kernel.flows(e, static_rate(e, w))[1].sum(axis=0)
@@ -636,9 +573,7 @@ def groove_bounds(table: GrooveMapTable, states: tuple[list[float], Array, Array
         What `reference` and `bound_losses` return at all states.
     """
     reaches, e, w = states
-    kernel = GrooveMapKernel(
-        table.coefficients, table.reach, table.log_center, table.crowding, 0.0, table.slenderness
-    )
+    kernel = table.kernel(0.0)
     found = kernel.force(e, w).values, kernel.jacobian(e, w).values
     errors = (
         *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),

@@ -15,14 +15,14 @@ from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
 from ...core.sources import source_digest
-from ...native import GrooveMapKernel
-from ...native.loss_kernels import GrooveLossKernel
+from ...native import MapKernel
+from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import are_counts, require_cells
 from ..films.geometry import STEPS, TURN, AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
 from ..films.law import FilmLosses, KernelFilm, kernel_losses, require_film, static_rate
 from ..films.map_table import cached_table, table_path, told
 from . import groove_map as groove_build
-from .groove_map import VERSION, GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
+from .groove_map import GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
 from .map.map_film import MapFilm
 
 SAME = 2e-9
@@ -38,7 +38,7 @@ class GroovedMapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.
 
     The openings are at ambient pressure. As in `MapFilm` the force is F = dJ/dw of a tabulated potential
-    J(e, w), here over two angles (`native/films/groove_kernel.h`): the damping matrix is symmetric, and the
+    J(e, w), here over two angles (`native/films/map_kernel.h`): the damping matrix is symmetric, and the
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
     in a plain bearing: by name it is needed for its parameters only.
 
@@ -132,7 +132,7 @@ class GroovedMapFilm(KernelFilm):
         found = kernel_losses(kernel, e, w, self.geometry)
         return found._replace(inflow=flows[0], arriving=flows[1])
 
-    def loss_kernel(self, slenderness: float) -> GrooveLossKernel:
+    def loss_kernel(self, slenderness: float) -> LossKernel:
         """Return shear and flow of the map in compiled code; see `FilmOptions`."""
         return _kernels(self, float(slenderness))[1]
 
@@ -184,17 +184,15 @@ class GroovedMapFilm(KernelFilm):
         resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
         return aligned_openings(self.geometry), rounded, resolution
 
-    def _kernel(self, slenderness: float) -> GrooveMapKernel:
+    def _kernel(self, slenderness: float) -> MapKernel:
         return _kernels(self, float(slenderness))[0]
 
 
 @lru_cache(maxsize=64)
-def _kernels(film: GroovedMapFilm, slenderness: float) -> tuple[GrooveMapKernel, GrooveLossKernel]:
+def _kernels(film: GroovedMapFilm, slenderness: float) -> tuple[MapKernel, LossKernel]:
     """Return the compiled film of a bearing, and its losses."""
     table, axis = film.built_table(slenderness), aligned_openings(film.geometry).axis
-    numbers = table.crowding, axis, table.slenderness
-    film_kernel = GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
-    return film_kernel, table.loss_kernel(axis)
+    return table.kernel(axis), table.loss_kernel(axis)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:
@@ -214,5 +212,5 @@ def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolu
     """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
     angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
     steps = [round(angle / TURN * STEPS) for angle in angles]
-    key = VERSION, source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution
+    key = source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution
     return table_path("groove", key)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ...core.errors import (
     ConvergenceError,
     InputError,
-    require_inside,
     require_kind,
     require_number,
     require_pair,
@@ -21,6 +20,7 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Readable
 from ..films.finite_volumes import require_cells
+from ..films.geometry import FilmGeometry
 from ..films.mass_conserving import (
     FILM,
     ConservedFilm,
@@ -57,6 +57,26 @@ SETTLED, ONE_NODE = 1e-5, 2e-3
 State = TypeVar("State", bound="HeatedState")
 
 
+@runtime_checkable
+class ArcBearing(Protocol):
+    """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance of the arcs [m]."""
+
+    @property
+    def cooled(self) -> tuple[Any, Any]:
+        """Oil and cooling."""
+
+    @property
+    def geometry(self) -> FilmGeometry:
+        """Arcs and openings."""
+
+    def centers_at(self, angle: Array) -> Array | None:
+        """Return centers of curvature at angles (N,) [rad] over the clearance, (2, N); None of one."""
+
+
 class HeatRounds:
     """Rounds of a film that a subclass solves in `_round`, on cells that `_shape` counts."""
 
@@ -66,7 +86,7 @@ class HeatRounds:
     if TYPE_CHECKING:  # fields of a subclass, or its properties
 
         @property
-        def bearing(self) -> JournalBearing:
+        def bearing(self) -> Any:
             """The bearing, with oil and cooling."""
 
         walls: Walls
@@ -184,7 +204,7 @@ class HeatRounds:
         q, omega = require_pair("position", position), require_number("speed", speed)
         if omega == 0.0:
             raise InputError("speed must not be 0 for a film that shear warms, got 0")
-        require_inside(q, self.bearing.clearance)
+        self.bearing.require_film(q)
         return q, omega
 
     def _fresh(self) -> Array:
@@ -306,9 +326,9 @@ class HeatedFilm(HeatRounds):
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or LobedBearing
         With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
-        housing have no part.
+        housing have no part. Between lobes are openings as between the pads of a journal bearing.
     walls : Walls
         `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
     cells : tuple of int
@@ -332,13 +352,15 @@ class HeatedFilm(HeatRounds):
     78
     """
 
-    bearing: JournalBearing
+    bearing: ArcBearing
     walls: Walls = field(default_factory=AdiabaticWalls)
     cells: tuple[int, int] = (80, 8)
     profile: FilmProfile = field(default_factory=MeanTemperature)
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
+        require_kind(
+            "bearing", self.bearing, ArcBearing, "a JournalBearing or LobedBearing with oil and cooling"
+        )
         self._require_heat()
         self.bearing.geometry.require_whole_length("HeatedFilm", "HeatedJFOFilm")
         require_cells(self.cells)
@@ -359,7 +381,8 @@ class HeatedFilm(HeatRounds):
     def _round(
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedState:
-        bearing, e = self.bearing, position / self.bearing.clearance
+        bearing: Any = self.bearing
+        e = position / bearing.clearance
         film, settled = self._frozen(e, temperature), before is not None and before.rounds >= FREE_ROUNDS
         if before is not None and settled:
             empty = before.film.empty if film.cells.held.any() else _before_start(before)
@@ -385,10 +408,11 @@ class HeatedFilm(HeatRounds):
         )
 
     def _cells(self, eccentricity: Array) -> FilmCells:
-        bearing = self.bearing
+        bearing: Any = self.bearing
         film = ReynoldsFilm(cells=self.cells, geometry=bearing.geometry)
         spans, grids = film.grids(bearing.slenderness)
-        return film_cells(spans, grids[0], bearing.slenderness, eccentricity)
+        centers = bearing.centers_at(spans.start + 0.5 * spans.extent)
+        return film_cells(spans, grids[0], bearing.slenderness, eccentricity, centers)
 
     def _frozen(self, eccentricity: Array, temperature: Array) -> FrozenFilm:
         """Return the film of the viscosity that oil has at a temperature."""
@@ -398,8 +422,7 @@ class HeatedFilm(HeatRounds):
             cells=cells,
             fluidity=self.profile.fluidity(self._viscosity(temperature)),
             empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
-            clearance=self.bearing.clearance,
-            force_per_rate=self.bearing.force_scale,
+            bearing=self.bearing,
             frozen_at=(float(x), float(y)),
         )
 

@@ -14,7 +14,7 @@ from ...core.errors import InputError, require_kind
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...native import ShortKernel
-from ...native.loss_kernels import LossKernel, ShortLossKernel
+from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import (
     FREE,
     LONG,
@@ -297,11 +297,11 @@ class ShortFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow in closed form, with slopes; see `FilmOptions`."""
         require_film(e.reshape(2, -1))
-        return kernel_losses(ShortLossKernel(), e, w)
+        return kernel_losses(LossKernel(), e, w)
 
     def loss_kernel(self, slenderness: float) -> LossKernel:
         """Return shear and flow in compiled code."""
-        return ShortLossKernel()
+        return LossKernel()
 
     def _kernel(self, slenderness: float) -> ShortKernel:
         return ShortKernel(float(slenderness))

@@ -24,7 +24,7 @@ from ...core.results import BearingLosses
 from ...native import JournalKernel, Status
 from ...native.film_kernels import LobesKernel
 from ...native.spec import NativeSpec, journal_spec
-from ..films.geometry import TURN
+from ..films.geometry import TURN, FilmGeometry, Pad
 from ..films.law import BoundKernel
 from ..films.map_fit import matrix_sizes
 from ..reaction import FilmReaction, broadcast_state
@@ -199,6 +199,18 @@ def require_apart(lobes: tuple[Lobe, ...]) -> None:
 # The bearing of fixed pads, each about a center of curvature of its own, in SI units.
 
 
+def require_films(lobes: tuple[Lobe, ...], clearance: float, position: Array) -> None:
+    """Raise FilmContactError, which names the pad, where a journal at positions (2, ...) [m] touches."""
+    at = position.reshape(2, -1)
+    films = clearance * np.array([lobe.least_film(at / clearance) for lobe in lobes])
+    touched, first = np.unravel_index(np.argmin(films), films.shape)
+    if not films[touched, first] > 0.0:
+        raise FilmContactError(
+            f"position must leave a film on every pad, got {at[:, first].tolist()} m with a film of "
+            f"{films[touched, first]:.6g} m on lobe {touched}, {lobes[touched]!r}"
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class BoundLobes(BoundKernel):
     """The films of the pads of one bearing in SI units.
@@ -220,13 +232,7 @@ class BoundLobes(BoundKernel):
 
     def require_inside(self, position: Array) -> None:
         """Raise FilmContactError, which names the pad, where a journal at a position (2,) [m] touches."""
-        films = self.films(position)
-        touched = int(np.argmin(films))
-        if not films[touched] > 0.0:
-            raise FilmContactError(
-                f"position must leave a film on every pad, got {position.tolist()} m with a film of "
-                f"{films[touched]:.6g} m on lobe {touched}, {self.lobes[touched]!r}"
-            )
+        require_films(self.lobes, self.clearance, position)
 
     def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
         """Raise, or warn, about a state that has this status."""
@@ -296,6 +302,21 @@ class LobedBearing(FilmReaction, PadBearing):
         """
         at = require_vector("position", position) / self.clearance
         return self.clearance * np.min([lobe.least_film(at) for lobe in self.lobes], axis=0)
+
+    @cached_property
+    def geometry(self) -> FilmGeometry:
+        """Arcs of the lobes and the openings between them, for films that are solved all round."""
+        return FilmGeometry(pads=tuple(Pad(start=lobe.start, extent=lobe.extent) for lobe in self.lobes))
+
+    def centers_at(self, angle: Array) -> Array:
+        """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N)."""
+        middles = np.array([lobe.middle for lobe in self.lobes])
+        away = np.abs((angle[:, None] - middles + math.pi) % TURN - math.pi)
+        return np.array([lobe.center for lobe in self.lobes])[np.argmin(away, axis=1)].T
+
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError, which names the lobe, where a journal at positions (2, ...) [m] touches."""
+        require_films(self.lobes, self.clearance, position)
 
     @cached_property
     def bound_film(self) -> BoundLobes:

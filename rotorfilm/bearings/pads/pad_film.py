@@ -15,14 +15,14 @@ from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
 from ...core.sources import source_digest
+from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
-from ...native.pad_kernels import PadMapKernel
 from ..films.finite_volumes import require_cells
 from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
 from . import pad_build
 from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
-from .pad_table import VERSION, PadFlows, PadMapTable, grid_flows
+from .pad_table import PadFlows, PadMapTable, grid_flows
 
 SAME = 2e-9
 """Relative difference of extent and length/diameter below which a map is that of a pad."""
@@ -56,7 +56,7 @@ class PadMapFilm:
     of 5 % of the largest force at that place where the source of the film drives less. Errors are largest
     where the journal nearly touches; `PadMapTable.bound` tells them.
 
-    The force is the gradient of a tabulated potential (`native/films/pad_kernel.h`), so that the damping
+    The force is the gradient of a tabulated potential (`native/films/map_kernel.h`), so that the damping
     matrix is symmetric and the derivatives are exact. All pads of one extent and length/diameter share a map,
     whatever their preload, offset and place. It is made in some seconds on first use, and kept in the folder
     that the environment variable ROTORFILM_CACHE names, or the platform's cache. That of pads of a preload
@@ -127,7 +127,7 @@ class PadMapFilm:
 
 
 @lru_cache(maxsize=64)
-def _kept(film: PadMapFilm, extent: float, slenderness: float) -> tuple[PadMapTable, PadMapKernel]:
+def _kept(film: PadMapFilm, extent: float, slenderness: float) -> tuple[PadMapTable, MapKernel]:
     table = film.table(extent, slenderness)
     return table, table.kernel()
 
@@ -239,7 +239,7 @@ def _map_file(extent: float, slenderness: float, resolution: PadResolution) -> t
     """Return the shape of a map, and where it lies; the name is a digest of all that decides its content."""
     require_mappable(extent, slenderness)
     shape = _rounded(extent), _rounded(slenderness), resolution.checked()
-    return shape, table_path("pad", (VERSION, source_digest(pad_build.__name__), *shape))
+    return shape, table_path("pad", (source_digest(pad_build.__name__), *shape))
 
 
 def _rounded(value: float) -> float:

@@ -1,6 +1,6 @@
 """The impedance map of one pad as a table: coordinates, saving, loading.
 
-With J(e, w) = min over films of the dissipation potential (`native/films/pad_kernel.h`), in the frame of the
+With J(e, w) = min over films of the dissipation potential (`native/films/map_kernel.h`), in the frame of the
 pad,
 
     ln(-J/|w|^2) = 5 ln(cos phi + sin b) + M(u, Y, phi),   xi = 1 - exp(-u),   eta = tanh(Y) E(xi),
@@ -12,16 +12,15 @@ Beside it are shear and flow of the film (`grid_losses`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol, Self, runtime_checkable
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
 from ...core.errors import InputError
 from ...core.model import Array
-from ...native.pad_kernels import PadMapKernel
+from ...native import MapKernel, MapKind
 from ..films.finite_volumes import RingKernel
 from ..films.geometry import TURN
 from ..films.law import gap_integral, squared_integral
@@ -32,20 +31,11 @@ from ..films.map_fit import (
     spline_slopes,
     spline_weights,
 )
-from ..films.map_table import Layout, Sizes, StoredTable, seal, stretch, unseal
-
-MAGIC = b"RFPADMAP"
-VERSION = 2
-
-BANDS = 4
-"""Bands of the least film with bounds each."""
-
-ERRORS = 5
-"""Columns of the bounds."""
+from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PadMapTable(StoredTable):
+class PadMapTable(BoundedTable):
     """The potential J of the film on one pad.
 
     Parameters
@@ -62,7 +52,7 @@ class PadMapTable(StoredTable):
         Spline coefficients of M over u, Y and phi.
     losses : ndarray, shape (3, cells over X + 5, cells over theta)
         Spline coefficients of shear and flow at rest (`grid_losses`).
-    bounds : ndarray, shape (BANDS, ERRORS)
+    bounds : ndarray, shape (bands, 5)
         Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
         the force, and of K and C, relative to what is said there, of the shear at rest, and of flows at rest
         relative to what enters a concentric pad.
@@ -79,20 +69,12 @@ class PadMapTable(StoredTable):
     y_end: float
     coefficients: Array = field(repr=False)
     losses: Array = field(repr=False)
-    bounds: Array = field(default_factory=lambda: np.full((BANDS, ERRORS), np.inf), repr=False)
+    bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
+    _outward: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
-        shape = np.shape(self.coefficients)
-        if len(shape) != 3 or min(shape) < 6 or not np.isfinite(self.coefficients).all():
-            raise InputError(
-                f"coefficients must be finite, of shape (u, Y, phi) of 6 at least, got shape {shape}"
-            )
-        if np.shape(self.losses) != LOSSES or not np.isfinite(self.losses).all():
-            raise InputError(f"losses must be finite, of shape {LOSSES}, got shape {np.shape(self.losses)}")
-        if np.shape(self.bounds) != (BANDS, ERRORS) or not np.all(self.bounds >= 0.0):
-            raise InputError(
-                f"bounds must have shape ({BANDS}, {ERRORS}) and not be negative, got {self.bounds!r}"
-            )
+        require_shapes(self, coefficients=(None, None, None), losses=LOSSES)
+        self._require_bounds()
         numbers = self.extent, self.slenderness, self.y_end, self.u_range[1] - self.u_range[0]
         if not all(0.0 < number < np.inf for number in numbers) or self.extent >= np.pi:
             raise InputError(
@@ -100,63 +82,14 @@ class PadMapTable(StoredTable):
                 f"got {self.extent!r}, {self.slenderness!r}, {self.y_end!r} and {self.u_range!r}"
             )
 
-    def kernel(self) -> PadMapKernel:
+    def kernel(self) -> MapKernel:
         """Return the compiled film of the pad."""
-        return PadMapKernel(self.coefficients, self.extent, self.u_range, self.y_end)
-
-    def bound(self, least_film: float, *, slopes: bool) -> float:
-        """Return the largest error [1] of the force, or of K and C, where the least film is at least this."""
-        return self._bound(least_film, 2 if slopes else 1)
-
-    def loss_bound(self, least_film: float) -> tuple[float, float]:
-        """Return the largest errors [1] of shear and flows at rest where the least film is at least this.
-
-        That of flows is relative to what enters a concentric pad, clearance radius length speed/2.
-        """
-        return self._bound(least_film, 3), self._bound(least_film, 4)
-
-    def _bound(self, least_film: float, column: int) -> float:
-        errors = self.bounds[self.bounds[:, 0] <= least_film, column]
-        return float(errors[0]) if len(errors) else np.inf
+        numbers = [self.extent, *self.u_range, self.y_end]
+        return MapKernel(MapKind.PAD, {"coefficients": self.coefficients, "map": numbers})
 
     def flows(self, eccentricity: Array, rate: Array) -> PadFlows:
         """Return shear and flow of the pad under journals at rest; see `LossyPadFilm`."""
         return map_flows(self.losses, self.extent, eccentricity, rate)
-
-    def to_bytes(self) -> bytes:
-        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
-        numbers = np.array([self.extent, self.slenderness, *self.u_range, self.y_end])
-        sizes = (*self.coefficients.shape, 0)
-        return seal(MAGIC, VERSION, sizes, numbers, self.bounds, self.losses, self.coefficients)
-
-    @classmethod
-    def from_bytes(cls, content: bytes) -> Self:
-        """Return the table that `to_bytes` wrote.
-
-        Raises
-        ------
-        RotorfilmError
-            If the content is not such a table, of another version, truncated or damaged.
-        """
-        sizes, numbers, bounds, losses, coefficients = unseal("pad table", MAGIC, VERSION, _layout, content)
-        extent, slenderness, first, last, y_end = numbers.tolist()
-        return cls(
-            extent=extent,
-            slenderness=slenderness,
-            u_range=(first, last),
-            y_end=y_end,
-            coefficients=coefficients.reshape(sizes[:3]),
-            losses=losses.reshape(LOSSES),
-            bounds=bounds.reshape(BANDS, ERRORS),
-        )
-
-
-def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: numbers, bounds, losses, coefficients of M."""
-    if min(sizes[:3]) < 1:
-        return ()
-    counts = 5, ERRORS * BANDS, math.prod(LOSSES), math.prod(sizes[:3])
-    return tuple(("<f8", count) for count in counts)
 
 
 def wall(xi: Array | float, extent: float) -> Array:
@@ -330,13 +263,13 @@ def gap_slopes_of_pad(eccentricity: Array, extent: float) -> Array:
     chi, first, last = _gap_ends(eccentricity, extent)
     squares = squared_integral(chi, last) - squared_integral(chi, first)
     centered = chi < NEAR**2
-    outward = (squares - gap_shear_of_pad(eccentricity, extent)) / np.where(centered, 1.0, chi)
-    outward = np.where(centered, np.sin(first) - np.sin(last), outward)
+    _outward = (squares - gap_shear_of_pad(eccentricity, extent)) / np.where(centered, 1.0, chi)
+    _outward = np.where(centered, np.sin(first) - np.sin(last), _outward)
     thick = [1.0 + chi * np.cos(end) for end in (first, last)]
     around = (np.cos(last) - np.cos(first)) / (thick[0] * thick[1])
     theta = np.arctan2(eccentricity[1], eccentricity[0])
     c, s = np.cos(theta), np.sin(theta)
-    return np.stack([outward * c - around * s, outward * s + around * c])
+    return np.stack([_outward * c - around * s, _outward * s + around * c])
 
 
 def _gap_ends(eccentricity: Array, extent: float) -> tuple[Array, Array, Array]:

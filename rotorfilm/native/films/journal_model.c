@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of a map */
+
 enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, PARAMETERS };
 
 const rf_sizes RF_JOURNAL_SIZES = {PARAMETERS, 5, 2, 0, 0};
@@ -9,6 +11,14 @@ const rf_sizes RF_JOURNAL_SIZES = {PARAMETERS, 5, 2, 0, 0};
 double rf_slenderness(const double *p)
 {
     return p[LENGTH] / (2.0 * p[RADIUS]);
+}
+
+int rf_judge_slenderness(double own, const char *map, const double *p, rf_message *why)
+{
+    const double slenderness = rf_slenderness(p);
+    if (!(fabs(slenderness - own) <= ROUNDOFF * own))
+        return rf_say(why, RF_INVALID, "length/diameter must be that of the %s, %.9g, got %.9g", map, own, slenderness);
+    return RF_OK;
 }
 
 int rf_scale_journal(rf_journal *journal, const double *p, rf_message *why)

@@ -13,6 +13,9 @@ extern const rf_sizes RF_JOURNAL_SIZES;
 /* Length / diameter of these parameters. */
 double rf_slenderness(const double *parameters);
 
+/* RF_INVALID unless the parameters have that of a map, by its name. */
+int rf_judge_slenderness(double own, const char *map, const double *parameters, rf_message *why);
+
 /* Clearance and unit of force from the parameters, or RF_INVALID and nothing changed. */
 int rf_scale_journal(rf_journal *journal, const double *parameters, rf_message *why);
 

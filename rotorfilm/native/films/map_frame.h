@@ -11,6 +11,8 @@
 #include "quintic.h"
 #include "../status.h"
 
+#define RF_ROUNDING 1e-12 /* by which the last node of a map may be passed */
+
 /* |w|, n, chi = |e|, r = e/chi, and the angle from w to e. */
 typedef struct rf_frame {
     double size, nx, ny, chi, rx, ry, cos, sin;
@@ -92,12 +94,31 @@ static inline void rf_set_damping(const rf_frame *at, double potential, double t
     rf_set_columns(at, at->nx, at->ny, by_w, 2, jacobian);
 }
 
+/* L and its derivatives: along and across a direction of e, in the angle of w, and in that with each of the three. */
+typedef struct rf_exponent {
+    double value, along, across, turn, turn_along, turn_across, turn_turn;
+} rf_exponent;
+
+/* Force and Jacobian of J = |w|^2 E, that direction being (ax, ay). */
+static inline void rf_set_answer(const rf_frame *at, double potential, const rf_exponent *by, double ax, double ay,
+                                 double *f, double *jacobian)
+{
+    const double k = at->size * potential, turn = by->turn;
+    rf_set_force(at, potential, turn, f);
+    if (!jacobian)
+        return;
+    const double by_e[4] = {2.0 * k * by->along, 2.0 * k * by->across, k * (by->along * turn + by->turn_along),
+                            k * (by->across * turn + by->turn_across)};
+    rf_set_columns(at, ax, ay, by_e, 0, jacobian);
+    rf_set_damping(at, potential, turn, by->turn_turn, jacobian);
+}
+
 /* The status of an answer at X that may have overflown. */
 static inline int rf_judge(double x, double x_end, double *f, double *jacobian)
 {
     if (rf_is_broken(f, 2) || (jacobian && rf_is_broken(jacobian, 8)))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
-    return x > x_end * (1.0 + 1e-12) ? RF_OUTSIDE : RF_OK;
+    return x > x_end * (1.0 + RF_ROUNDING) ? RF_OUTSIDE : RF_OK;
 }
 
 #endif

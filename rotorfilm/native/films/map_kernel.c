@@ -2,76 +2,63 @@
 
 #include <math.h>
 
-#include "wall.h"
 #include "map_frame.h"
+#include "map_spline.h"
+#include "wall.h"
 
-#define SAME 0.05         /* relative difference from the film at the wall, of a map that has it as its limit */
-#define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
+#define SAME 0.05   /* relative difference from the film at the wall, of a map that has it as its limit */
+#define CENTER 1e-8 /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
 
-/* M and the derivatives of it that the force and its Jacobian need; s = cos = 2 T - 1. */
-typedef struct field {
-    double m, m_x, m_s, m_xs, m_ss;
-} field;
-
-static const double *place(const rf_map *map, double x, double s, double *u, double *v)
+/* M of a plain map at X and cos; beyond the last node linear in ln X, so that J is a power of X, as in thin films. */
+static RF_INLINE rf_spline plain_spline(const rf_map *map, double x, double c, int order)
 {
-    const int32_t i = rf_cell(x / map->x_end * map->cells_x, map->cells_x, u);
-    const int32_t j = rf_cell(0.5 * (1.0 + s) * map->cells_t, map->cells_t, v);
-    return map->coefficients + (size_t)i * (size_t)(map->cells_t + RF_ORDER - 1) + (size_t)j;
-}
-
-/* What the force needs, and the rest if `full`, as it must be beyond the last node: there M goes on linearly
-   in ln X: J is a power of X, as in thin films. */
-static field look_up(const rf_map *map, double x, double s, int full)
-{
-    const int outside = x > map->x_end;
-    double u, v, b[RF_ORDER], b_s[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER];
-    const double *c = place(map, outside ? map->x_end : x, s, &u, &v);
-    const size_t stride = (size_t)(map->cells_t + RF_ORDER - 1);
-    const double per_x = map->cells_x / (outside ? x : map->x_end), per_s = 0.5 * map->cells_t;
-    field at;
-    rf_values(u, b);
-    rf_rows(c, stride, b, row);
-    if (full) {
-        rf_slopes(u, b);
-        rf_rows(c, stride, b, row_x);
-        for (int j = 0; outside && j < RF_ORDER; ++j)
-            row[j] += map->cells_x * log(x / map->x_end) * row_x[j];
+    const int outside = x > map->x.last;
+    const rf_axis cosine = {map->s.cells, -1.0, 1.0};
+    const size_t stride = rf_width(&map->s);
+    rf_weights by[3];
+    rf_spline m;
+    rf_weigh_from_zero(&map->x, outside ? map->x.last : x, order > 0, by);
+    if (order > 0 && outside) {
+        rf_weigh_beyond(map->x.cells * log(x / map->x.last), by);
+        by->per = map->x.cells / x;
     }
-    rf_values(v, b);
-    rf_slopes(v, b_s);
-    at.m = rf_dot(row, b);
-    at.m_s = per_s * rf_dot(row, b_s);
-    if (full) {
-        at.m_x = per_x * rf_dot(row_x, b);
-        at.m_xs = per_x * per_s * rf_dot(row_x, b_s);
-        rf_curvatures(v, b);
-        at.m_ss = per_s * per_s * rf_dot(row, b);
-    }
-    return at;
+    rf_weigh_between(&cosine, c, order > 0 ? 2 : 1, by + 2);
+    rf_evaluate(map->coefficients, 2, order, &stride, by, &m);
+    return m;
 }
 
-/* At the last node. */
-static RF_ONCE field at_end(const rf_map *map, double s)
-{
-    return look_up(map, map->x_end, s, 1);
-}
-
-/* Derivatives of the force. With Phi = chi M and D = dPhi/dangle = M_s chi sin, the angle being that of w,
-   F = |w| E (2 n + D m). Written in sin and cos of the angle from w to e nothing is divided by chi. */
-static void set_jacobian(const rf_frame *at, double slope, const field *m, double potential, double *jacobian)
+/* Of a plain film, along the source. In sin and cos of the angle from w to e nothing is divided by chi. */
+static RF_INLINE rf_exponent plain_exponent(const rf_map *map, const rf_frame *at, double x, double slope, int order)
 {
     const double c = at->cos, s = at->sin, chi = at->chi;
-    const double radial = m->m + chi * m->m_x * slope;
-    const double phi_n = radial * c + m->m_s * s * s, phi_m = (radial - m->m_s * c) * s;
-    const double turn = m->m_s * chi * s, bent = chi * slope * m->m_xs;
-    const double turn_n = s * (bent * c + m->m_ss * s * s);
-    const double turn_m = m->m_s + s * s * (bent - m->m_ss * c);
-    const double k = at->size * potential;
-    const double by_e[4] = {2.0 * k * phi_n, 2.0 * k * phi_m, k * (phi_n * turn + turn_n),
-                            k * (phi_m * turn + turn_m)};
-    rf_set_columns(at, at->nx, at->ny, by_e, 0, jacobian);
-    rf_set_damping(at, potential, turn, chi * (m->m_ss * s * s - m->m_s * c), jacobian);
+    const rf_spline m = plain_spline(map, x, c, order);
+    const double turn = m.m_s * chi * s;
+    rf_exponent of = {map->center[0] + chi * m.m, 0.0, 0.0, turn, 0.0, 0.0, 0.0};
+    if (order > 0) {
+        const double radial = m.m + chi * m.m_x * slope, bent = chi * slope * m.m_xs;
+        of.along = radial * c + m.m_s * s * s;
+        of.across = (radial - m.m_s * c) * s;
+        of.turn_along = s * (bent * c + m.m_ss * s * s);
+        of.turn_across = m.m_s + s * s * (bent - m.m_ss * c);
+        of.turn_turn = chi * (m.m_ss * s * s - m.m_s * c);
+    }
+    return of;
+}
+
+/* L at the last node. */
+static RF_ONCE rf_exponent plain_end(const rf_map *map, double chi, double c, double s)
+{
+    const rf_frame edge = {0.0, 0.0, 0.0, chi, 0.0, 0.0, c, s};
+    return plain_exponent(map, &edge, map->x.last, 0.0, 2);
+}
+
+static int plain_beyond(const rf_map *map, const rf_frame *at, double *f, double *jacobian)
+{
+    const double end = rf_unstretch(map->x.last);
+    const rf_exponent here = plain_end(map, end, at->cos, at->sin);
+    const rf_share part = {map->share, 0.0, 0.0};
+    const double turned[2] = {0.0, 0.0};
+    return rf_go_to_wall(map->slenderness, end, at, &here, &part, turned, f, jacobian);
 }
 
 /* Without source: isotropic damping at the center, no derivative elsewhere. */
@@ -82,61 +69,122 @@ static int resting(const rf_map *map, double chi, double *f, double *jacobian)
     f[0] = f[1] = 0.0;
     for (int i = 0; i < 8; ++i)
         jacobian[i] = 0.0;
-    jacobian[2] = jacobian[7] = -2.0 * exp(map->center);
+    jacobian[2] = jacobian[7] = -2.0 * exp(map->center[0]);
     return RF_OK;
-}
-
-/* Beyond the last node: J there, and what the film at the wall gains from there on. */
-static RF_ONCE int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
-{
-    const double end = rf_unstretch(map->x_end), c = at->cos, s = -at->sin;
-    const field m = at_end(map, c);
-    const double value = -exp(map->center + end * m.m), turn = -end * m.m_s * s;
-    rf_potential e = {value, value * turn, value * (turn * turn + end * (m.m_ss * s * s - m.m_s * c)), 0.0, 0.0};
-    rf_potential gain;
-    rf_wall_gain(map->slenderness, end, at->chi, c, s, &gain);
-    rf_add_gain(&gain, map->share, &e);
-    rf_set_film(at, &e, 0.0, 0.0, f, jacobian);
-    return rf_judge(x, map->x_end, f, jacobian);
-}
-
-void rf_map_to_wall(rf_map *map, double slenderness, double share)
-{
-    rf_potential full;
-    const double end = rf_unstretch(map->x_end);
-    const double towards = exp(map->center + end * at_end(map, 1.0).m);
-    const double away = exp(map->center + end * at_end(map, -1.0).m);
-    map->slenderness = 0.0;
-    map->share = share;
-    if (!(slenderness > 0.0))
-        return;
-    rf_at_wall(slenderness, end, 1.0, 0.0, &full);
-    if (fabs(towards / (-share * full.value) - 1.0) < SAME && away < 0.5 * towards)
-        map->slenderness = slenderness;
-}
-
-int rf_map_error(const rf_map *map)
-{
-    return map->slenderness > 0.0 ? rf_wall_error(map->x_end) : 0;
 }
 
 int rf_map_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_map *map = of;
     rf_frame at;
+    double slope = 0.0;
     const int status = rf_orient(e, w, &at);
     if (status == RF_UNDEFINED)
         return resting(map, at.chi, f, jacobian);
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
-    double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
-    if (x > map->x_end * (1.0 + 1e-12) && map->slenderness > 0.0)
-        return beyond(map, &at, x, f, jacobian);
-    const field m = look_up(map, x, at.cos, jacobian || x > map->x_end);
-    const double potential = -exp(map->center + at.chi * m.m);
-    rf_set_force(&at, potential, m.m_s * at.chi * at.sin, f);
-    if (jacobian)
-        set_jacobian(&at, slope, &m, potential, jacobian);
-    return rf_judge(x, map->x_end, f, jacobian);
+    const int outside = x > map->x.last * (1.0 + RF_ROUNDING);
+    if (outside && map->slenderness > 0.0)
+        return plain_beyond(map, &at, f, jacobian);
+    const rf_exponent here = plain_exponent(map, &at, x, slope, jacobian || x > map->x.last ? 2 : 0);
+    rf_set_answer(&at, -exp(here.value), &here, at.nx, at.ny, f, jacobian);
+    return rf_judge(x, map->x.last, f, jacobian);
+}
+
+void rf_map_to_wall(rf_map *map)
+{
+    rf_potential full;
+    const double end = rf_unstretch(map->x.last), slenderness = map->slenderness;
+    const double towards = exp(plain_end(map, end, 1.0, 0.0).value), away = exp(plain_end(map, end, -1.0, 0.0).value);
+    map->slenderness = 0.0;
+    if (!(slenderness > 0.0))
+        return;
+    rf_at_wall(slenderness, end, 1.0, 0.0, &full);
+    if (fabs(towards / (-map->share * full.value) - 1.0) < SAME && away < 0.5 * towards)
+        map->slenderness = slenderness;
+}
+
+int rf_map_error(const rf_map *map)
+{
+    return map->slenderness > 0.0 ? rf_wall_error(map->x.last) : 0;
+}
+
+/* u and Y of a place, and their derivatives: u does not depend on eta. */
+typedef struct place {
+    double u, u_xi, y, y_xi, y_eta;
+} place;
+
+/* The journal's place on a pad, or RF_AT_WALL. */
+static inline int set_place(const rf_map *map, const double *e, int full, place *at)
+{
+    const double xi = e[0], eta = e[1], gap = 1.0 - xi;
+    const int round = xi > map->cosine;
+    if (!(gap > 0.0))
+        return RF_AT_WALL;
+    const double wall = round ? sqrt(gap * (1.0 + xi)) : (1.0 - xi * map->cosine) / map->sine;
+    const double low = wall + eta, high = wall - eta;
+    if (!(low > 0.0 && high > 0.0))
+        return RF_AT_WALL;
+    at->u = -log(gap);
+    at->y = 0.5 * log(low / high);
+    if (full) {
+        const double bent = round ? -xi / wall : -map->cosine / map->sine;
+        at->u_xi = 1.0 / gap;
+        at->y_eta = wall / (low * high);
+        at->y_xi = -eta * bent / (low * high);
+    }
+    return RF_OK;
+}
+
+/* Whether a place is beyond the nodes of an axis, on which splines then go on linearly. */
+static inline int weigh_open(const rf_axis *axis, double at, int order, rf_weights *by)
+{
+    const double within = fmin(fmax(at, axis->first), axis->last);
+    const int outside = fabs(at - within) > RF_ROUNDING;
+    rf_weigh_between(axis, within, order > 0 || outside, by);
+    if (outside)
+        rf_weigh_beyond((at - within) * by->per, by);
+    return outside;
+}
+
+/* At order 2 or 0, with L = 5 ln s + M. */
+static inline int pad_film(const rf_map *map, const double *e, const double *w, int order, double *f, double *jacobian)
+{
+    const double state[4] = {e[0], e[1], w[0], w[1]};
+    const size_t strides[] = {rf_width(&map->y) * rf_width(&map->s), rf_width(&map->s)};
+    rf_frame to;
+    place at = {0.0, 0.0, 0.0, 0.0, 0.0};
+    rf_weights by[3];
+    rf_spline m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (rf_is_broken(state, 4))
+        return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
+    if (set_place(map, e, order > 0, &at) != RF_OK)
+        return rf_fail(RF_AT_WALL, f, jacobian, 8);
+    to.size = rf_length(w[0], w[1]);
+    if (to.size == 0.0)
+        return rf_rest(f, jacobian);
+    to.nx = w[0] / to.size;
+    to.ny = w[1] / to.size;
+    const double s = to.nx + map->sine;
+    if (!(s > 0.0)) {
+        f[0] = f[1] = 0.0;
+        for (int k = 0; order > 0 && k < 8; ++k)
+            jacobian[k] = 0.0;
+        return RF_OK;
+    }
+    int outside = weigh_open(&map->x, at.u, order, by);
+    outside |= weigh_open(&map->y, at.y, order, by + 1);
+    rf_weigh_between(&map->s, 2.0 * atan(to.ny / (1.0 + to.nx)), order > 0 ? 2 : 1, by + 2);
+    rf_evaluate(map->coefficients, 3, order, strides, by, &m);
+    const rf_exponent slopes = {m.m, m.m_x * at.u_xi + m.m_y * at.y_xi, m.m_y * at.y_eta, m.m_s - 5.0 * to.ny / s,
+                                m.m_xs * at.u_xi + m.m_ys * at.y_xi, m.m_ys * at.y_eta,
+                                m.m_ss - 5.0 * (1.0 + to.nx * map->sine) / (s * s)};
+    rf_set_answer(&to, -(s * s) * (s * s) * s * exp(m.m), &slopes, 1.0, 0.0, f, jacobian);
+    return rf_judge(outside, 0.0, f, jacobian);
+}
+
+int rf_pad_film(const void *map, const double *e, const double *w, double *f, double *jacobian)
+{
+    return jacobian ? pad_film(map, e, w, 2, f, jacobian) : pad_film(map, e, w, 0, f, NULL);
 }

@@ -1,20 +1,25 @@
-/* The impedance map of every plain journal bearing: map_kernel.h with a third axis, ln(length/diameter). */
+/* The maps of films among the tables of a kernel. */
 #ifndef ROTORFILM_MAP_TABLE_H
 #define ROTORFILM_MAP_TABLE_H
 
 #include "map_kernel.h"
+#include "../kernels/kernel.h"
 
-typedef struct rf_map_table {
-    int32_t cells_s;            /* cells of [ln low, ln high]; 0 for the table of a single bearing */
-    int32_t cells_x, cells_t;   /* as in rf_map */
-    double low, high;           /* smallest and largest length/diameter */
-    const double *center;       /* cells_s + 5 coefficients of L0, or L0 itself */
-    const double *coefficients; /* (cells_s + 5 or 1) x (cells_x + 5) x (cells_t + 5) */
-} rf_map_table;
+/* Tables `coefficients` of three axes, `center` of one, and numbers `map`:
 
-/* The map of one bearing: (cells_x + 5) x (cells_t + 5) coefficients and L0. RF_INVALID, without an answer,
-   if length/diameter is outside the table. */
-RF_EXPORT int rf_map_slice(const rf_map_table *table, double slenderness, double *coefficients,
-                           double *center);
+       RF_PLAIN     (1, X, cos), (1), and reach, or reach with length/diameter and share of the film at the wall
+       RF_LAYERED   (S, X, cos), (S) over S = ln(length/diameter), and reach; with `range`, its first and last one
+       RF_GROOVED   (X, theta, s), (phi), and length/diameter, reach, squeeze and axis [rad]
+       RF_PAD       (u, Y, phi), none, and extent [rad], first and last u, last Y */
+typedef enum rf_map_kind { RF_PLAIN, RF_LAYERED, RF_GROOVED, RF_PAD } rf_map_kind;
+
+/* Take a map, for rf_map_to_wall where it is plain, whose coefficients stay where they are; of layers, the first. The names of its tables have `of` in front.
+   RF_INVALID, with the message, where there is none. */
+RF_EXPORT int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tables, rf_message *why);
+
+/* The numbers of one length/diameter, `size` of them, from those of quintic splines over S, layers that cover a range. Of
+   one layer, that one. RF_INVALID, without an answer, if length/diameter is outside. */
+RF_EXPORT int rf_map_slice(const double *numbers, size_t layers, size_t size, const double *range, double slenderness,
+                           double *own);
 
 #endif

@@ -11,13 +11,16 @@
 #define RF_LARGEST 1e200
 #define RF_TURN 6.283185307179586476925286766559
 
-/* Kept out of line: large, and called where a call costs little. */
+/* Kept out of line: large, and called where a call costs little. Or always in line, where arguments are constants. */
 #if defined(__GNUC__)
 #define RF_ONCE __attribute__((noinline))
+#define RF_INLINE inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
 #define RF_ONCE __declspec(noinline)
+#define RF_INLINE __forceinline
 #else
 #define RF_ONCE
+#define RF_INLINE inline
 #endif
 
 /* Values and up to two derivatives of the six quintic B-splines on one cell, at u in [0, 1]. */

@@ -86,35 +86,29 @@ void rf_at_wall(double slenderness, double chi, double c, double s, rf_potential
     e->turn_slope = -2.0 * chi * sign * value * (tg + t * by_g);
 }
 
-void rf_wall_gain(double slenderness, double chi_end, double chi, double c, double s, rf_potential *gain)
+int rf_go_to_wall(double slenderness, double chi_end, const rf_frame *at, const rf_exponent *from, const rf_share *share,
+                  const double *turned, double *f, double *jacobian)
 {
-    rf_potential end;
-    rf_at_wall(slenderness, chi, c, s, gain);
-    rf_at_wall(slenderness, chi_end, c, s, &end);
-    gain->value -= end.value;
-    gain->turn -= end.turn;
-    gain->turn_turn -= end.turn_turn;
-}
-
-void rf_add_gain(const rf_potential *gain, double share, rf_potential *e)
-{
-    e->value += share * gain->value;
-    e->turn += share * gain->turn;
-    e->turn_turn += share * gain->turn_turn;
-    e->slope += share * gain->slope;
-    e->turn_slope += share * gain->turn_slope;
-}
-
-void rf_set_film(const rf_frame *at, const rf_potential *e, double side, double side_turn, double *f, double *jacobian)
-{
-    const double turn = e->turn / e->value, per = at->size / at->chi;
-    rf_set_force(at, e->value, turn, f);
-    if (!jacobian)
-        return;
-    const double by_e[4] = {2.0 * at->size * e->slope, 2.0 * per * (side - e->turn), at->size * e->turn_slope,
-                            per * (side_turn - e->turn_turn)};
-    rf_set_columns(at, at->rx, at->ry, by_e, 0, jacobian);
-    rf_set_damping(at, e->value, turn, e->turn_turn / e->value - turn * turn, jacobian);
+    rf_potential gain, end;
+    rf_at_wall(slenderness, at->chi, at->cos, -at->sin, &gain);
+    rf_at_wall(slenderness, chi_end, at->cos, -at->sin, &end);
+    gain.value -= end.value;
+    gain.turn -= end.turn;
+    gain.turn_turn -= end.turn_turn;
+    const double first = -exp(from->value), part = share->value, per = at->size / at->chi;
+    const double value = first + part * gain.value, by_w = first * from->turn + part * gain.turn;
+    const double by_ww = first * (from->turn * from->turn + from->turn_turn) + part * gain.turn_turn;
+    rf_set_force(at, value, by_w / value, f);
+    if (jacobian) {
+        const double turn = by_w / value;
+        const double by_e[4] = {2.0 * at->size * (part * gain.slope + share->slope * gain.value),
+                                2.0 * per * (turned[0] + share->side * gain.value - by_w),
+                                at->size * (part * gain.turn_slope + share->slope * gain.turn),
+                                per * (turned[1] + share->side * gain.turn - by_ww)};
+        rf_set_columns(at, at->rx, at->ry, by_e, 0, jacobian);
+        rf_set_damping(at, value, turn, by_ww / value - turn * turn, jacobian);
+    }
+    return rf_judge(1.0, 0.0, f, jacobian);
 }
 
 int rf_wall_error(double x_end)

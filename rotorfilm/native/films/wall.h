@@ -28,18 +28,18 @@ typedef struct rf_potential {
 /* E of the film at the wall; cos and sin of the angle from e to w. */
 void rf_at_wall(double slenderness, double chi, double cos, double sin, rf_potential *e);
 
-/* What E of the film at the wall gains from chi_end, the last node of a map, to chi. */
-void rf_wall_gain(double slenderness, double chi_end, double chi, double cos, double sin, rf_potential *gain);
+/* A share of what E of the film at the wall gains from the last node of a map on, and its derivatives in the angle of e and in chi. */
+typedef struct rf_share {
+    double value, side, slope;
+} rf_share;
 
-/* Add a share of the gain to E of a map at its last node. */
-void rf_add_gain(const rf_potential *gain, double share, rf_potential *e);
+/* The film of a map beyond its last node chi_end, where it has L: E there, and a share of the gain. E there may depend on
+   the direction of e by itself: turned[2] are the derivatives of E and of its turn where e and w turn together. */
+int rf_go_to_wall(double slenderness, double chi_end, const rf_frame *at, const rf_exponent *end, const rf_share *share,
+                  const double *turned, double *f, double *jacobian);
 
 /* Largest error of a force that was measured beyond a last node x_end of a map [%] (docs/map.md): 0 for last nodes
    nearer the center than any that was. */
 int rf_wall_error(double x_end);
-
-/* Force and Jacobian of J = |w|^2 E. E may depend on the direction of e by itself: side and side_turn are its
-   derivative, and that of its turn, where e and w turn together. */
-void rf_set_film(const rf_frame *at, const rf_potential *e, double side, double side_turn, double *f, double *jacobian);
 
 #endif

@@ -25,7 +25,7 @@ typedef struct rf_heated {
     rf_journal journal; /* at unit viscosity */
     rf_loss loss;
     const void *loss_data;
-    const rf_opening_map *openings; /* NULL without; then also the data of the losses */
+    const rf_loss_map *openings; /* NULL without; then also the data of the losses */
     rf_oil oil;
     double radius, length, clearance;    /* m */
     double supply, ambient, conductance; /* K, K, W/K */

@@ -130,17 +130,6 @@ int rf_heated_derivatives(const void *kernel, const rf_point *at, rf_jacobian *a
 }
 
 /* Numbers of a table with one axis of `count`; NULL with the message otherwise. */
-const double *rf_numbers(const rf_tables *tables, const char *name, uint32_t count, rf_message *why)
-{
-    const rf_table *found = rf_find_table(tables, name, 1, why);
-    if (found && found->extent[0] != count) {
-        rf_say(why, RF_INVALID, "table %s must have %u numbers, got %u", name, (unsigned)count,
-               (unsigned)found->extent[0]);
-        return NULL;
-    }
-    return found ? found->numbers : NULL;
-}
-
 int rf_take_oil(rf_heated_model *m, const rf_tables *tables, rf_message *why)
 {
     const rf_table *oil = rf_find_table(tables, "oil", 1, why);

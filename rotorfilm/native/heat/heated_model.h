@@ -23,9 +23,6 @@ typedef struct rf_heated_model {
 
 extern const rf_sizes RF_HEATED_SIZES;
 
-/* Numbers of a table with one axis of `count`; NULL with the message otherwise. */
-const double *rf_numbers(const rf_tables *tables, const char *name, uint32_t count, rf_message *why);
-
 /* The oil, and whether the gap is full, from their tables. */
 int rf_take_oil(rf_heated_model *model, const rf_tables *tables, rf_message *why);
 

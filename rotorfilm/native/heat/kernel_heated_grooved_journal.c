@@ -2,8 +2,7 @@
    (bearings/oil/heated_bearing.py).
 
    Parameters, inputs, outputs and the tables of the oil as in heated_model.h, with one more parameter, carry_over;
-   tables of the film as in groove_model.h, and its losses as in groove_losses.h: loss_coefficients (2 x 3, x, theta,
-   s), loss_flows (4 x openings, x, theta) and loss_edges (lands, 2). */
+   tables of the film as RF_GROOVED of map_table.h, and of its losses as in loss_kernel.h. */
 
 /* Documentation of the FMU
 
@@ -30,51 +29,30 @@
    temperatures of the table `oil_range`. Laminar, aligned. In vibration the temperature hardly moves. */
 #include <stdlib.h>
 
-#include "../films/groove_model.h"
-#include "heated_model.h"
 #include "../films/journal_model.h"
+#include "../films/map_table.h"
+#include "heated_model.h"
 
 #define CARRY_OVER 8
 
 typedef struct model {
     rf_heated_model heated; /* first, as heated_model.h asks */
-    rf_groove_map map;
-    rf_opening_map losses;
+    rf_map map;
+    rf_loss_map losses;
 } model;
-
-static int take_losses(model *m, const rf_tables *tables, rf_message *why)
-{
-    const rf_table *c = rf_find_table(tables, "loss_coefficients", 4, why);
-    const rf_table *flows = c ? rf_find_table(tables, "loss_flows", 3, why) : NULL;
-    const rf_table *edges = flows ? rf_find_table(tables, "loss_edges", 2, why) : NULL;
-    if (!edges)
-        return RF_INVALID;
-    int fits = c->extent[0] == 2 * RF_LOSSES && flows->extent[0] % 4 == 0 && flows->extent[0] <= 10000;
-    fits = fits && edges->extent[1] == 2 && edges->extent[0] <= 10000;
-    for (int axis = 1; axis < 4; ++axis)
-        fits = fits && c->extent[axis] >= 6 && c->extent[axis] <= 10000;
-    for (int axis = 1; axis < 3; ++axis)
-        fits = fits && flows->extent[axis] == c->extent[axis];
-    if (!fits)
-        return rf_say(why, RF_INVALID, "the losses of a film must fit each other, for two senses and six nodes");
-    m->losses = (rf_opening_map){(int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5, (int32_t)c->extent[3] - 5,
-                                 (int32_t)flows->extent[0] / 4, (int32_t)edges->extent[0], m->map.x_end,
-                                 m->map.squeeze, m->map.axis, c->numbers, flows->numbers, edges->numbers};
-    return RF_OK;
-}
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *m = kernel;
-    if (rf_take_oil(&m->heated, tables, why) != RF_OK || rf_take_groove_map(tables, &m->map, why) != RF_OK
-        || take_losses(m, tables, why) != RF_OK)
+    if (rf_take_oil(&m->heated, tables, why) != RF_OK || rf_take_map(&m->map, RF_GROOVED, "", tables, why) != RF_OK
+        || rf_take_losses(&m->losses, 1, tables, why) != RF_OK)
         return RF_INVALID;
     rf_heated *film = &m->heated.film;
     film->journal.film = rf_groove_film;
     film->journal.data = &m->map;
-    film->journal.error = rf_groove_error(&m->map);
+    film->journal.error = rf_map_error(&m->map);
     film->journal.openings = 1;
-    film->loss = rf_groove_losses;
+    film->loss = rf_map_losses;
     film->loss_data = film->openings = &m->losses;
     *sizes = RF_HEATED_SIZES;
     ++sizes->parameters;
@@ -91,7 +69,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     model *m = kernel;
     if (!(p[CARRY_OVER] >= 0.0 && p[CARRY_OVER] <= 1.0))
         return rf_say(why, RF_INVALID, "carry_over must be from 0 to 1, got %.9g", p[CARRY_OVER]);
-    if (rf_judge_slenderness(&m->map, p, why) != RF_OK)
+    if (rf_judge_slenderness(m->map.slenderness, "map of the film", p, why) != RF_OK)
         return RF_INVALID;
     const int status = rf_set_heated(&m->heated, p, why);
     if (status == RF_OK)

@@ -1,9 +1,8 @@
 /* Kernel "heated_journal": a plain journal bearing whose film has one temperature
    (bearings/oil/heated_bearing.py).
 
-   Parameters, inputs, outputs and the tables of the oil as in heated_model.h. The film is the map of coefficients
-   (1, x, t), center (1), reach (1), with its losses loss_coefficients (3, x, s), loss_center (3), loss_reach (1),
-   loss_squeeze (1); without `coefficients` it is the short film. */
+   Parameters, inputs, outputs and the tables of the oil as in heated_model.h. The film is RF_PLAIN of
+   map_table.h, with its losses as in loss_kernel.h; without `coefficients` it is the short film. */
 
 /* Documentation of the FMU
 
@@ -27,10 +26,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "heated_model.h"
 #include "../films/journal_model.h"
-#include "../films/map_kernel.h"
+#include "../films/map_table.h"
 #include "../films/short_kernel.h"
+#include "heated_model.h"
 
 typedef struct model {
     rf_heated_model heated; /* first, as heated_model.h asks */
@@ -49,29 +48,12 @@ static int take_short(model *m)
 
 static int take_map(model *m, const rf_tables *tables, rf_message *why)
 {
-    const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
-    const rf_table *l = c ? rf_find_table(tables, "loss_coefficients", 3, why) : NULL;
-    const double *center = l ? rf_numbers(tables, "center", 1, why) : NULL;
-    const double *reach = center ? rf_numbers(tables, "reach", 1, why) : NULL;
-    const double *loss_center = reach ? rf_numbers(tables, "loss_center", RF_LOSSES, why) : NULL;
-    const double *loss_reach = loss_center ? rf_numbers(tables, "loss_reach", 1, why) : NULL;
-    const double *squeeze = loss_reach ? rf_numbers(tables, "loss_squeeze", 1, why) : NULL;
-    if (!squeeze)
-        return RF_INVALID;
-    const rf_table *const both[] = {c, l};
-    for (int k = 0; k < 2; ++k)
-        for (int axis = 1; axis < 3; ++axis)
-            if (both[k]->extent[axis] < 6 || both[k]->extent[axis] > 10000
-                || both[k]->extent[0] != (k ? RF_LOSSES : 1))
-                return rf_say(why, RF_INVALID, "the maps of a film must be of one bearing, 6 x 6 at least");
-    m->map = (rf_map){(int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5, reach[0], center[0], c->numbers, 0.0, 1.0};
-    m->losses = (rf_loss_map){(int32_t)l->extent[1] - 5, (int32_t)l->extent[2] - 5, loss_reach[0], squeeze[0],
-                                  {loss_center[0], loss_center[1], loss_center[2]}, l->numbers};
     m->heated.film.journal.film = rf_map_film;
     m->heated.film.journal.data = &m->map;
     m->heated.film.loss = rf_map_losses;
     m->heated.film.loss_data = &m->losses;
-    return RF_OK;
+    return rf_take_map(&m->map, RF_PLAIN, "", tables, why) == RF_OK ? rf_take_losses(&m->losses, 0, tables, why)
+                                                                    : RF_INVALID;
 }
 
 static int is_mapped(const rf_tables *tables)
@@ -104,7 +86,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         return status;
     const double slenderness = rf_slenderness(p);
     if (m->map.coefficients) {
-        rf_map_to_wall(&m->map, slenderness, 1.0);
+        m->map.slenderness = slenderness;
+        rf_map_to_wall(&m->map);
         m->heated.film.journal.error = rf_map_error(&m->map);
     }
     m->ocvirk.factor = 4.0 * slenderness * slenderness;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "groove_losses.h"
 #include "loss_frame.h"
 
 #define PI 3.14159265358979323846
@@ -55,66 +56,85 @@ int rf_answer_losses(const rf_frame *at, const rf_polar *of, int first, double *
     return RF_OK;
 }
 
-/* Weights and slopes of the splines under one point, over X and over s. */
-typedef struct weights {
-    double x[RF_ORDER], x_slope[RF_ORDER], s[RF_ORDER], s_slope[RF_ORDER];
-    double per_x, per_t, beyond; /* cells per X and per t */
-} weights;
-
-/* L and, if `full`, its derivatives in chi and, over chi, in t. */
-static rf_polar exponent(const rf_loss_map *map, const double *c, const weights *by, const rf_frame *at, double slope,
-                      double center, int full)
+int rf_take_losses(rf_loss_map *map, int32_t opened, const rf_tables *tables, rf_message *why)
 {
-    const size_t stride = (size_t)map->cells_s + RF_ORDER - 1;
-    double row[RF_ORDER], row_x[RF_ORDER];
-    rf_polar at_state = {0.0, 0.0, 0.0, 0.0};
-    rf_rows(c, stride, by->x, row);
-    if (full || by->beyond > 0.0)
-        rf_rows(c, stride, by->x_slope, row_x);
-    for (int j = 0; by->beyond > 0.0 && j < RF_ORDER; ++j)
-        row[j] += by->beyond * row_x[j];
-    const double m = rf_dot(row, by->s);
-    at_state.value = center + at->chi * m;
-    if (full) {
-        at_state.by_chi = m + at->chi * slope * by->per_x * rf_dot(row_x, by->s);
-        at_state.by_turn = by->per_t * rf_dot(row, by->s_slope);
+    const rf_table *c = rf_find_table(tables, "loss_coefficients", opened ? 4 : 3, why);
+    const double *numbers = c ? rf_numbers(tables, "loss_map", opened ? 3 : 2 + RF_LOSSES, why) : NULL;
+    const rf_table *flows = numbers && opened ? rf_find_table(tables, "loss_flows", 3, why) : c;
+    const rf_table *edges = flows && opened ? rf_find_table(tables, "loss_edges", 2, why) : c;
+    if (!numbers || !flows || !edges)
+        return RF_INVALID;
+    const uint32_t *n = c->extent;
+    int fits = n[0] == (opened ? 2 : 1) * RF_LOSSES && numbers[0] > 0.0 && numbers[1] > 0.0;
+    for (uint32_t axis = 1; axis < c->axes; ++axis)
+        fits = fits && n[axis] >= 6 && n[axis] <= 10000;
+    if (opened)
+        fits = fits && flows->extent[0] % 4 == 0 && flows->extent[0] <= 10000 && flows->extent[1] == n[1]
+               && flows->extent[2] == n[2] && edges->extent[0] <= 10000 && edges->extent[1] == 2;
+    if (!fits)
+        return rf_say(why, RF_INVALID, "the losses of a film must fit each other, for all senses and 6 x 6 nodes at least");
+    *map = (rf_loss_map){{(int32_t)n[1] - 5, 0.0, numbers[0]}, {0, 0.0, RF_TURN}, {(int32_t)n[c->axes - 1] - 5, 0.0, PI},
+                         numbers[1], 0.0, numbers + 2, c->numbers, 0, 0, NULL, NULL};
+    if (opened) {
+        map->y.cells = (int32_t)n[2] - 5;
+        map->axis = numbers[2];
+        map->center = NULL;
+        map->openings = (int32_t)flows->extent[0] / 4;
+        map->lands = (int32_t)edges->extent[0];
+        map->flows = flows->numbers;
+        map->edges = edges->numbers;
     }
-    return at_state;
+    return RF_OK;
+}
+
+/* Loss k and its derivatives from its spline at a state. */
+static rf_polar loss_of(const rf_loss_map *map, size_t k, const rf_spline *m, const rf_frame *at, double slope)
+{
+    const double chi = at->chi, gap = (1.0 - chi) * (1.0 + chi), off = fmax(chi, RF_NEAR);
+    const int shears = k + 1 < RF_LOSSES;
+    const double root = shears ? sqrt(gap) : 1.0, bent = shears ? chi / gap : 0.0;
+    if (map->center) {
+        const double value = exp(map->center[k] + chi * m->m) / root;
+        const rf_polar power = {value, value * (m->m + chi * slope * m->m_x + bent), value * m->m_s, 0.0};
+        return power;
+    }
+    const double value = fmax(m->m, 0.0) / root, per = m->m > 0.0 ? 1.0 / root : 0.0;
+    const rf_polar here = {value, per * slope * m->m_x + value * bent, per * m->m_s / off, per * m->m_y / off};
+    return here;
 }
 
 int rf_map_losses(const void *of, const double *e, const double *w, int first, double *losses, double *slopes)
 {
     const rf_loss_map *map = of;
+    const int opened = map->y.cells > 0;
     rf_frame at;
     rf_polar loss[RF_LOSSES];
     const int status = rf_orient_loss(e, w, &at);
     if (status != RF_OK)
         return rf_fail_losses(status, losses, slopes);
-    double u, v, slope;
-    weights by;
-    const double x = rf_stretch(at.chi, &slope), within = fmin(x, map->x_end), gap = (1.0 - at.chi) * (1.0 + at.chi);
-    const size_t width = (size_t)map->cells_s + RF_ORDER - 1, all = ((size_t)map->cells_x + RF_ORDER - 1) * width;
-    const int32_t i = rf_cell(within / map->x_end * map->cells_x, map->cells_x, &u);
-    const double q = map->squeeze, across = fabs(at.sin), s = atan2(q * across, at.cos);
-    const int32_t j = rf_cell(s / PI * map->cells_s, map->cells_s, &v);
-    rf_values(u, by.x);
-    rf_values(v, by.s);
-    by.beyond = x > within ? map->cells_x * log(x / within) : 0.0;
-    if (slopes || by.beyond > 0.0)
-        rf_slopes(u, by.x_slope);
-    if (slopes)
-        rf_slopes(v, by.s_slope);
-    by.per_x = map->cells_x / fmax(x, map->x_end);
-    by.per_t = (at.sin > 0.0 ? -1.0 : 1.0) * map->cells_s / PI * q / (at.cos * at.cos + q * q * across * across);
+    double slope;
+    rf_weights by[3];
+    rf_spline m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const double x = rf_stretch(at.chi, &slope), q = map->squeeze, across = fabs(at.sin);
+    const size_t width = rf_width(&map->s), strides[] = {opened ? rf_width(&map->y) * width : width, width};
+    const size_t all = rf_width(&map->x) * strides[0];
+    rf_weigh_from_zero(&map->x, fmin(x, map->x.last), 1, by);
+    if (opened)
+        rf_weigh_angle(&map->y, atan2(at.ry, at.rx) - map->axis, 1, by + 1);
+    rf_weigh_from_zero(&map->s, atan2(q * across, at.cos), 1, by + 2);
+    by[2].per = (at.sin > 0.0 ? -by[2].per : by[2].per) * q / (at.cos * at.cos + q * q * across * across);
+    if (x > map->x.last && opened)
+        slope = 0.0;
+    else if (x > map->x.last) {
+        rf_weigh_beyond(map->x.cells * log(x / map->x.last), by);
+        by->per = map->x.cells / x;
+    }
     for (size_t k = (size_t)first; k < RF_LOSSES; ++k) {
-        const double *c = map->coefficients + k * all + (size_t)i * width + (size_t)j;
-        const rf_polar power = exponent(map, c, &by, &at, slope, map->center[k], slopes != NULL);
-        const int shears = k + 1 < RF_LOSSES;
-        const double value = exp(power.value) / (shears ? sqrt(gap) : 1.0);
-        loss[k].value = value;
-        loss[k].by_chi = value * (power.by_chi + (shears ? at.chi / gap : 0.0));
-        loss[k].by_turn = value * power.by_turn;
-        loss[k].by_side = 0.0;
+        if (opened)
+            rf_opened_spline(map->coefficients + (k + (at.sin >= 0.0 ? 0 : RF_LOSSES)) * all, strides, by, &m);
+        else
+            rf_evaluate(map->coefficients + k * all, 2, 1, strides, by, &m);
+        loss[k] = loss_of(map, k, &m, &at, slope);
     }
     return rf_answer_losses(&at, loss, first, losses, slopes);
 }

@@ -29,6 +29,9 @@ typedef struct rf_tables {
 /* The table of this name if it has so many axes; NULL, with the message written, otherwise. */
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why);
 
+/* The numbers of a table with one axis of `count`; NULL, with the message written, otherwise. */
+const double *rf_numbers(const rf_tables *tables, const char *name, uint32_t count, rf_message *why);
+
 typedef struct rf_sizes {
     size_t parameters, inputs, outputs, states, events;
 } rf_sizes;

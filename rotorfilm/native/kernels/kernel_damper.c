@@ -1,8 +1,8 @@
 /* Kernel "damper": a cavitated squeeze film over its impedance map, and retainer springs beside it.
 
    Parameters of a journal (journal_model.h) and stiffness [N/m]; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N].
-   Forces of the film are in units of viscosity * radius * length^3 / clearance^2 per 1/s. Tables: coefficients (x, t), center (1),
-   reach (1), wall (2: length/diameter and share of the film at the wall, rf_map). What of the dimensions the map holds for is up to the bounds of the parameters. */
+   Forces of the film are in units of viscosity * radius * length^3 / clearance^2 per 1/s. Tables of RF_PLAIN in
+   map_table.h. What of the dimensions the map holds for is up to the bounds of the parameters. */
 
 /* Documentation of the FMU
 
@@ -18,15 +18,15 @@
 
    Validity: M is a spline over X and T, made for this damper. Fixed is what it holds for: length and
    clearance where the cage is porous, radius and length where the film is of finite length. The springs are
-   preloaded so that they carry the static load. Beyond the last X, the table reach, the force goes
+   preloaded so that they carry the static load. Beyond the last X, the first number of the table map, the force goes
    on as that of the film near the wall, or, where the map is no such film (porous cages, films without
    rupture), as a power of X, with a warning. Laminar, isothermal, aligned, without oil inertia. Where the
    rotor is at rest off the center the film force is zero and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
 
-#include "../films/damper_map.h"
 #include "../films/journal_model.h"
+#include "../films/map_table.h"
 
 enum { RADIUS, LENGTH, STIFFNESS = 4, PARAMETERS, INPUTS = 4 };
 
@@ -40,8 +40,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
 {
     static const rf_sizes mine = {PARAMETERS, INPUTS, 2, 0, 0};
     model *self = kernel;
-    if (rf_take_damper_map(&self->map, tables, why) != RF_OK)
+    if (rf_take_map(&self->map, RF_PLAIN, "", tables, why) != RF_OK)
         return RF_INVALID;
+    rf_map_to_wall(&self->map);
     self->journal.film = rf_map_film;
     self->journal.data = &self->map;
     self->journal.error = rf_map_error(&self->map);

@@ -1,7 +1,7 @@
 /* Kernel "grooved_journal": a journal bearing with axial openings over the impedance map made for it.
 
-   Parameters, inputs and outputs as in journal_model.h; length/diameter must be that of the map; tables as in
-   groove_model.h. */
+   Parameters, inputs and outputs as in journal_model.h; length/diameter must be that of the map; tables of RF_GROOVED
+   in map_table.h. */
 
 /* Documentation of the FMU
 
@@ -24,22 +24,22 @@
    force is zero and has no derivative. */
 #include <stdlib.h>
 
-#include "../films/groove_model.h"
 #include "../films/journal_model.h"
+#include "../films/map_table.h"
 
 typedef struct model {
     rf_journal journal; /* first, as journal_model.h asks */
-    rf_groove_map map;
+    rf_map map;
 } model;
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
-    if (rf_take_groove_map(tables, &self->map, why) != RF_OK)
+    if (rf_take_map(&self->map, RF_GROOVED, "", tables, why) != RF_OK)
         return RF_INVALID;
     self->journal.film = rf_groove_film;
     self->journal.data = &self->map;
-    self->journal.error = rf_groove_error(&self->map);
+    self->journal.error = rf_map_error(&self->map);
     self->journal.openings = 1;
     *sizes = RF_JOURNAL_SIZES;
     return RF_OK;
@@ -54,9 +54,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
     rf_journal scaled = self->journal;
-    if (rf_scale_journal(&scaled, p, why) != RF_OK)
-        return RF_INVALID;
-    if (rf_judge_slenderness(&self->map, p, why) != RF_OK)
+    if (rf_scale_journal(&scaled, p, why) != RF_OK
+        || rf_judge_slenderness(self->map.slenderness, "map of the film", p, why) != RF_OK)
         return RF_INVALID;
     self->journal = scaled;
     return RF_OK;

@@ -1,7 +1,6 @@
 /* Kernel "journal": a plain journal bearing over the universal impedance map.
 
-   Parameters, inputs and outputs as in journal_model.h. Tables: coefficients (s, x, t), center (s), range (2: smallest and largest
-   length/diameter), reach (1). */
+   Parameters, inputs and outputs as in journal_model.h; tables of RF_LAYERED in map_table.h. */
 
 /* Documentation of the FMU
 
@@ -24,14 +23,14 @@
 #include <stdlib.h>
 
 #include "../films/journal_model.h"
-#include "../films/map_kernel.h"
 #include "../films/map_table.h"
 
 typedef struct model {
     rf_journal journal; /* first, as journal_model.h asks */
     rf_map map;
-    rf_map_table table;
-    double slenderness; /* of the map; 0 as long as there is none */
+    const rf_table *layers, *centers;
+    const double *range;
+    double slenderness, center; /* of the map; 0 as long as there is none */
     double *slice, *spare;
 } model;
 
@@ -43,38 +42,27 @@ static void destroy(void *kernel)
     free(self);
 }
 
+static size_t layer_size(const model *self)
+{
+    return (size_t)self->layers->extent[1] * self->layers->extent[2];
+}
+
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *self = kernel;
-    const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
-    const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
-    const rf_table *range = center ? rf_find_table(tables, "range", 1, why) : NULL;
-    const rf_table *reach = range ? rf_find_table(tables, "reach", 1, why) : NULL;
-    if (!reach)
+    if (rf_take_map(&self->map, RF_LAYERED, "", tables, why) != RF_OK
+        || !(self->range = rf_numbers(tables, "range", 2, why)))
         return RF_INVALID;
-    const uint32_t layers = c->extent[0], x = c->extent[1], t = c->extent[2];
-    if (x < 6 || t < 6 || x > 10000 || t > 10000 || layers > 10000 || center->extent[0] != layers
-        || !(layers == 1 || layers >= 6) || range->extent[0] != 2 || reach->extent[0] != 1)
-        return rf_say(why, RF_INVALID, "the tables of a journal must fit each other, got %u x %u x %u and %u",
-                      (unsigned)layers, (unsigned)x, (unsigned)t, (unsigned)center->extent[0]);
-    const double low = range->numbers[0], high = range->numbers[1];
-    if (!(low > 0.0 && (layers == 1 ? high >= low : high > low) && reach->numbers[0] > 0.0))
+    self->layers = rf_find_table(tables, "coefficients", 3, why);
+    self->centers = rf_find_table(tables, "center", 1, why);
+    const double low = self->range[0], high = self->range[1];
+    if (!(low > 0.0 && (self->centers->extent[0] == 1 ? high >= low : high > low)))
         return rf_say(why, RF_INVALID, "range must be positive and ascending, got %.9g and %.9g", low, high);
-    const rf_map_table table = {layers == 1 ? 0 : (int32_t)layers - 5,
-                                (int32_t)x - 5,
-                                (int32_t)t - 5,
-                                low,
-                                high,
-                                center->numbers,
-                                c->numbers};
-    self->table = table;
-    self->map.cells_x = table.cells_x;
-    self->map.cells_t = table.cells_t;
-    self->map.x_end = reach->numbers[0];
     self->journal.film = rf_map_film;
     self->journal.data = &self->map;
-    self->slice = malloc((size_t)x * t * sizeof *self->slice);
-    self->spare = malloc((size_t)x * t * sizeof *self->spare);
+    self->map.center = &self->center;
+    self->slice = malloc(layer_size(self) * sizeof *self->slice);
+    self->spare = malloc(layer_size(self) * sizeof *self->spare);
     *sizes = RF_JOURNAL_SIZES;
     return self->slice && self->spare ? RF_OK : rf_say(why, RF_MEMORY, "no memory for the map of a journal");
 }
@@ -92,18 +80,19 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         return RF_INVALID;
     const double slenderness = rf_slenderness(p);
     if (slenderness != self->slenderness) {
-        double center;
-        if (rf_map_slice(&self->table, slenderness, self->spare, &center) != RF_OK)
+        const size_t layers = self->centers->extent[0];
+        if (rf_map_slice(self->layers->numbers, layers, layer_size(self), self->range, slenderness, self->spare) != RF_OK)
             return rf_say(why, RF_INVALID,
                           "length/diameter must be within the table of the film, %.9g to %.9g, got %.9g",
-                          self->table.low, self->table.high, slenderness);
+                          self->range[0], self->range[1], slenderness);
+        rf_map_slice(self->centers->numbers, layers, 1, self->range, slenderness, &self->center);
         double *const old = self->slice;
         self->slice = self->spare;
         self->spare = old;
         self->slenderness = slenderness;
-        self->map.center = center;
         self->map.coefficients = self->slice;
-        rf_map_to_wall(&self->map, slenderness, 1.0);
+        self->map.slenderness = slenderness;
+        rf_map_to_wall(&self->map);
         scaled.error = rf_map_error(&self->map);
     }
     self->journal = scaled;

@@ -4,7 +4,7 @@
    only a short film reads; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N] and, where the table `parts` says so,
    mass_xx, mass_xy, mass_yy [kg]. Tables: parts (6: whether the viscous film is the map; shares of zone, closed form and
    table in the inertia; share of the circumference between leaking seals, 0 without; whether there is a mass); of a map
-   coefficients (x, t), center (1), reach (1), wall (2) as of "damper"; of a table radial (terms, 7) and least (1); of a zone
+   those of RF_PLAIN in map_table.h; of a table radial (terms, 7) and least (1); of a zone
    nodes and weights. */
 
 /* Documentation of the FMU
@@ -26,8 +26,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../films/damper_map.h"
 #include "../films/journal_model.h"
+#include "../films/map_table.h"
 #include "../films/oil_damper.h"
 
 enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, STIFFNESS, DENSITY, LEAKAGE, PARAMETERS, INPUTS = 4 };
@@ -90,10 +90,12 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     to->least = 1.0;
     self->sealed = part[SEALED];
     self->heavy = part[HEAVY] != 0.0;
-    if (to->mapped && rf_take_damper_map(&self->map, tables, why) != RF_OK)
+    if (to->mapped && rf_take_map(&self->map, RF_PLAIN, "", tables, why) != RF_OK)
         return RF_INVALID;
     if ((!to->mapped || to->tabled != 0.0) && take_radial(to, tables, why) != RF_OK)
         return RF_INVALID;
+    if (to->mapped)
+        rf_map_to_wall(&self->map);
     to->journal.film = rf_map_film;
     to->journal.data = &self->map;
     to->journal.error = to->mapped ? rf_map_error(&self->map) : 0.0;

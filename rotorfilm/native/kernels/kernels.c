@@ -34,6 +34,17 @@ const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_
     return NULL;
 }
 
+const double *rf_numbers(const rf_tables *tables, const char *name, uint32_t count, rf_message *why)
+{
+    const rf_table *found = rf_find_table(tables, name, 1, why);
+    if (found && found->extent[0] != count) {
+        rf_say(why, RF_INVALID, "table %s must have %u numbers, got %u", name, (unsigned)count,
+               (unsigned)found->extent[0]);
+        return NULL;
+    }
+    return found ? found->numbers : NULL;
+}
+
 void *rf_make_kernel(size_t bytes, rf_take_tables *take, void (*destroy)(void *kernel), const rf_tables *tables, rf_sizes *sizes,
                      rf_message *why)
 {

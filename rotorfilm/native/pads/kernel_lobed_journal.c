@@ -2,8 +2,7 @@
 
    Parameters, inputs and outputs as in journal_model.h; the clearance is that of the pads, length/diameter that of the
    maps. Tables: lobes (n x 4: angle of the middle [rad], center of curvature x, y / clearance, number of the map),
-   slenderness (1), and for each map k "k.coefficients" (u, Y, phi) and "k.shape" (4: extent [rad], first and last u,
-   last Y). */
+   slenderness (1), and for each map k those of RF_PAD in map_table.h with "k." in front. */
 
 /* Documentation of the FMU
 
@@ -29,16 +28,15 @@
 
 #include "../films/journal_model.h"
 #include "../films/lobes.h"
-#include "pad_tables.h"
+#include "../films/map_table.h"
 
 #define MOST_LOBES 50
-#define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of the maps */
 
 typedef struct model {
     rf_lobes lobes;
     double slenderness;
     const double *places; /* of the table lobes */
-    rf_pad_map maps[MOST_LOBES];
+    rf_map maps[MOST_LOBES];
     rf_lobe list[MOST_LOBES];
 } model;
 
@@ -67,7 +65,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
         if (number == made) {
             char of[16];
             snprintf(of, sizeof of, "%d.", number);
-            if (rf_take_pad_map(&self->maps[made++], of, tables, why) != RF_OK)
+            if (rf_take_map(&self->maps[made++], RF_PAD, of, tables, why) != RF_OK)
                 return RF_INVALID;
         }
         rf_lobe *lobe = &self->list[k];
@@ -89,12 +87,9 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
     rf_journal scaled = self->list[0].film;
-    if (rf_scale_journal(&scaled, p, why) != RF_OK)
+    if (rf_scale_journal(&scaled, p, why) != RF_OK
+        || rf_judge_slenderness(self->slenderness, "maps of the pads", p, why) != RF_OK)
         return RF_INVALID;
-    const double slenderness = rf_slenderness(p);
-    if (!(fabs(slenderness - self->slenderness) <= ROUNDOFF * self->slenderness))
-        return rf_say(why, RF_INVALID, "length/diameter must be that of the maps of the pads, %.9g, got %.9g",
-                      self->slenderness, slenderness);
     for (size_t k = 0; k < self->lobes.count; ++k) {
         rf_lobe *lobe = &self->list[k];
         lobe->film.clearance = scaled.clearance;

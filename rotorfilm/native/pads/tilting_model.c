@@ -6,17 +6,16 @@
 
 #include "../films/journal_model.h"
 #include "../solvers/dense.h"
-#include "pad_tables.h"
+#include "../films/map_table.h"
 #include "tilting.h"
 
 #define MOST_PADS 50
-#define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of the map */
 
 enum { EXTENT, OFFSET, PRELOAD, SPRING, INERTIA, MASS, SLENDERNESS, NUMBERS };
 
 typedef struct model {
     rf_tilting bearing;
-    rf_pad_map map;
+    rf_map map;
     double slenderness;
     size_t states, outputs;
     double pivots[2 * MOST_PADS];
@@ -86,7 +85,7 @@ void *rf_create_tilting(const rf_tables *tables, int inertia, rf_sizes *sizes, r
         rf_say(why, RF_MEMORY, "no memory for a journal");
         return NULL;
     }
-    if (rf_take_pad_map(&m->map, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK
+    if (rf_take_map(&m->map, RF_PAD, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK
         || allocate(m, why) != RF_OK) {
         rf_destroy_tilting(m);
         return NULL;
@@ -106,12 +105,9 @@ int rf_set_tilting(void *kernel, const double *p, rf_message *why)
 {
     model *m = kernel;
     rf_journal scaled = {NULL, NULL, 0.0, 0.0, 0.0, 0};
-    if (rf_scale_journal(&scaled, p, why) != RF_OK)
+    if (rf_scale_journal(&scaled, p, why) != RF_OK
+        || rf_judge_slenderness(m->slenderness, "map of a pad", p, why) != RF_OK)
         return RF_INVALID;
-    const double slenderness = rf_slenderness(p);
-    if (!(fabs(slenderness - m->slenderness) <= ROUNDOFF * m->slenderness))
-        return rf_say(why, RF_INVALID, "length/diameter must be that of the map of a pad, %.9g, got %.9g", m->slenderness,
-                      slenderness);
     m->bearing.clearance = scaled.clearance;
     m->bearing.force_scale = scaled.force_scale;
     return RF_OK;

@@ -3,8 +3,8 @@
    Parameters radius, length, clearance of a pad [m], viscosity [Pa s]; inputs x, y [m], vx, vy [m/s], speed [rad/s];
    outputs force_x, force_y [N] and the load of each pivot [N]; states as in tilting.h. Tables: pivots (N: angles
    [rad]), pads (7: extent [rad], offset of the pivot, preload, stiffness of a pivot [N/m] or 0, inertia over the square
-   of its distance from the film [kg] or 0, mass that moves with a pivot [kg], length/diameter), coefficients (u, Y, phi)
-   and shape (4: extent [rad], first and last u, last Y) of the map of a pad. */
+   of its distance from the film [kg] or 0, mass that moves with a pivot [kg], length/diameter), and those of
+   RF_PAD in map_table.h. */
 #ifndef ROTORFILM_TILTING_MODEL_H
 #define ROTORFILM_TILTING_MODEL_H
 

@@ -31,8 +31,7 @@ def frozen(bearing, eccentricity, fluidity=None):
         cells=cells,
         fluidity=fluidity or Fluidity(np.ones(cells.shape), np.full(cells.shape, 0.5), np.ones(cells.shape)),
         empty=np.zeros((lines, along - 1), dtype=bool),
-        clearance=bearing.clearance,
-        force_per_rate=bearing.force_scale,
+        bearing=bearing,
     )
 
 

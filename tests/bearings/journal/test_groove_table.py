@@ -50,11 +50,11 @@ def test_bytes_and_back(tmp_path):
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
-        (lambda b: b[:-8], "groove table: size must be"),
-        (lambda b: b"x" + b[1:], "does not begin with the mark of a groove table"),
-        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 3, got 9"),
+        (lambda b: b[:-8], "GrooveMapTable: the checksum does not fit"),
+        (lambda b: b"x" + b[1:], "does not begin with the mark of a table"),
+        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 1, got 9"),
         (lambda b: b[:-3] + b"abc", "the checksum does not fit"),
-        (lambda b: b[:16] + b"\xff" * 4 + b[20:], "size must be"),
+        (lambda b: b[:16] + b"\xff" * 4 + b[20:], "the checksum does not fit"),
         (lambda b: b"", "does not begin"),
     ],
 )
@@ -66,13 +66,13 @@ def test_damaged_bytes_are_refused(damage, message):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"coefficients": np.zeros((11, 8))}, "coefficients must have shape"),
-        ({"log_center": np.zeros(5)}, "coefficients must have shape"),
+        ({"coefficients": np.zeros((11, 8))}, "coefficients must be finite, of shape"),
+        ({"log_center": np.zeros(5)}, r"log_center must be finite, of shape \(192\), got shape \(5,\)"),
         ({"coefficients": np.full((11, 8, 12), np.nan)}, "must be finite"),
         ({"bounds": np.zeros(3)}, r"bounds must have shape \(bands, 5\)"),
         ({"bounds": np.full((2, 5), np.nan)}, "bounds must .* not be negative"),
-        ({"shear": np.zeros((2, 3, 11, 8, 5))}, "shear and flows must have shapes"),
-        ({"flows": np.full((2, 2, 2, 11, 8), np.inf)}, "shear and flows must be finite"),
+        ({"shear": np.zeros((2, 3, 11, 8, 5))}, r"shear must be finite, of shape \(2, 3, 11, 8, 13\)"),
+        ({"flows": np.full((2, 2, 2, 11, 8), np.inf)}, "flows must be finite"),
         ({"crowding": 0.0}, r"crowding in \(0, 1\], got 0\.5, 2\.0 and 0\.0"),
     ],
 )

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from rotorfilm.bearings.films.finite_volumes import thickness
 from rotorfilm.bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature
 from rotorfilm.bearings.journal.energy_equation import Heating, layer_heat, layer_shares
-from rotorfilm.bearings.journal.film_flow import fed_film, thickness
+from rotorfilm.bearings.journal.film_flow import fed_film
 from rotorfilm.bearings.oil import Cooling, Oil
 
 LAYERS, FINE = 5, 4000

@@ -26,7 +26,7 @@ from rotorfilm.bearings.pads.pad_build import (
     seen_film,
 )
 from rotorfilm.bearings.pads.pad_table import least_film, wall
-from rotorfilm.native import GrooveMapKernel, Status
+from rotorfilm.native import Status
 
 DEGREE = np.pi / 180.0
 COARSE = PadResolution(cells=(16, 4), nodes=(6, 6, 12), xi_range=(-0.3, 0.9))
@@ -204,9 +204,7 @@ def test_two_pads_without_preload_are_the_map_with_two_openings():
     geometry = FilmGeometry(grooves=tuple(Groove(center=at, width=20.0 * DEGREE) for at in (0.0, np.pi)))
     openings = aligned_openings(geometry)
     bore = build_groove_table(openings, 0.5, Resolution((96, 8), (12, 48, 48), 0.95))
-    grooved = GrooveMapKernel(
-        bore.coefficients, bore.reach, bore.log_center, bore.crowding, openings.axis, bore.slenderness
-    )
+    grooved = bore.kernel(openings.axis)
     rng, kernel = np.random.default_rng(2), table(extent, 0.5, FINE).kernel()
     chi, at, phi = rng.uniform((0.0, -np.pi, -np.pi), (0.8, np.pi, np.pi), (100, 3)).T
     e, w = chi * np.stack([np.cos(at), np.sin(at)]), np.stack([np.cos(phi), np.sin(phi)])

@@ -40,10 +40,10 @@ def test_bytes_are_the_table(made, tmp_path):
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
-        (lambda content: b"RFGROOVE" + content[8:], "pad table: the content does not begin with the mark"),
-        (lambda content: content[:-8], "pad table: size must be"),
-        (lambda content: content[:-1] + bytes([content[-1] ^ 1]), "pad table: the checksum does not fit"),
-        (lambda content: content[:8] + b"\x63" + content[9:], "pad table: version must be 2, got 99"),
+        (lambda content: b"RFGROOVE" + content[8:], "PadMapTable: the content does not begin with the mark"),
+        (lambda content: content[:-8], "PadMapTable: the checksum does not fit"),
+        (lambda content: content[:-1] + bytes([content[-1] ^ 1]), "PadMapTable: the checksum does not fit"),
+        (lambda content: content[:8] + b"\x63" + content[9:], "PadMapTable: version must be 1, got 99"),
     ],
 )
 def test_damaged_bytes_are_refused(made, damage, message):
@@ -56,7 +56,7 @@ def test_damaged_bytes_are_refused(made, damage, message):
     [
         ({"coefficients": np.zeros((6, 5, 6))}, r"got shape \(6, 5, 6\)"),
         ({"coefficients": np.full((6, 6, 6), np.nan)}, "coefficients must be finite"),
-        ({"bounds": np.zeros((3, 5))}, r"bounds must have shape \(4, 5\)"),
+        ({"bounds": np.zeros((3, 4))}, r"bounds must have shape \(bands, 5\)"),
         ({"bounds": np.full((4, 5), -1.0)}, "not be negative"),
         ({"losses": np.zeros((3, 17, 12))}, r"losses must be finite, of shape \(3, 17, 72\)"),
         ({"extent": np.pi}, "extent below pi"),

@@ -21,7 +21,7 @@ from ....core.files import write_atomically
 from ....core.model import Array
 from ...films.law import film_flow, film_shear
 from ...films.map_fit import node_eccentricities, periodic_quintic_coefficients, quintic_coefficients
-from ...films.map_table import MapTable, stretch, unstretch
+from ...films.map_table import stretch, unstretch
 from .map_film import CROWDING, LossTable
 from .map_potential import Source, default_resolution, film_ends, potential
 
@@ -254,12 +254,10 @@ def fit_loss_table(
         M, center = quintic_coefficients(M, axis=1), quintic_coefficients(center, axis=1)
     reach = float(stretch(largest_eccentricity_ratio))
     return LossTable(
-        *(
-            MapTable(
-                slenderness_range=slenderness_range, reach=reach, log_center=center[k], coefficients=M[k]
-            )
-            for k in range(3)
-        )
+        slenderness_range=slenderness_range,
+        reach=reach,
+        log_center=center.T,
+        coefficients=M.swapaxes(0, 1),
     )
 
 

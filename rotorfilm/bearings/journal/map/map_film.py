@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Self, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -14,9 +14,9 @@ from ....core.errors import InputError, RotorfilmError, require_kind
 from ....core.inputs import quantities
 from ....core.model import Array
 from ....native import MapKernel
-from ....native.loss_kernels import LossKernel, MapLossKernel
+from ....native.loss_kernels import LossKernel
 from ...films.law import FilmLosses, KernelFilm, kernel_losses, require_film
-from ...films.map_table import MapTable, StoredTable
+from ...films.map_table import MapTable, StoredTable, require_shapes
 
 if TYPE_CHECKING:
     from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
@@ -73,7 +73,7 @@ class MapFilm(KernelFilm):
             "coefficients": table.coefficients,
             "center": table.log_center,
             "range": np.array(table.slenderness_range),
-            "reach": np.array([table.reach]),
+            "map": np.array([table.reach]),
         }
 
     def tabulated(self, slenderness: float) -> MapFilm:
@@ -126,7 +126,7 @@ def _table_for(slenderness: float) -> MapTable:
 
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
-    return MapKernel(*table.at(slenderness), slenderness)
+    return table.kernel(slenderness, (slenderness, 1.0))
 
 
 # Tables of single bearings that the packaged table leaves out: very short ones and long ones.
@@ -228,61 +228,38 @@ def bearing_table(slenderness: float) -> MapTable:
 LOSS_FILE = "journal_losses.bin"
 """The table of the package, in `data`."""
 
-QUANTUM = 1e-7
-"""Unit of the stored coefficients, far below the error of the nodes."""
-
 CROWDING = 0.6
 """Ratio of tan s and tan beta: crowds the nodes where the source is across, as the film turns there."""
 
 
-@dataclass(frozen=True, eq=False)
-class LossTable(StoredTable):
-    """Shear and flow of films over eccentricity, direction and slenderness.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LossTable(MapTable):
+    """Shear and flow of films over eccentricity, direction and slenderness, each as a map of its own.
 
     Parameters
     ----------
-    shear_film, shear, flow : MapTable
-        Of ln(s Sigma_f), ln(s (Sigma_f + Sigma_r)) and ln(flow/|w|), of equal sizes and ranges.
+    slenderness_range : (float, float) [1]
+        Smallest and largest length/diameter.
+    reach : float [1]
+        X of the last node; beyond it all are powers of X.
+    log_center : ndarray, shape (s, 3)
+        Of ln(g Sigma_f), ln(g (Sigma_f + Sigma_r)) and ln(flow/|w|).
+    coefficients : ndarray, shape (s, 3, cells_x + 5, cells_s + 5)
+        Spline coefficients of M over ln(L/D), of the three, over X and over s.
 
     Raises
     ------
     InputError
-        If the three are not alike.
+        If the sizes do not fit each other or an entry is not finite.
     """
 
-    shear_film: MapTable
-    shear: MapTable
-    flow: MapTable
+    def _require_shapes(self, count: int) -> None:
+        require_shapes(self, log_center=(count, 3), coefficients=(count, 3, None, None))
 
-    def __post_init__(self) -> None:
-        kinds = {(t.slenderness_range, t.reach, np.shape(t.coefficients)) for t in self.tables}
-        if len(kinds) > 1:
-            raise InputError(f"shear_film, shear and flow must have equal ranges and sizes, got {kinds!r}")
-
-    @property
-    def tables(self) -> tuple[MapTable, MapTable, MapTable]:
-        """The three tables."""
-        return self.shear_film, self.shear, self.flow
-
-    def holds(self, slenderness: float) -> bool:
-        """Return whether the table has a bearing of this length/diameter."""
-        return self.flow.holds(slenderness)
-
-    def at(self, slenderness: float) -> MapLossKernel:
+    def losses(self, slenderness: float) -> LossKernel:
         """Return the compiled losses of one bearing; InputError if the table does not hold it."""
-        maps = [table.at(slenderness) for table in self.tables]
-        coefficients, center = (np.array([m[k] for m in maps]) for k in (0, 2))
-        return MapLossKernel(coefficients, maps[0][1], center, CROWDING)
-
-    def to_bytes(self) -> bytes:
-        """Return the three tables as bytes, one after the other."""
-        return b"".join(table.to_bytes(QUANTUM) for table in self.tables)
-
-    @classmethod
-    def from_bytes(cls, content: bytes) -> Self:
-        """Return the table that `to_bytes` wrote; RotorfilmError where the content is damaged."""
-        size = len(content) // 3
-        return cls(*(MapTable.from_bytes(content[k * size : (k + 1) * size]) for k in range(3)))
+        own, center = self.at(slenderness)
+        return LossKernel({"loss_coefficients": own, "loss_map": [self.reach, CROWDING, *center]})
 
 
 @lru_cache(maxsize=1)
@@ -292,7 +269,7 @@ def packaged_losses() -> LossTable:
 
 
 @lru_cache(maxsize=64)
-def packaged_kernel(slenderness: float) -> MapLossKernel | None:
+def packaged_kernel(slenderness: float) -> LossKernel | None:
     """Return the losses of one plain bearing; None where the table of the package does not hold it."""
     table = packaged_losses()
-    return table.at(slenderness) if table.holds(slenderness) else None
+    return table.losses(slenderness) if table.holds(slenderness) else None
