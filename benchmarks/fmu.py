@@ -26,7 +26,7 @@ from fmpy.fmi3 import FMU3Slave
 
 import rotorfilm.native
 from rotorfilm import Cooling, Groove, JournalBearing, MapFilm, Oil, ShortFilm, export_fmu
-from rotorfilm.bearings.journal.map.map_film import packaged_table
+from rotorfilm.bearings.journal.map_film import packaged_table
 
 HERE = Path(__file__).parent
 NATIVE = Path(rotorfilm.native.__file__).parent

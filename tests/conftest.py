@@ -9,7 +9,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 
-from rotorfilm.bearings.journal.map import map_film as own_tables
+from rotorfilm.bearings.journal import map_film as own_tables
 from rotorfilm.cli import main as cli
 
 PROPORTIONAL = '''

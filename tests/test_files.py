@@ -11,7 +11,7 @@ import sys
 import pytest
 
 from rotorfilm import InputError, Measurements, RigidRotor, TabulatedBearing, read_ross
-from rotorfilm.bearings.journal.map.map_film import packaged_table
+from rotorfilm.bearings.journal.map_film import packaged_table
 from rotorfilm.charts import new_axes, save
 from rotorfilm.core import write_csv
 from rotorfilm.core.files import (

@@ -15,7 +15,7 @@ def deprecated(module):
     warnings.warn_explicit("this will go", DeprecationWarning, "file.py", 1, module=module)
 
 
-MODULES = ["rotorfilm.bearings.journal.map.map_film", __name__, "scene_battery", "fmu_recipe_bush"]
+MODULES = ["rotorfilm.bearings.journal.map_film", __name__, "scene_battery", "fmu_recipe_bush"]
 
 
 @pytest.mark.parametrize("module", MODULES)

@@ -1,6 +1,6 @@
 """Make the table of shear and flow beside that of the impedance map, in some minutes.
 
-python tools/build_losses.py [--workers 2] [--out rotorfilm/bearings/journal/map/data/journal_losses.bin]
+python tools/build_losses.py [--workers 2] [--out rotorfilm/bearings/journal/data/journal_losses.bin]
 """
 
 from __future__ import annotations
@@ -12,17 +12,17 @@ import os
 from pathlib import Path
 
 import numpy as np
-from rich.progress import track
-
-from rotorfilm.bearings.journal.map.map_build import (
+from map_nodes import (
     fit_loss_table,
     loss_node_eccentricities,
     loss_node_turns,
     node_losses,
 )
-from rotorfilm.bearings.journal.map.map_film import LOSS_FILE as TABLE
+from rich.progress import track
 
-OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "map" / "data" / TABLE
+from rotorfilm.bearings.journal.map_film import LOSS_FILE as TABLE
+
+OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "data" / TABLE
 QUANTUM = 1e-7
 """Unit of the stored coefficients, far below the error of the nodes."""
 

@@ -15,9 +15,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from rich.progress import track
-
-from rotorfilm.bearings.journal.map.map_build import (
+from map_nodes import (
     FIELDS,
     TableAxes,
     load_table,
@@ -25,6 +23,7 @@ from rotorfilm.bearings.journal.map.map_build import (
     table_row,
     universal_axes,
 )
+from rich.progress import track
 
 ROWS_PER_SAVE = 10
 """Rows computed between two saves, half a minute of work."""

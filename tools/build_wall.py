@@ -19,9 +19,9 @@ import multiprocessing
 from pathlib import Path
 
 import numpy as np
+from map_nodes import GridEnergy, complementary_pressure
 
 from rotorfilm.bearings.films.map_fit import quintic_coefficients
-from rotorfilm.bearings.journal.map.map_build import GridEnergy, complementary_pressure
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "films" / "wall_table.c"
 CELLS_Q, CELLS_L, END_Q = 24, 16, 9.6

@@ -13,9 +13,8 @@ import os
 import sys
 
 import numpy as np
-
-from rotorfilm.bearings.journal.map.map_build import grid_potential
-from rotorfilm.bearings.journal.map.map_potential import (
+from map_nodes import grid_potential
+from map_potential import (
     Source,
     default_resolution,
     directed_potential,

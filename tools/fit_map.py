@@ -1,6 +1,6 @@
 """Fit the universal table of the impedance map to its nodal potentials and write the package data.
 
-    python tools/fit_map.py [--nodes tools/map_nodes.npz] [--out rotorfilm/films/data/journal_map.bin]
+    python tools/fit_map.py [--nodes NODES.npz] [--out rotorfilm/bearings/journal/data/journal_map.bin]
 
 `tools/build_map.py` computes the nodes (minutes); this takes a second.
 """
@@ -50,7 +50,9 @@ def main() -> None:
     """Fit and write."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--nodes", type=Path, default=ROOT / "tools" / "map_nodes.npz")
-    parser.add_argument("--out", type=Path, default=ROOT / "rotorfilm" / "films" / "data" / "journal_map.bin")
+    parser.add_argument(
+        "--out", type=Path, default=ROOT / "rotorfilm" / "bearings" / "journal" / "data" / "journal_map.bin"
+    )
     arguments = parser.parse_args()
     table = fitted(arguments.nodes)
     table.save(arguments.out, QUANTUM)

@@ -10,7 +10,7 @@ from rotorfilm.fmu.python.python_backend import bundle_source
 
 ASK = """
 from {package}.bearings.films.map_fit import tabulate_film
-from {package}.bearings.journal.map.map_film import MapFilm
+from {package}.bearings.journal.map_film import MapFilm
 from {package}.bearings.journal.reynolds_film import ShortFilm
 import numpy as np
 film = MapFilm(tabulate_film(ShortFilm(), slenderness_range=(0.5, 0.5), cells=(6, 6, 0)))
@@ -19,7 +19,7 @@ print(film.force(np.array([0.1, 0.0]), np.array([0.0, 1.0]), 0.5)[1] < 0.0)
 
 
 def test_map_film_travels_with_its_library(tmp_path):
-    bundle = bundle_source({"rotorfilm.bearings.journal.map.map_film"})
+    bundle = bundle_source({"rotorfilm.bearings.journal.map_film"})
     for name, content in bundle.files.items():
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -35,7 +35,7 @@ def test_map_film_travels_with_its_library(tmp_path):
     assert ran.stdout.strip() == "True", ran.stderr
 
 
-@pytest.mark.parametrize("name", ["map.map_film", "grooved_film"])
+@pytest.mark.parametrize("name", ["map_film", "grooved_film"])
 def test_every_film_of_the_library_travels_with_it(name):
     carried = {Path(file).name for file in bundle_source({f"rotorfilm.bearings.journal.{name}"}).files}
     assert "journal_map.bin" in carried
@@ -57,7 +57,7 @@ def test_fmus_of_other_models_share_no_modules():
     bearing = "rotorfilm.bearings.journal"
     short, mapped = (
         bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"})
-        for film in ("reynolds_film", "map.map_film")
+        for film in ("reynolds_film", "map_film")
     )
     assert set(short.modules) == set(mapped.modules)
     assert short.modules["rotorfilm"] != mapped.modules["rotorfilm"]

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from map_potential import potential
 
 from rotorfilm import EquilibriumError, InputError, Pad, ReynoldsFilm, ValidityWarning, as_reaction
 from rotorfilm.analysis import coefficient_table, coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
-from rotorfilm.bearings.journal.map.map_potential import potential
 from rotorfilm.bearings.oil import Cooling, Oil
 
 pytestmark = pytest.mark.filterwarnings("ignore:load .* makes a mean pressure")

@@ -24,7 +24,7 @@ LARGEST = {
     "rotorfilm_heat": 88_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_oil": 130_000,
-    "rotorfilm_loops": 292_000,
+    "rotorfilm_loops": 310_000,
     "rotorfilm_master": 280_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import scene_battery
 from families import FAMILIES
+from map_potential import potential
 
 from rotorfilm import InputError, SceneError, TabulatedBearing
 from rotorfilm.analysis import (
@@ -31,7 +32,6 @@ from rotorfilm.analysis.speed_events import (
     whirl_of,
 )
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.bearings.journal.map.map_potential import potential
 from rotorfilm.core import AbsentError
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.shaft_films import REST_BOUNDS, coefficient_bounds, field_rests, film_levels

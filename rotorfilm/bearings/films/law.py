@@ -686,37 +686,3 @@ def squared_integral(chi: Array | float, angle: Array | float) -> Array:
     """Return the integral of 1/(1 + chi cos t)^2 from 0 to an angle of any size."""
     edge = chi * np.sin(angle) / (1.0 + chi * np.cos(angle))
     return np.asarray((gap_integral(chi, angle) - edge) / ((1.0 - chi) * (1.0 + chi)))
-
-
-def film_shear(chi: float, ends: Array, weight: Array) -> tuple[float, float]:
-    """Return Sigma of a film between two ends, and of the streamers behind the second one.
-
-    Parameters
-    ----------
-    chi : float [1]
-        Eccentricity ratio.
-    ends : ndarray, shape (2, Q) [rad]
-        Where the film begins and ends, from the line of maximum film in the direction in which the oil runs.
-    weight : ndarray, shape (Q,)
-        Axial weights.
-    """
-    first, last = ends
-    film = gap_integral(chi, last) - gap_integral(chi, first)
-    back = first + 2.0 * np.pi
-    # Only where the thickness is again that of the end do streamers fill the gap, or no longer.
-    image = -last + 2.0 * np.pi * np.ceil((2.0 * last) / (2.0 * np.pi))
-    image = np.clip(image, last, back)
-    thickness = 1.0 + chi * np.cos(last)
-    shares = np.zeros_like(last)
-    for start, end in ((last, image), (image, back)):
-        full = 1.0 + chi * np.cos(0.5 * (start + end)) <= thickness
-        streamer = thickness * (squared_integral(chi, end) - squared_integral(chi, start))
-        shares = shares + np.where(full, gap_integral(chi, end) - gap_integral(chi, start), streamer)
-    return float(weight @ film), float(weight @ shares)
-
-
-def film_flow(sine: float, cosine: float, ends: Array, weight: Array) -> float:
-    """Return what a film between two ends gives off: minus the integral of sine sin t + cosine cos t."""
-    first, last = ends
-    gained = sine * (np.cos(last) - np.cos(first)) - cosine * (np.sin(last) - np.sin(first))
-    return float(weight @ gained)

@@ -22,7 +22,7 @@ from ...core.errors import (
     require_positive,
 )
 from ...core.model import Array
-from ...core.port import StepTrial, Tangent
+from ...core.port import StepTrial, Tangent, freedoms_of
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native.film_kernels import Status
 from ...native.library import loops
@@ -57,7 +57,8 @@ Complex = NDArray[np.complex128]
 class FilmInMotion:
     """A steady film about which the journal moves a little, called for K(s) and dK/ds at one s.
 
-    dF = -K de for de e^(s t). K has a row and a column for each freedom of the film, as its force.
+    dF = -K de for de e^(s t). K has a row and a column for each freedom of the film, as its force, or in the
+    axes that are given.
 
     Parameters
     ----------
@@ -65,11 +66,14 @@ class FilmInMotion:
     state : ConservedState
     scale : float
         Unit of the stiffness; with 1 it is without dimensions [1/s].
+    axes : ndarray, shape (n, freedoms), optional
+        What makes forces of those of the film; its transpose makes its places.
     """
 
     film: ConservedFilm
     state: ConservedState
     scale: float = 1.0
+    axes: Array | None = None
 
     def __call__(self, s: complex) -> tuple[Complex, Complex]:
         """Return K(s) and dK/ds; the storage of the cavity as in `stiffness`.
@@ -102,7 +106,7 @@ class FilmInMotion:
 
         They belong to motions slow against the time that oil takes to cross the cavity.
         """
-        (moved, held), count = self._slopes, self.film.freedoms
+        (moved, held), count = self._slopes, len(self._slopes[0])
         dragged = self._dragged(self.state.solution.theta)[None]
         found = self._found(0.0, np.concatenate([moved, dragged]), 1.0, np.concatenate([held, 0.0 * dragged]))
         return found[:, :count], found[:, count + 1 : -1], -found[:, count] / self.scale
@@ -142,7 +146,10 @@ class FilmInMotion:
             address(theta),
         )
         report_search(loops()["rf_oil_slopes"](*given, count, address(slopes[0]), address(slopes[1])))
-        return slopes[0], slopes[1]
+        moved, held = (
+            slopes if self.axes is None else np.tensordot(slopes, self.axes, (1, 1)).transpose(0, 3, 1, 2)
+        )
+        return moved, held
 
     def _found(self, rate: Any, first: Any, by_s: Any = None, second: Any = None) -> Any:
         """Return what the changes of the outflow `first`, and then `second`, make of the force, negative.
@@ -159,7 +166,8 @@ class FilmInMotion:
     def _force(self, change: Complex | Array) -> Any:
         """Return 12 integral of n dP for the changes (K, N, M), shape (freedoms, K)."""
         pressure = np.where(self.state.solution.full, change, 0.0)
-        return 12.0 * np.tensordot(self.film.weights, pressure, ((1, 2), (1, 2)))
+        changes = 12.0 * np.tensordot(self.film.weights, pressure, ((1, 2), (1, 2)))
+        return changes if self.axes is None else self.axes @ changes
 
     def _wave(self, s: complex) -> tuple[Complex, Complex]:
         """Return what stands for s in the storage of the cavity, shape (N, M), and its derivative by s."""
@@ -258,9 +266,9 @@ class ScaledFilm:
         """Return pressures of the film as gauge pressures [Pa]."""
         return self.pressure * np.maximum(pressure, 0.0) + self.cavitation_pressure
 
-    def about(self, state: ConservedState) -> FilmInMotion:
-        """Return K(s) of a film in N/m."""
-        return FilmInMotion(self.film, state, self.force / self.clearance)
+    def about(self, state: ConservedState, axes: Array | None = None) -> FilmInMotion:
+        """Return K(s) of a film in N/m, in the axes that are given."""
+        return FilmInMotion(self.film, state, self.force / self.clearance, axes)
 
     def fields(self, state: ConservedState) -> dict[str, Any]:
         """Return what the states of journal films and dampers have in common, by their names."""
@@ -346,7 +354,83 @@ def _film_in_c(scaled: ScaledFilm) -> Any:
     return in_c("rf_oil_film_si", shape_of(scaled.film), *units, LARGEST_ANGLE, LARGEST_WAY)
 
 
-class MassConserving:
+class ConservedAtRest:
+    """The force of a film that conserves its oil under a journal at rest, or on an orbit it is used to."""
+
+    @property
+    def scaled(self) -> ScaledFilm:
+        """The film without dimensions, its units, and what is beside it."""
+        raise NotImplementedError
+
+    def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
+        """Return a film that has a force without its past, the axes in which it stands, and their speed."""
+        raise NotImplementedError
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force of film and springs, shape (2, ...) [N]; (4, ...) with moments [N m] of tilts.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Or (4, ...) with the tilts [rad].
+        velocity : array_like, shape (2, ...) [m/s]
+            Of a journal 0; of a damper across the position, or 0.
+        speed : array_like, shape (...) [rad/s]
+            Of the shaft; without effect on a damper.
+
+        Raises
+        ------
+        InputError
+            If an argument breaks its rule, or the motion is one whose force would need its past.
+        FilmContactError
+            If the journal touches the wall.
+        ConvergenceError
+            If the search for the cavity does not end.
+        """
+        q, columns = self._columns(position, velocity, speed)
+        found = [self._force(*self.at_place(*column)[:2]) for column in columns]
+        return np.array(found).T.reshape(q.shape) - self.scaled.springs * q
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return d force / d (places, rates, speed), shape (n, 2 n + 1, ...), in slow motion.
+
+        Slow against the time that oil takes to cross the cavity; about an orbit of a damper against a turn,
+        in axes that turn with it.
+
+        Raises
+        ------
+        InputError, FilmContactError, ConvergenceError
+            As `force`.
+        """
+        q, columns = self._columns(position, velocity, speed)
+        found = np.array([self._jacobian(*self.at_place(*column)) for column in columns])
+        return np.moveaxis(found, 0, -1).reshape(len(q), 2 * len(q) + 1, *q.shape[1:])
+
+    def _columns(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Any]:
+        """Return places (n, ...), and places, rates and speed of one state after the other."""
+        n = len(freedoms_of(self))
+        q, v, omega = broadcast_state(position, velocity, speed, n)
+        return q, zip(q.reshape(n, -1).T, v.reshape(n, -1).T, omega.ravel(), strict=True)
+
+    def _force(self, state: ConservedState, axes: Array) -> Array:
+        return self.scaled.force * (axes @ self.scaled.film.force(state))
+
+    def _jacobian(self, state: ConservedState, axes: Array, turning: float) -> Array:
+        """Return the slopes (n, 2 n + 1) of F = F_0 - K r - C r', r in turning axes, in axes at rest."""
+        scaled, (K, C, by_speed) = self.scaled, self.scaled.about(state).slow()
+        turned = turning * C @ TURNED if turning else 0.0
+        by_position = axes @ (turned - K) @ axes.T - scaled.springs * np.eye(len(axes))
+        by_speed = 2.0 * scaled.carrying * scaled.force * (axes @ by_speed)
+        return np.column_stack([by_position, -axes @ C @ axes.T, by_speed])
+
+    def _stiffness(self, state: ConservedState, s: complex) -> Complex:
+        """Return K(s) about a film; InputError unless s is a finite number."""
+        if not isinstance(s, Number) or not np.isfinite(s):
+            raise InputError(f"s must be a finite number, got {s!r}")
+        return self.scaled.about(state).stiffness(complex(s))
+
+
+class MassConserving(ConservedAtRest):
     """What journal films and dampers share that conserve their oil; `scaled` says by what they differ.
 
     A film is a Stepped model: the input u is the motion of the journal at the end of a step. On the way there
@@ -362,59 +446,9 @@ class MassConserving:
     cells: tuple[int, int]
 
     @property
-    def scaled(self) -> ScaledFilm:
-        """The film without dimensions, its units, and what is beside it."""
-        raise NotImplementedError
-
-    @property
     def film(self) -> ConservedFilm:
         """The film without dimensions; see `ConservedFilm`."""
         return self.scaled.film
-
-    def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
-        """Return a film that has a force without its past, the axes in which it stands, and their speed."""
-        raise NotImplementedError
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force of film and springs, shape (2, ...) [N].
-
-        Parameters
-        ----------
-        position : array_like, shape (2, ...) [m]
-        velocity : array_like, shape (2, ...) [m/s]
-            Of a journal 0; of a damper across the position, or 0.
-        speed : array_like, shape (...) [rad/s]
-            Of the shaft; without effect on a damper.
-
-        Raises
-        ------
-        InputError
-            If an argument breaks its rule, or the motion is one whose force would need its past.
-        FilmContactError
-            If the journal touches the wall.
-        ConvergenceError
-            If the search for the cavity does not end.
-        """
-        q, v, omega = broadcast_state(position, velocity, speed)
-        columns = zip(q.reshape(2, -1).T, v.reshape(2, -1).T, omega.ravel(), strict=True)
-        found = [self._force(*self.at_place(*column)[:2]) for column in columns]
-        return np.array(found).T.reshape(q.shape) - self.scaled.springs * q
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...), in slow motion.
-
-        Slow against the time that oil takes to cross the cavity; about an orbit of a damper against a turn,
-        in axes that turn with it.
-
-        Raises
-        ------
-        InputError, FilmContactError, ConvergenceError
-            As `force`.
-        """
-        q, v, omega = broadcast_state(position, velocity, speed)
-        columns = zip(q.reshape(2, -1).T, v.reshape(2, -1).T, omega.ravel(), strict=True)
-        found = np.array([self._jacobian(*self.at_place(*column)) for column in columns])
-        return np.moveaxis(found, 0, -1).reshape(2, 5, *q.shape[1:])
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers."""
@@ -428,22 +462,6 @@ class MassConserving:
             return force_x, force_y, self._jacobian(state, axes, turning).ravel().tolist()
 
         return tangent
-
-    def _force(self, state: ConservedState, axes: Array) -> Array:
-        return self.scaled.force * (axes @ self.film.force(state))
-
-    def _jacobian(self, state: ConservedState, axes: Array, turning: float) -> Array:
-        """Return the slopes (2, 5) of F = F_0 - K r - C r', r in turning axes, by motion in axes at rest."""
-        scaled, (K, C, by_speed) = self.scaled, self.scaled.about(state).slow()
-        by_position = axes @ (turning * C @ TURNED - K) @ axes.T - scaled.springs * np.eye(2)
-        by_speed = 2.0 * scaled.carrying * scaled.force * by_speed
-        return np.column_stack([by_position, -axes @ C @ axes.T, by_speed])
-
-    def _stiffness(self, state: ConservedState, s: complex) -> Complex:
-        """Return K(s) about a film; InputError unless s is a finite number."""
-        if not isinstance(s, Number) or not np.isfinite(s):
-            raise InputError(f"s must be a finite number, got {s!r}")
-        return self.scaled.about(state).stiffness(complex(s))
 
     def native(self) -> NativeSpec:
         """Return its kernel in the C library, which steps as this model does."""

@@ -42,11 +42,12 @@ if TYPE_CHECKING:
         RUPTURE_CELLS,
         JFOFilm as JFOFilm,
         JFOState as JFOState,
+        MomentCarryingJFOFilm as MomentCarryingJFOFilm,
         RuptureError as RuptureError,
         both_films,
         rupture_error as rupture_error,
     )
-    from .map.map_film import MapFilm as MapFilm, bearing_table
+    from .map_film import MapFilm as MapFilm, bearing_table
     from .moment_carrying_journal import MomentCarryingJournal as MomentCarryingJournal
     from .reynolds_film import (
         ExtrapolatedFilm as ExtrapolatedFilm,

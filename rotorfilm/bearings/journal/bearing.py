@@ -41,7 +41,7 @@ from ..oil.heated_bearing import (
 )
 from ..oil.oil import viscosity_table
 from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_no_overflow, require_size
-from .map.map_film import MapFilm
+from .map_film import MapFilm
 
 CHOSEN = "_chosen"
 """Mark of a film that a bearing chose because none was given."""

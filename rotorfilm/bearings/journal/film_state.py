@@ -18,7 +18,7 @@ from ..films.finite_volumes import FilmField
 from ..films.law import FilmLaw, polar_frame
 from .bearing import JournalBearing
 from .grooved_film import GroovedMapFilm
-from .map.map_film import MapFilm
+from .map_film import MapFilm
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm, ShortFilm
 from .rupture import Rupture, attitude_of, whitened_functions
 from .splitting_film import SpectralArcFilm, SplittingFilm

@@ -23,7 +23,7 @@ from ..films.law import FilmLosses, KernelFilm, kernel_losses, require_film, sta
 from ..films.map_table import cached_table, table_path, told
 from . import groove_map as groove_build
 from .groove_map import GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
-from .map.map_film import MapFilm
+from .map_film import MapFilm
 
 SAME = 2e-9
 """Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""

@@ -23,12 +23,15 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Drawable, Readable
 from ...core.results import BearingLosses, ReducedCoefficients
+from ...core.signals import Signal, journal_inputs
 from ..films.mass_conserving import FILM, ConservedFilm, ConservedState, Supply, conserved_cells, warn_of_air
-from ..films.mass_conserving_steps import FilmInMotion, MassConserving, ScaledFilm
+from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassConserving, ScaledFilm
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
+from ..reaction import NOMINAL_SPEED
 from .bearing import JournalBearing, StaticFilm, fitted_bearing
+from .moment_carrying_journal import TiltedJournal
 from .reynolds_film import ReynoldsFilm
 
 # What a film that conserves its oil takes from the shaft, and its flows at openings.
@@ -158,10 +161,15 @@ class JFOFilm(MassConserving):
     @cached_property
     def scaled(self) -> ScaledFilm:
         """The film without dimensions, its units, and what is beside it; see `ScaledFilm`."""
+        return self.over()
+
+    def over(self, *, whole: bool = False) -> ScaledFilm:
+        """Return the film over half the length, or over the whole of it, as for a journal that tilts."""
         bearing = self.bearing
         bearing.require_temperature()
         supply = oil_supply(bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
-        film = ConservedFilm(conserved_cells(bearing.geometry, *self.cells), bearing.slenderness, supply)
+        cells = conserved_cells(bearing.geometry, *self.cells, whole=whole)
+        film = ConservedFilm(cells, bearing.slenderness, supply)
         # Openings that end in the bearing are at the supply.
         supplied = np.array([span.share < 1.0 for span in bearing.geometry.openings()], dtype=bool)
         pressed = self.supply_flow is None and (supplied.any() or bearing.geometry.circumferential)
@@ -238,8 +246,7 @@ class JFOFilm(MassConserving):
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return the film of a journal at rest, in axes at rest; InputError unless the velocity is 0."""
-        if np.any(velocity):
-            raise InputError(f"velocity must be (0, 0) for a film that remembers, got {velocity!r}")
+        require_at_rest(velocity)
         require_inside(position, self.clearance)
         film = self.film
         return film.solve(film.gap(position / self.clearance), 0.5 * speed), AT_REST, 0.0
@@ -338,6 +345,87 @@ class JFOFilm(MassConserving):
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_pair("position", position), require_number("speed", speed)
         return q, self.at_place(q, np.zeros(2), omega)[0]
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
+    """The film of a `JFOFilm` under a journal that tilts: a reaction to x, y, tilt_x and tilt_y.
+
+    Gap, tilts and moments are those of `MomentCarryingJournal`. The film goes over the whole length, with
+    about twice the cells. As that of a `JFOFilm` its force is that of a journal at rest, and stiffness and
+    damping depend on the frequency.
+
+    Parameters
+    ----------
+    film : JFOFilm
+        Of a bearing without a circumferential groove, with its temperature stated.
+
+    Raises
+    ------
+    InputError
+        If the film is of another kind.
+
+    Examples
+    --------
+    >>> from rotorfilm import Groove
+    >>> top = Groove(center="90 deg", width="20 deg", length="40 mm")
+    >>> size = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
+    >>> bearing = JournalBearing(**size, grooves=(top,), supply_pressure=2e5)
+    >>> tilted = MomentCarryingJFOFilm(film=JFOFilm(bearing=bearing, cells=(72, 6)))
+    >>> tilted.force([3e-5, -5e-5, 1e-4, 0.0], [0.0, 0.0, 0.0, 0.0], 314.0).shape
+    (4,)
+    """
+
+    film: JFOFilm
+
+    def __post_init__(self) -> None:
+        require_kind("film", self.film, JFOFilm, "a JFOFilm")
+        if self.bearing.geometry.circumferential:
+            raise InputError(
+                f"film must be of a bearing without a circumferential groove, got {self.bearing!r}"
+            )
+
+    @property
+    def bearing(self) -> JournalBearing:
+        """The bearing of the film."""
+        return self.film.bearing
+
+    @cached_property
+    def scaled(self) -> ScaledFilm:
+        """The film over the whole length; see `ScaledFilm`."""
+        return self.film.over(whole=True)
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals of places and tilts, of their rates, and the speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED, self.freedoms, self.arm)
+
+    def least(self, place: Array) -> float:
+        """Return the least film over the clearance at one place (e, tau)."""
+        return float(self.scaled.film.gap(place).side.min())
+
+    def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
+        """Return the film of a journal at rest, and what makes forces and moments of its own."""
+        require_at_rest(velocity)
+        self.require_film(position)
+        film, scales = self.scaled.film, self._scales
+        return film.solve(film.gap(scales @ position), 0.5 * speed), self.clearance * scales.T, 0.0
+
+    def dynamic_stiffness(self, position: ArrayLike, speed: float) -> FilmInMotion:
+        """Return K(s) and dK/ds about a journal at rest, (4, 4), as a function of s; see `core.port`."""
+        state, axes, _ = self.at_place(np.asarray(position, dtype=float), np.zeros(4), speed)
+        return self.scaled.about(state, axes)
+
+    def at_rest(self) -> MomentCarryingJFOFilm:
+        """Return this film: it has a force for a journal at rest only."""
+        return self
+
+
+def require_at_rest(velocity: Array) -> None:
+    """Raise InputError unless the rates of a journal are 0."""
+    if np.any(velocity):
+        raise InputError(f"velocity must be 0 for a film that remembers, got {velocity!r}")
 
 
 # What a film that conserves its oil says at one place of the journal, in SI units.

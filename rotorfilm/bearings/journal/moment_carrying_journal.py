@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,9 +26,59 @@ _START, _LEAD = 0.5, math.pi / 3.0
 """Eccentricity ratio, and angle ahead of the load, at which a search for the rest may begin."""
 
 
+class TiltedJournal:
+    """What the tilted journal of a `bearing` has whatever its film: places, contact, units."""
+
+    bearing: Any
+
+    freedoms: ClassVar[tuple[str, ...]] = ("x", "y", "tilt_x", "tilt_y")
+    """Motions of the shaft that it reacts to."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        clearance: float = self.bearing.clearance
+        return clearance
+
+    def least(self, place: Array) -> float:
+        """Return the least film over the clearance at one place (e, tau)."""
+        raise NotImplementedError
+
+    @property
+    def arm(self) -> float:
+        """Half the length [m]."""
+        return 0.5 * self.bearing.film_length
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film over the whole length [m], shape (...), at places (4, ...) [m], [rad]."""
+        places = np.tensordot(self._scales, np.asarray(position, dtype=float), 1)
+        found = np.apply_along_axis(self.least, 0, places)
+        return np.asarray(self.clearance * found)
+
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError unless the journal, at places (4, ...), touches nowhere along its length."""
+        if not np.all(self.minimum_film(position) > 0.0):
+            raise FilmContactError(
+                "position must leave a film over the whole length, got a least film of "
+                f"{float(np.min(self.minimum_film(position))):.6g} m"
+            )
+
+    def rest_place(self, load: Sequence[float], speed: float) -> Array:
+        """Return where a search for the rest under a load may begin, shape (4,): aligned, half-way out."""
+        angle = math.atan2(load[1], load[0]) + math.copysign(_LEAD, speed)
+        return _START * self.clearance * np.array([math.cos(angle), math.sin(angle), 0.0, 0.0])
+
+    @cached_property
+    def _scales(self) -> Array:
+        """What makes (e, tau) of a place, shape (4, 4): its transpose makes forces of the film's."""
+        scales = np.diag([1.0, 1.0, 0.0, 0.0])
+        scales[2, 3], scales[3, 2] = self.arm, -self.arm
+        return scales / self.clearance
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class MomentCarryingJournal(StaticReaction):
+class MomentCarryingJournal(TiltedJournal, StaticReaction):
     """A journal bearing that feels the tilt of its shaft: a Reaction to x, y, tilt_x and tilt_y.
 
     The film is the two-dimensional one of the bearing, solved over the whole length: with e = (x, y)/c and
@@ -64,9 +114,6 @@ class MomentCarryingJournal(StaticReaction):
 
     bearing: JournalBearing
 
-    freedoms: ClassVar[tuple[str, ...]] = ("x", "y", "tilt_x", "tilt_y")
-    """Motions of the shaft that it reacts to."""
-
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing")
         film = self.bearing.fitted_film
@@ -79,19 +126,9 @@ class MomentCarryingJournal(StaticReaction):
             )
 
     @property
-    def clearance(self) -> float:
-        """Radial clearance [m]."""
-        return self.bearing.clearance
-
-    @property
     def nominal_force(self) -> float:
         """Typical force [N], that of the bearing."""
         return self.bearing.nominal_force
-
-    @property
-    def arm(self) -> float:
-        """Half the length [m]."""
-        return 0.5 * self.bearing.film_length
 
     @cached_property
     def kernel(self) -> RingKernel:
@@ -104,19 +141,9 @@ class MomentCarryingJournal(StaticReaction):
         whole = tuple(over_whole_length(grid) for grid in grids)
         return RingKernel(slenderness, spans, whole, plain.cavitation, extrapolated, mobility=plain.mobility)
 
-    def minimum_film(self, position: ArrayLike) -> Array:
-        """Return the least film over the whole length [m], shape (...), at places (4, ...) [m], [rad]."""
-        places = np.tensordot(self._scales, np.asarray(position, dtype=float), 1)
-        found = np.apply_along_axis(self.kernel.least, 0, places)
-        return np.asarray(self.clearance * found)
-
-    def require_film(self, position: Array) -> None:
-        """Raise FilmContactError unless the journal, at places (4, ...), touches nowhere along its length."""
-        if not np.all(self.minimum_film(position) > 0.0):
-            raise FilmContactError(
-                "position must leave a film over the whole length, got a least film of "
-                f"{float(np.min(self.minimum_film(position))):.6g} m"
-            )
+    def least(self, place: Array) -> float:
+        """Return the least film over the clearance at one place (e, tau)."""
+        return self.kernel.least(place)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
@@ -125,18 +152,6 @@ class MomentCarryingJournal(StaticReaction):
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape."""
         return self._each(position, velocity, speed, differentiated=True)[:, 1:]
-
-    def rest_place(self, load: Sequence[float], speed: float) -> Array:
-        """Return where a search for the rest under a load may begin, shape (4,): aligned, half-way out."""
-        angle = math.atan2(load[1], load[0]) + math.copysign(_LEAD, speed)
-        return _START * self.clearance * np.array([math.cos(angle), math.sin(angle), 0.0, 0.0])
-
-    @cached_property
-    def _scales(self) -> Array:
-        """What makes (e, tau) of a place, shape (4, 4): its transpose makes forces of the film's."""
-        scales = np.diag([1.0, 1.0, 0.0, 0.0])
-        scales[2, 3], scales[3, 2] = self.arm, -self.arm
-        return scales / self.clearance
 
     def _each(self, position: Array, velocity: Array, speed: Array, *, differentiated: bool) -> Array:
         """Return force and derivatives of each state side by side, shape (4, 10, ...)."""

@@ -36,7 +36,7 @@ LIBRARY = {
 }
 """What a module imports that calls the compiled library."""
 
-COMPANIONS = ("bearings/journal/map/data/*", "native/**/*.h")
+COMPANIONS = ("bearings/journal/data/*", "native/**/*.h")
 """Files, below the package, that such a module reads at run time, beside the library.
 
 They go along where the model, or a user's module, names such a module, not wherever the import closure holds

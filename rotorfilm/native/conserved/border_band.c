@@ -175,12 +175,6 @@ static int factorize_real(const rf_border_band *band)
 }
 
 RF_CLONES_OF_OIL
-static int factorize_complex(const rf_border_band *band)
-{
-    return factorize_rows(band) == RF_OK ? factorize_corner(band) : RF_STUCK;
-}
-
-RF_CLONES_OF_OIL
 static void finish_real(const rf_border_band *band, double *x)
 {
     const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
@@ -188,18 +182,10 @@ static void finish_real(const rf_border_band *band, double *x)
 }
 
 RF_CLONES_OF_OIL
-static void solve_real(const rf_border_band *band, double *x)
+static void begin_real(const rf_border_band *band, double *x)
 {
     const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
     forward(&real, x, NULL);
-    backward(&real, x, NULL);
-}
-
-RF_CLONES_OF_OIL
-static void solve_complex(const rf_border_band *band, double *real, double *imaginary)
-{
-    forward(band, real, imaginary);
-    backward(band, real, imaginary);
 }
 
 /* The right-hand side in the matrix. */
@@ -211,8 +197,6 @@ static double *right_of(const rf_border_band *band, size_t row)
 
 int rf_factorize_band(rf_border_band *band, double *right)
 {
-    if (band->imaginary_rows)
-        return factorize_complex(band);
     for (size_t p = 0; right && p < band->size + band->border; ++p)
         *right_of(band, p) = right[p];
     const int status = factorize_real(band);
@@ -224,10 +208,25 @@ int rf_factorize_band(rf_border_band *band, double *right)
     return RF_OK;
 }
 
-void rf_solve_band(const rf_border_band *band, double *real, double *imaginary)
+void rf_solve_band(const rf_border_band *band, double *x)
 {
-    if (imaginary)
-        solve_complex(band, real, imaginary);
-    else
-        solve_real(band, real);
+    begin_real(band, x);
+    finish_real(band, x);
+}
+
+RF_CLONES_OF_OIL
+static int factorize_complex(const rf_border_band *band)
+{
+    return factorize_rows(band) == RF_OK ? factorize_corner(band) : RF_STUCK;
+}
+
+int rf_factorize_complex_band(rf_border_band *band)
+{
+    return factorize_complex(band);
+}
+
+void rf_solve_complex_band(const rf_border_band *band, double *real, double *imaginary)
+{
+    forward(band, real, imaginary);
+    backward(band, real, imaginary);
 }

@@ -54,8 +54,10 @@ void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real
 /* Replace the matrix by its factors; RF_OK, or RF_STUCK where it is singular. A right-hand side of a real matrix, of
    size + border, unless NULL becomes the solution on the way. */
 int rf_factorize_band(rf_border_band *band, double *right);
+int rf_factorize_complex_band(rf_border_band *band);
 
-/* Replace a right-hand side, of size + border, by the solution; `imaginary` is NULL for a real matrix. */
-void rf_solve_band(const rf_border_band *band, double *real, double *imaginary);
+/* Replace a right-hand side, of size + border, by the solution. */
+void rf_solve_band(const rf_border_band *band, double *x);
+void rf_solve_complex_band(const rf_border_band *band, double *real, double *imaginary);
 
 #endif

@@ -254,12 +254,14 @@ int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *ful
 static void respond(rf_oil_solver *solver, double *real, double *imaginary)
 {
     gather(solver, real, solver->right);
-    if (imaginary)
+    if (imaginary) {
         gather(solver, imaginary, solver->imaginary);
-    rf_solve_band(&solver->band, solver->right, solver->imaginary);
-    spread(solver, solver->right, real);
-    if (imaginary)
+        rf_solve_complex_band(&solver->band, solver->right, solver->imaginary);
         spread(solver, solver->imaginary, imaginary);
+    } else {
+        rf_solve_band(&solver->band, solver->right);
+    }
+    spread(solver, solver->right, real);
 }
 
 /* y -= a x, number by number. */
@@ -285,7 +287,7 @@ int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double
     }
     if (status == RF_OK) {
         rf_set_oil_matrix(cells, &solver.places, solver.by_pressure, solver.by_theta, storage, imaginary, &solver.band);
-        status = rf_factorize_band(&solver.band, NULL);
+        status = imaginary ? rf_factorize_complex_band(&solver.band) : rf_factorize_band(&solver.band, NULL);
     }
     for (size_t k = 0; k < rows && status == RF_OK; ++k) {
         double *const now[2] = {right + k * all, imaginary ? right_imaginary + k * all : NULL};

@@ -16,7 +16,7 @@ from rotorfilm.bearings.films.finite_volumes import LONG, RingKernel, richardson
 from rotorfilm.bearings.films.map_fit import state_errors
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
 from rotorfilm.bearings.journal.groove_map import ORDER, Resolution, build_groove_table, symmetric_nodes
-from rotorfilm.bearings.journal.map.map_film import packaged_table
+from rotorfilm.bearings.journal.map_film import packaged_table
 
 COARSE = {"cells": (32, 4), "nodes": (6, 12, 12)}
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from map_nodes import fit_loss_table, node_losses
 from scipy.integrate import quad
 
 from rotorfilm import FilmContactError, FullFilm, Groove, InputError, Pad, RotorfilmError
@@ -18,8 +19,7 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
-from rotorfilm.bearings.journal.map.map_build import fit_loss_table, node_losses
-from rotorfilm.bearings.journal.map.map_film import LossTable, packaged_losses, packaged_table
+from rotorfilm.bearings.journal.map_film import LossTable, packaged_losses, packaged_table
 
 R, c, mu, omega = 0.05, 1e-4, 0.02, 100.0
 PLAIN = JournalBearing(radius=R, length=2.0 * R, clearance=c, viscosity=mu)

@@ -4,12 +4,18 @@ import logging
 
 import numpy as np
 import pytest
+from map_potential import potential
 
 from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings import tabulate_film
-from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm, bearing_table
-from rotorfilm.bearings.journal.map import map_film as own_tables
-from rotorfilm.bearings.journal.map.map_potential import potential
+from rotorfilm.bearings.journal import (
+    JournalBearing,
+    MapFilm,
+    ReynoldsFilm,
+    ShortFilm,
+    bearing_table,
+    map_film as own_tables,
+)
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 

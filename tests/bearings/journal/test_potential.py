@@ -4,18 +4,18 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-
-from rotorfilm import ConvergenceError, InputError
-from rotorfilm.bearings.journal import ShortFilm
-from rotorfilm.bearings.journal.map.map_build import grid_potential, richardson_potential
-from rotorfilm.bearings.journal.map.map_potential import (
+from map_nodes import grid_potential, richardson_potential
+from map_potential import (
     RitzResolution,
     Source,
     default_resolution,
     directed_potential,
     potential,
 )
+from scipy.integrate import quad
+
+from rotorfilm import ConvergenceError, InputError
+from rotorfilm.bearings.journal import ShortFilm
 
 STATES = [(0.3, 0.5), (0.8, 0.2), (0.95, 0.9)]
 

@@ -4,10 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from rotorfilm import InputError
-from rotorfilm.bearings.films.map_table import stretch, unstretch
-from rotorfilm.bearings.journal.map.map_build import (
+from map_nodes import (
     FIELDS,
     load_table,
     modulation,
@@ -15,7 +12,10 @@ from rotorfilm.bearings.journal.map.map_build import (
     table_row,
     universal_axes,
 )
-from rotorfilm.bearings.journal.map.map_potential import potential
+from map_potential import potential
+
+from rotorfilm import InputError
+from rotorfilm.bearings.films.map_table import stretch, unstretch
 
 NODES = Path(__file__).parents[3] / "tools" / "map_nodes.npz"
 

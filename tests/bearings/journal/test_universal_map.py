@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from map_potential import potential
 
 from rotorfilm.analysis import coefficients, critical_mass, equilibrium
 from rotorfilm.bearings.journal import (
@@ -13,7 +14,6 @@ from rotorfilm.bearings.journal import (
     ReynoldsFilm,
     SplittingFilm,
 )
-from rotorfilm.bearings.journal.map.map_potential import potential
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1, film=MapFilm())
 

@@ -13,17 +13,21 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from map_potential import Source, default_resolution, film_ends, potential
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-from ....core.errors import ConvergenceError, InputError
-from ....core.files import write_atomically
-from ....core.model import Array
-from ...films.law import film_flow, film_shear
-from ...films.map_fit import node_eccentricities, periodic_quintic_coefficients, quintic_coefficients
-from ...films.map_table import stretch, unstretch
-from .map_film import CROWDING, LossTable
-from .map_potential import Source, default_resolution, film_ends, potential
+from rotorfilm.bearings.films.law import gap_integral, squared_integral
+from rotorfilm.bearings.films.map_fit import (
+    node_eccentricities,
+    periodic_quintic_coefficients,
+    quintic_coefficients,
+)
+from rotorfilm.bearings.films.map_table import stretch, unstretch
+from rotorfilm.bearings.journal.map_film import CROWDING, LossTable
+from rotorfilm.core.errors import ConvergenceError, InputError
+from rotorfilm.core.files import write_atomically
+from rotorfilm.core.model import Array
 
 FIELDS = ("log", "error", "chi_slope", "force_t", "force_r")
 """Arrays of a table, each of shape (K, I, J) over (ln(L/D), X, T)."""
@@ -305,3 +309,37 @@ def node_losses(chi: float, turn: float, slenderness: float) -> Array:
     ends, weight = film_ends(source, default_resolution(chi, slenderness))
     film, streamers = film_shear(chi, ends, weight)
     return np.array([film, film + streamers, film_flow(sine, cosine, ends, weight)])
+
+
+def film_shear(chi: float, ends: Array, weight: Array) -> tuple[float, float]:
+    """Return Sigma of a film between two ends, and of the streamers behind the second one.
+
+    Parameters
+    ----------
+    chi : float [1]
+        Eccentricity ratio.
+    ends : ndarray, shape (2, Q) [rad]
+        Where the film begins and ends, from the line of maximum film in the direction in which the oil runs.
+    weight : ndarray, shape (Q,)
+        Axial weights.
+    """
+    first, last = ends
+    film = gap_integral(chi, last) - gap_integral(chi, first)
+    back = first + 2.0 * np.pi
+    # Only where the thickness is again that of the end do streamers fill the gap, or no longer.
+    image = -last + 2.0 * np.pi * np.ceil((2.0 * last) / (2.0 * np.pi))
+    image = np.clip(image, last, back)
+    thickness = 1.0 + chi * np.cos(last)
+    shares = np.zeros_like(last)
+    for start, end in ((last, image), (image, back)):
+        full = 1.0 + chi * np.cos(0.5 * (start + end)) <= thickness
+        streamer = thickness * (squared_integral(chi, end) - squared_integral(chi, start))
+        shares = shares + np.where(full, gap_integral(chi, end) - gap_integral(chi, start), streamer)
+    return float(weight @ film), float(weight @ shares)
+
+
+def film_flow(sine: float, cosine: float, ends: Array, weight: Array) -> float:
+    """Return what a film between two ends gives off: minus the integral of sine sin t + cosine cos t."""
+    first, last = ends
+    gained = sine * (np.cos(last) - np.cos(first)) - cosine * (np.sin(last) - np.sin(first))
+    return float(weight @ gained)

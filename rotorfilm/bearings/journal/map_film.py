@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from ....core.errors import InputError, RotorfilmError, require_kind
-from ....core.inputs import quantities
-from ....core.model import Array
-from ....native import MapKernel
-from ....native.loss_kernels import LossKernel
-from ...films.law import FilmLosses, KernelFilm, kernel_losses, require_film
-from ...films.map_table import MapTable, StoredTable, require_shapes
+from ...core.errors import InputError, RotorfilmError, require_kind
+from ...core.inputs import quantities
+from ...core.model import Array
+from ...native import MapKernel
+from ...native.loss_kernels import LossKernel
+from ..films.law import FilmLosses, KernelFilm, kernel_losses, require_film
+from ..films.map_table import MapTable, StoredTable, require_shapes
 
 if TYPE_CHECKING:
-    from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
+    from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 TABLE = "journal_map.bin"
 """The universal table of the package, in `data`."""
@@ -160,7 +160,7 @@ class _TwoFilms:
 
 
 def _film(around: int, along: int) -> _TwoFilms:
-    from ..reynolds_film import ExtrapolatedFilm, ReynoldsFilm
+    from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
     films = (ExtrapolatedFilm(film=ReynoldsFilm(cells=(k * around, along))) for k in (1, 2))
     return _TwoFilms(*films)
@@ -168,7 +168,7 @@ def _film(around: int, along: int) -> _TwoFilms:
 
 def reference_film(slenderness: float) -> ReynoldsFilm:
     """Return the two-dimensional film of a bearing that the packaged table leaves out."""
-    from ..reynolds_film import ReynoldsFilm
+    from .reynolds_film import ReynoldsFilm
 
     return ReynoldsFilm(cells=_SHORT if slenderness < 1.0 else _LONG)
 
@@ -195,7 +195,7 @@ def bearing_table(slenderness: float) -> MapTable:
     """
     import logging
 
-    from ...films.map_fit import tabulate_film
+    from ..films.map_fit import tabulate_film
 
     low, high = OWN_RANGE
     if not low <= slenderness <= high:

@@ -16,9 +16,9 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, solve_banded
 from scipy.special import ellipj, ellipkinc
 
-from ....core.errors import ConvergenceError, InputError
-from ....core.model import Array
-from ..rupture import integrated_legendre
+from rotorfilm.bearings.journal.rupture import integrated_legendre
+from rotorfilm.core.errors import ConvergenceError, InputError
+from rotorfilm.core.model import Array
 
 # The ruptured film's region: two curved ends in the elliptic variable, mapped to a rectangle.
 

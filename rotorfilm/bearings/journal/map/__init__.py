@@ -1,1 +1,0 @@
-"""Films by the impedance map of plain bearings."""
