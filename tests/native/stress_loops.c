@@ -9,6 +9,7 @@
 #include "films/journal_kernel.h"
 #include "films/short_kernel.h"
 #include "grids/ring.h"
+#include "heat/energy.h"
 #include "loops/march.h"
 #include "loops/ride.h"
 #include "loops/shake.h"
@@ -288,6 +289,30 @@ static void try_ride(double odd)
         require_finite(out, 4 * (STEPS + 1), "ride");
 }
 
+static void try_energy(double odd)
+{
+    enum { LINES = 7, CELLS = 2, LAYERS = 3, COLUMNS = LINES * CELLS, ALL = COLUMNS * LAYERS };
+    const size_t layers = uniform() < 0.5 ? 1 : LAYERS;
+    const int grooved = uniform() < 0.3, opened = uniform() < 0.7;
+    double fields[6][ALL], spread[LINES * LINES], oil[ALL], openings[3], bush[LINES], account[4];
+    int32_t opening[COLUMNS];
+    for (int k = 0; k < 6; ++k)
+        for (int p = 0; p < ALL; ++p)
+            fields[k][p] = k < 4 ? about(1.0, odd) : fabs(about(1.0, odd));
+    for (int c = 0; c < COLUMNS; ++c)
+        opening[c] = opened && uniform() < 0.3 ? (int)(2.0 * uniform()) : -1;
+    for (int k = 0; k < LINES * LINES; ++k)
+        spread[k] = about(1e-3, odd);
+    const rf_energy given = {LINES, CELLS, layers, 2 + (size_t)grooved, uniform() < 0.5, uniform() < 0.5, about(1.0, odd),
+                             opening, grooved ? fields[0] : NULL, fields[1], fields[2], fields[3], fields[4], fields[5],
+                             fields[5], spread, 1.0, 1.0, about(10.0, odd), about(1.0, odd), 1.0, about(10.0, odd)};
+    if (rf_solve_energy(&given, oil, openings, bush, account) != RF_OK)
+        return;
+    require_finite(oil, COLUMNS * layers, "oil that warms");
+    if (odd == 0.0)
+        require_finite(account, 4, "account of heat");
+}
+
 static int plain(const void *of, const double *state, double *f, double *jacobian)
 {
     return rf_journal_at(of, state, f, jacobian);
@@ -311,6 +336,7 @@ int stress_loops(const char *path, long count)
         try_shaken(rf_sprung_at, &sprung, odd);
         try_shaken(plain, n % 8 ? &journal : &round, odd);
         try_ride(odd);
+        try_energy(odd);
     }
     free_ring(&ring);
     return 0;

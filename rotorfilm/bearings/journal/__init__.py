@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         AdiabaticWalls as AdiabaticWalls,
         BushRing as BushRing,
         FilmProfile,
+        HeatAccount,
         HeldWalls as HeldWalls,
         LayeredTemperature as LayeredTemperature,
         MeanTemperature as MeanTemperature,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from .groove_map import GrooveMapTable as GrooveMapTable
     from .grooved_film import GroovedMapFilm as GroovedMapFilm
     from .heated_film import (
-        HeatAccount,
         HeatedFilm as HeatedFilm,
         HeatedJFOFilm as HeatedJFOFilm,
         HeatedJFOState as HeatedJFOState,

@@ -1,7 +1,7 @@
 """The temperature of the oil in a film: cell by cell, openings that mix, bush and journal.
 
-Temperatures are above that of the supply [K]; flows of oil and heat are in units of clearance x radius x
-length/2, that is in 1/s and K/s.
+Temperatures are above that of the supply [K]; flows of oil are in units of clearance x radius x length/2,
+that is in 1/s.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from ...core.errors import (
 )
 from ...core.inputs import quantities
 from ...core.model import Array
+from ...core.readable import Readable
 from ...native.library import loops
 from ...native.structs import structure
 from ..films.mass_conserving import Fluidity, contiguous
@@ -196,14 +197,16 @@ class Heating(NamedTuple):
         By which heat falls as the oil warms; 0 to hold it.
     temperature : ndarray, shape (N, M, ...) [K]
         At which the oil has this viscosity, above that of the supply.
-    heat_scale : float [K s]
-        Viscosity of the bearing radius^2/(volumetric heat clearance^2).
-    diffusion : float [1/s]
-        Conductivity of the oil/(volumetric heat clearance^2).
+    capacity : float [J/K]
+        Volumetric heat of fresh oil x clearance x radius x length: what the flows carry.
+    friction : float [W s2]
+        Viscosity of the bearing x radius^3 x length/clearance.
+    conductance : float [W/K]
+        Conductivity of the oil x radius x length/clearance.
     carry_over : float or None [1]
         Share of the oil that reaches an opening and clings to the shaft; None where none can leave there.
     walls : WallResponse or None
-        None for walls that take no heat; in the units of the equations, ambients above the supply.
+        None for walls that take no heat; of heat [W] of lines, ambients above the supply.
     """
 
     opening: np.ndarray
@@ -212,14 +215,43 @@ class Heating(NamedTuple):
     viscosity: Array
     thinning: Array
     temperature: Array
-    heat_scale: float
-    diffusion: float
+    capacity: float
+    friction: float
+    conductance: float
     carry_over: float | None
     walls: WallResponse | None
 
 
+@dataclass(frozen=True, kw_only=True)
+class HeatAccount(Readable):
+    """Where the heat of a bearing comes from and goes to.
+
+    Attributes
+    ----------
+    made : float [W]
+        By shear, and by the flow under pressure.
+    leaked : float [W]
+        Above the temperature of the supply, with the oil that leaves the film sideways.
+    drained : float [W]
+        With the oil that leaves through openings, less what they give to the film again.
+    into_bush, into_journal : float [W]
+        Conducted from the oil.
+    """
+
+    made: float
+    leaked: float
+    drained: float
+    into_bush: float
+    into_journal: float
+
+    @property
+    def missing(self) -> float:
+        """What is not accounted for [W]."""
+        return self.made - self.leaked - self.drained - self.into_bush - self.into_journal
+
+
 class HeatSolution(NamedTuple):
-    """Temperatures above that of the supply [K], and where the heat goes [K/s].
+    """Temperatures above that of the supply [K], and where the heat goes.
 
     Attributes
     ----------
@@ -230,24 +262,14 @@ class HeatSolution(NamedTuple):
     bush : ndarray, shape (N,), or None [K]
     journal : float or None [K]
         Of the walls; None of those that take no heat.
-    made : float [K/s]
-        Heat of shear and pressure.
-    leaked : float [K/s]
-        With the oil that leaves the film sideways.
-    drained : float [K/s]
-        With the oil that leaves through the openings, less what they give back to the film.
-    to_bush, to_journal : float [K/s]
+    heat : HeatAccount
     """
 
     oil: Array
     openings: Array
     bush: Array | None
     journal: float | None
-    made: float
-    leaked: float
-    drained: float
-    to_bush: float
-    to_journal: float
+    heat: HeatAccount
 
 
 class FilmProfile:
@@ -292,12 +314,12 @@ class FilmProfile:
             for field in (heating.viscosity, heating.thinning, heating.temperature)
         )
         shares = layer_shares(1.0 / viscosity)
-        central, around, axial, fresh = _layer_flows(flow, shares)
-        made = heating.heat_scale * layer_heat(heating, shares) * film
+        central, around, axial, fresh = _layer_flows(flow, shares, heating.capacity)
+        made = heating.friction * layer_heat(heating, shares) * film
         less = made * thinning
         lost = np.maximum(-fresh, 0.0)
         lost[:, -1] += np.maximum(axial[:, -1], 0.0)
-        conducted = self.layers * heating.diffusion * flow.shear
+        conducted = self.layers * heating.conductance * flow.shear
         fields = around, axial, fresh, made + less * start, less, conducted
         oil, openings, bush, account = _solve(heating, central, fields)
         return HeatSolution(
@@ -305,11 +327,13 @@ class FilmProfile:
             openings=openings,
             bush=None if heating.walls is None else bush,
             journal=None if heating.walls is None else float(account[3]),
-            made=float(np.sum(made - less * (oil - start))),
-            leaked=float(np.sum(film * lost * oil)),
-            drained=float(account[0]),
-            to_bush=float(account[1]),
-            to_journal=float(account[2]),
+            heat=HeatAccount(
+                made=float(np.sum(made - less * (oil - start))),
+                leaked=float(np.sum(film * lost * oil)),
+                drained=float(account[0]),
+                into_bush=float(account[1]),
+                into_journal=float(account[2]),
+            ),
         )
 
 
@@ -361,18 +385,21 @@ def _solve(
     return answers
 
 
-def _layer_flows(flow: FilmFlow, shares: LayerShares) -> tuple[Array | None, Array, Array, Array]:
-    """Return flows from the center, around, along and from outside as in `FilmFlow`, layer by layer."""
+def _layer_flows(
+    flow: FilmFlow, shares: LayerShares, capacity: float
+) -> tuple[Array | None, Array, Array, Array]:
+    """Return what flows carry from the center, around, along and from outside in each layer [W/K]."""
     dragged, pressed = (
         _normalized(field + np.roll(field, -1, axis=0)) for field in (shares.dragged, shares.pressed)
     )
     onward = np.concatenate([shares.pressed[:, 1:], shares.pressed[:, -1:]], axis=1)
-    return (
-        None if flow.central is None else flow.central[:, None] * _normalized(shares.pressed[:, 0]),
-        flow.dragged[..., None] * dragged + flow.pressed[..., None] * pressed,
-        flow.axial[..., None] * _normalized(shares.pressed + onward),
-        (flow.leaving - flow.entering)[..., None] * _normalized(shares.dragged),
+    around = flow.dragged[..., None] * dragged + flow.pressed[..., None] * pressed
+    axial = flow.axial[..., None] * _normalized(shares.pressed + onward)
+    fresh = (flow.leaving - flow.entering)[..., None] * _normalized(shares.dragged)
+    central = (
+        None if flow.central is None else capacity * flow.central[:, None] * _normalized(shares.pressed[:, 0])
     )
+    return central, capacity * around, capacity * axial, capacity * fresh
 
 
 def _normalized(layers: Array) -> Array:

@@ -6,6 +6,7 @@ All flows are in units of clearance x radius x length/2, that is in 1/s.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,6 @@ import numpy as np
 from ...core.model import Array
 from ...core.port import Tangent, has_wall
 from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil
-from ..films.law import kinematics
 from ..films.mass_conserving import Fluidity
 from ..reaction import StaticReaction
 
@@ -63,24 +63,8 @@ class FilmFlow(NamedTuple):
     @property
     def side_flow(self) -> float:
         """What leaves the film sideways, less what its ends draw in [1/s]."""
-        return float(self.leaked.sum() + np.minimum(self.axial[:, -1], 0.0).sum())
-
-    @property
-    def fresh(self) -> Array:
-        """Oil that a cell of film takes from outside, since its neighbors bring too little [1/s]."""
-        return np.maximum(self.leaving - self.entering, 0.0)
-
-    @property
-    def lost(self) -> Array:
-        """Oil that its neighbors do not take from a cell, and that leaves the bearing [1/s]."""
-        return np.maximum(self.entering - self.leaving, 0.0)
-
-    @property
-    def leaked(self) -> Array:
-        """All oil that leaves the film from a cell [1/s]."""
-        leaked = np.where(self.filled > 0.0, self.lost, 0.0)
-        leaked[:, -1] += np.maximum(self.axial[:, -1], 0.0)
-        return leaked
+        lost = np.maximum(self.entering - self.leaving, 0.0)  # that its neighbors do not take from a cell
+        return float(lost[self.filled > 0.0].sum() + self.axial[:, -1].sum())
 
 
 def fed_film(
@@ -230,7 +214,7 @@ def _starved(cells: FilmCells, flow: FilmFlow, speed: float) -> np.ndarray:
     sense = 1 if speed > 0.0 else -1
     behind = np.roll(flow.full | cells.held[:, None], sense, axis=0)
     starts = flow.full & ~behind
-    short = np.roll(flow.fresh > 1e-9 * np.max(flow.entering), sense, axis=0)
+    short = np.roll(flow.leaving - flow.entering > 1e-9 * np.max(flow.entering), sense, axis=0)
     return (starts & short)[:, :-1]
 
 
@@ -497,64 +481,50 @@ class FrozenFilm(StaticReaction):
             Velocity / clearance.
         speed : float [rad/s]
         """
-        cells, normal, faces = self.cells, self.cells.normal(), self.fluidity.mean_at_faces()
-        width, H = cells.width[:-1], cells.thickness(eccentricity, cells.face)
-        across = cells.slenderness**-2 * ((cells.face - np.roll(cells.face, 1)) % (2.0 * np.pi))
-        dragged = speed * H[:, None] * faces.dragged[:, :-1]
+        cells, (around, along, dragged) = self.cells, self._per_thickness
+        H, at_lines = (cells.thickness(eccentricity, at)[:, None] for at in (cells.face, cells.theta))
+        carried, normal, width = speed * H * dragged, cells.normal(), cells.width[:-1]
         stencil = Stencil(
-            around=(H**3 / cells.gap)[:, None] * faces.pressed[:, :-1] * width,
-            along=(cells.thickness(eccentricity, cells.theta) ** 3 * across)[:, None]
-            * _to_the_end(self.fluidity.pressed)
-            * cells.conductance,
-            source=width * (np.roll(dragged, 1, axis=0) - dragged + (squeeze @ normal)[:, None]),
+            around=H**3 * around,
+            along=at_lines**3 * along,
+            source=np.roll(carried, 1, axis=0) - carried + (squeeze @ normal)[:, None] * width,
             held=self.empty | cells.held[:, None],
         )
         value = np.broadcast_to(cells.value[:, None], stencil.source.shape)
         unit = normal[:, :, None] * width
         return FilmSolution(stencil, *solve_stencil(stencil, value, stencil.source > 0.0, unit), normal)
 
+    @cached_property
+    def _per_thickness(self) -> tuple[Array, Array, Array]:
+        """Conductances over the cube of the thickness, and what walls drag over thickness and speed."""
+        cells, faces, width = self.cells, self.fluidity.mean_at_faces(), self.cells.width[:-1]
+        across = cells.slenderness**-2 * ((cells.face - np.roll(cells.face, 1)) % (2.0 * np.pi))
+        return (
+            faces.pressed[:, :-1] * width / cells.gap[:, None],
+            _to_the_end(self.fluidity.pressed) * cells.conductance * across[:, None],
+            faces.dragged[:, :-1] * width,
+        )
+
     def _response(self, position: Array, velocity: Array, speed: float) -> Array:
         """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6).
 
         In the film A P = b, and F = -12 N^T P. With V = A^-1 N, dF = 12 V^T (dA P - db): the pressure and its
-        slope vanish at the edge of a ruptured zone, so moving the edge adds nothing.
+        slope vanish at the edge of a ruptured zone, so moving the edge adds nothing. V^T A P is a sum over
+        faces of their conductance times the falls of V and P, V^T b one of what is dragged times that of V.
         """
-        e, _ = kinematics(position, velocity, np.asarray(speed), self.clearance)
-        found = self.solve(e, velocity / self.clearance, float(speed))
-        pressure, V = found.pressure, found.answers
-        width = self.cells.width[:-1]
-        response = np.empty((2, 6))
-        response[:, 0] = found.force(self.cells)
-        changes = [
-            *(bent.outflow(pressure) - bent.source for bent in self._bent(e, float(speed), found.stencil)),
-            *(-normal[:, None] * width for normal in found.normal),
-            -self._dragged_in(self.cells.thickness(e, self.cells.face)),
-        ]
-        response[:, 1:] = 12.0 * np.tensordot(V, np.stack(changes), axes=([1, 2], [1, 2]))
-        response[:, 1:5] /= self.clearance
-        return float(self.bearing.force_scale) * response
-
-    def _bent(self, e: Array, speed: float, stencil: Stencil) -> list[Stencil]:
-        """Return the derivatives of the stencil by the eccentricity."""
-        cells, bent = self.cells, []
-        at_face, at_line = (
-            cells.film * np.stack([np.cos(angles), np.sin(angles)]) for angles in (cells.face, cells.theta)
-        )
-        for n_face, n_line in zip(at_face, at_line, strict=True):
-            bent.append(
-                Stencil(
-                    around=-3.0 * (n_face / cells.thickness(e, cells.face))[:, None] * stencil.around,
-                    along=-3.0 * (n_line / cells.thickness(e, cells.theta))[:, None] * stencil.along,
-                    source=speed * self._dragged_in(-n_face),
-                    held=stencil.held,
-                )
-            )
-        return bent
-
-    def _dragged_in(self, H: Array) -> Array:
-        """Return what walls at unit speed drag into each cell, over thickness H (N,) at the faces."""
-        dragged = H[:, None] * self.fluidity.mean_at_faces().dragged[:, :-1] * self.cells.width[:-1]
-        return np.roll(dragged, 1, axis=0) - dragged
+        cells, per_thickness, c = self.cells, self._per_thickness, self.clearance
+        e = position / c
+        found = self.solve(e, velocity / c, float(speed))
+        P, V = found.pressure, found.answers
+        fall, at_end = V - np.roll(V, -1, axis=1), np.diff(V, axis=2, append=0.0) * np.diff(P, append=0.0)
+        falls = fall * (P - np.roll(P, -1, axis=0)), at_end, fall
+        around, along, dragged = (np.sum(a * b, axis=2) for a, b in zip(per_thickness, falls, strict=True))
+        H, at_lines = (cells.thickness(e, at) for at in (cells.face, cells.theta))
+        n, n_lines = (cells.film * np.stack([np.cos(at), np.sin(at)]) for at in (cells.face, cells.theta))
+        by_e = (3.0 * H**2 * around + speed * dragged) @ n.T + 3.0 * at_lines**2 * along @ n_lines.T
+        by_w = (V @ cells.width[:-1]) @ found.normal.T
+        slopes = np.hstack([-by_e / c, -by_w / c, (dragged @ H)[:, None]])
+        return float(self.bearing.force_scale) * np.hstack([found.force(cells)[:, None], 12.0 * slopes])
 
 
 def _to_the_end(field: Array) -> Array:

@@ -18,7 +18,6 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
-from ...core.readable import Readable
 from ..films.finite_volumes import require_cells
 from ..films.geometry import FilmGeometry
 from ..films.mass_conserving import (
@@ -33,10 +32,10 @@ from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
     FilmProfile,
+    HeatAccount,
     Heating,
     HeatSolution,
     MeanTemperature,
-    WallResponse,
     Walls,
 )
 from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells, film_weight, in_cells, through
@@ -112,17 +111,6 @@ class HeatRounds:
     def supply_temperature(self) -> float:
         """Temperature of the fresh oil [K]."""
         return self.bearing.cooled[1].supply_temperature
-
-    @property
-    def _volumetric_heat(self) -> float:
-        """Heat capacity of fresh oil per volume [J/(m^3 K)]."""
-        return float(self.bearing.cooled[0].volumetric_heat(self.supply_temperature))
-
-    @property
-    def _heat_unit(self) -> float:
-        """Heat flow [W/K] of oil that flows at 1/s in the units of the film, in both its halves."""
-        bearing = self.bearing
-        return self._volumetric_heat * bearing.clearance * bearing.radius * bearing.film_length
 
     @arguments
     def solve(self, position: ArrayLike, speed: float) -> HeatedState:
@@ -231,8 +219,7 @@ class HeatRounds:
         kind its own fields, are given by name.
         """
         position, speed, before, temperature, film = done
-        T_s, unit = self.supply_temperature, self._heat_unit
-        power = unit * warm.made - pumped
+        T_s, power = self.supply_temperature, warm.heat.made - pumped
         return state(
             position=position,
             speed=speed,
@@ -243,13 +230,7 @@ class HeatRounds:
             maximum_temperature=T_s + float(warm.oil[opening < 0].max()),
             power_loss=power,
             friction_torque=power / speed,
-            heat=HeatAccount(
-                made=unit * warm.made,
-                leaked=unit * warm.leaked,
-                drained=unit * warm.drained,
-                into_bush=unit * warm.to_bush,
-                into_journal=unit * warm.to_journal,
-            ),
+            heat=warm.heat,
             film=film,
             film_temperature=temperature,
             rounds=1 if before is None else before.rounds + 1,
@@ -257,37 +238,37 @@ class HeatRounds:
         )
 
     def _heating(
-        self, opening: np.ndarray, flow: FilmFlow, speed: float, temperature: Array, closing: bool
+        self,
+        lines: tuple[Array, Array],
+        opening: np.ndarray,
+        flow: FilmFlow,
+        speed: float,
+        temperature: Array,
+        closing: bool,
     ) -> Heating:
-        """Return what warms a film whose cells have a temperature and openings (N, M), walls left out."""
-        bearing, (oil, cooling) = self.bearing, self.bearing.cooled
-        per_gap = self._volumetric_heat * bearing.clearance**2
+        """Return what warms a film whose lines start at angles (N,) and cover some, with openings (N, M)."""
+        bearing, (oil, cooling), T_s = self.bearing, self.bearing.cooled, self.supply_temperature
+        R, L, c = bearing.radius, bearing.film_length, bearing.clearance
+        walls = self.walls.response(R, *lines)
+        if walls is not None:
+            walls = walls._replace(
+                spread=walls.spread / L,
+                take=walls.take / L,
+                ambient=walls.ambient - T_s,
+                shaft_ambient=walls.shaft_ambient - T_s,
+            )
         return Heating(
             opening=opening,
             flow=flow,
             speed=speed,
             viscosity=self._viscosity(temperature),
             thinning=np.zeros(temperature.shape) if closing else oil.law.thinning(temperature),
-            temperature=temperature - self.supply_temperature,
-            heat_scale=bearing.film_viscosity * bearing.radius**2 / per_gap,
-            diffusion=oil.conductivity / per_gap,
+            temperature=temperature - T_s,
+            capacity=float(oil.volumetric_heat(T_s)) * c * R * L,
+            friction=bearing.film_viscosity * R**3 * L / c,
+            conductance=oil.conductivity * R * L / c,
             carry_over=cooling.carry_over,
-            walls=None,
-        )
-
-    def _walls(self, start: Array, extent: Array) -> WallResponse | None:
-        """Return the response of the walls of lines in the units of the heat equations; None without one."""
-        found = self.walls.response(self.bearing.radius, start, extent)
-        if found is None:
-            return None
-        unit = self._heat_unit
-        along = unit / self.bearing.film_length
-        return found._replace(
-            spread=along * found.spread,
-            take=along * found.take,
-            ambient=found.ambient - self.supply_temperature,
-            shaft_take=unit * found.shaft_take,
-            shaft_ambient=found.shaft_ambient - self.supply_temperature,
+            walls=walls,
         )
 
 
@@ -391,8 +372,8 @@ class HeatedFilm(HeatRounds):
         film, found, flow = fed_film(film, e, speed, full_gap=full_gap, settled=settled)
         cells = film.cells
         opening = np.broadcast_to(cells.opening[:, None], cells.shape)
-        heating = self._heating(opening, flow, speed, temperature, closing)
-        warm = self.profile.warm(heating._replace(walls=self._walls(cells.start, cells.extent)))
+        lines = cells.start, cells.extent
+        warm = self.profile.warm(self._heating(lines, opening, flow, speed, temperature, closing))
         return self._state(
             HeatedState,
             (position, speed, before, temperature, film),
@@ -435,34 +416,6 @@ def _before_start(state: HeatedState) -> np.ndarray:
 
 
 # What a film that warms says at one place of the journal: temperatures, forces, and where its heat goes.
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeatAccount(Readable):
-    """Where the heat of a bearing comes from and goes to.
-
-    Attributes
-    ----------
-    made : float [W]
-        By shear, and by the flow under pressure.
-    leaked : float [W]
-        Above the temperature of the supply, with the oil that leaves the film sideways.
-    drained : float [W]
-        With the oil that leaves through openings, less what they give to the film again.
-    into_bush, into_journal : float [W]
-        Conducted from the oil.
-    """
-
-    made: float
-    leaked: float
-    drained: float
-    into_bush: float
-    into_journal: float
-
-    @property
-    def missing(self) -> float:
-        """What is not accounted for [W]."""
-        return self.made - self.leaked - self.drained - self.into_bush - self.into_journal
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -608,18 +561,15 @@ class HeatedJFOFilm(HeatRounds):
     ) -> HeatedJFOState:
         bearing, frozen = self.bearing, self._frozen(temperature)
         film = frozen.film
-        cells, start = film.cells, np.roll(film.cells.face, 1)
+        cells = film.cells
         state = film.solve(film.gap(position / bearing.clearance), 0.5 * speed)
         seen = jfo_state(frozen, state, position)
         (inflow, arriving), pumped = frozen.supplied(state)
         flow = conserved_flow(film, state)
-        heating = self._heating(cells.opening, flow, speed, temperature, closing)
-        warm = self.profile.warm(
-            heating._replace(
-                walls=self._walls(start, cells.extent),
-                carry_over=None if self.film.supply_flow is not None else heating.carry_over,
-            )
-        )
+        lines = np.roll(cells.face, 1), cells.extent
+        heating = self._heating(lines, cells.opening, flow, speed, temperature, closing)
+        given = self.film.supply_flow is not None
+        warm = self.profile.warm(heating._replace(carry_over=None) if given else heating)
         return self._state(
             HeatedJFOState,
             (position, speed, before, temperature, frozen),

@@ -2,7 +2,7 @@
 
    Cells of N lines, M on each, are cut into K layers of equal share of the gap from the bush to the journal; of one layer
    the temperature is the mean of a parabola between the walls. Oil takes its temperature along, upwind, and the walls
-   take some heat. Temperatures are above that of fresh oil [K], flows are in units of c R L/2 [1/s]. */
+   take some heat. Temperatures are above that of fresh oil [K], flows are times the heat capacity of the oil [W/K]. */
 #ifndef ROTORFILM_ENERGY_H
 #define ROTORFILM_ENERGY_H
 
@@ -30,7 +30,7 @@ typedef struct rf_energy {
 } rf_energy;
 
 /* Set the temperatures of the oil (N x M x K, in openings that of the mixed oil), of openings and bush (N), and the heat
-   [K/s] that leaves through openings, goes into bush and journal, and the journal's temperature. RF_STUCK, RF_MEMORY. */
+   [W] that leaves through openings, goes into bush and journal, and the journal's temperature. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_solve_energy(const rf_energy *given, double *oil, double *openings, double *bush, double *account);
 
 #endif

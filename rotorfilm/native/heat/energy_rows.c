@@ -98,7 +98,7 @@ static int eliminate(const rf_sparse *matrix, sparse_row *rows, double *numbers,
     return status;
 }
 
-static void substitute(const sparse_row *rows, size_t size, double *x)
+static int substitute(const sparse_row *rows, size_t size, double *x)
 {
     for (size_t p = size; p-- > 0;) {
         const double *numbers = rows[p].numbers;
@@ -107,16 +107,19 @@ static void substitute(const sparse_row *rows, size_t size, double *x)
             x[p] -= rf_product(count, numbers, x + rows[p].part[k].low);
             numbers += count;
         }
+        if (!isfinite(x[p]))
+            return RF_STUCK;
     }
+    return RF_OK;
 }
 
 int rf_solve_sparse(const rf_sparse *matrix, double *x)
 {
     sparse_row *rows = calloc(matrix->size, sizeof *rows);
     double *numbers = calloc(matrix->size, sizeof *numbers);
-    const int status = rows && numbers ? eliminate(matrix, rows, numbers, x) : RF_MEMORY;
+    int status = rows && numbers ? eliminate(matrix, rows, numbers, x) : RF_MEMORY;
     if (status == RF_OK)
-        substitute(rows, matrix->size, x);
+        status = substitute(rows, matrix->size, x);
     for (size_t p = 0; rows && p < matrix->size; ++p)
         free(rows[p].numbers);
     free(rows);

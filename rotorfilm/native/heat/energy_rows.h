@@ -27,7 +27,7 @@ static inline void rf_put(rf_sparse *matrix, size_t row, size_t column, double v
     matrix->rows[row] = matrix->count++;
 }
 
-/* Replace the right-hand side by the solution: RF_OK, RF_STUCK where the matrix is singular, RF_MEMORY. */
+/* Replace the right-hand side by the solution: RF_OK, RF_STUCK where the matrix is singular or a number is not finite, RF_MEMORY. */
 int rf_solve_sparse(const rf_sparse *matrix, double *x);
 
 #endif

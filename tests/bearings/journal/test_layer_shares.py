@@ -61,8 +61,9 @@ def test_layers_make_the_heat_of_their_velocity():
         viscosity=np.ones(shape),
         thinning=np.zeros(shape),
         temperature=np.zeros(shape),
-        heat_scale=1.0,
-        diffusion=0.0,
+        capacity=1.0,
+        friction=1.0,
+        conductance=0.0,
         carry_over=0.8,
         walls=None,
     )
