@@ -140,6 +140,11 @@ static void try_ring(const rf_ring *ring)
     size_t first;
     if (rf_ring_pair(ring, 1, inside, source, fine, coarse, uniform() < 0.5 ? slopes : NULL, &first) == RF_OK)
         require_finite(fine, 2, "pair of a ring");
+    const double place[RF_FREEDOMS] = {inside[0], inside[1], about(0.1, 0.05), about(0.1, 0.05)};
+    const double drive[RF_DRIVES] = {source[0], source[1], about(9.0, 0.05), about(9.0, 0.05), about(9.0, 0.05)};
+    double wrench[RF_FREEDOMS], by[RF_FREEDOMS * RF_COLUMNS];
+    if (rf_ring_wrench(ring, place, drive, wrench, uniform() < 0.5 ? by : NULL) == RF_OK)
+        require_finite(wrench, RF_FREEDOMS, "force and moment of a ring");
     if (rf_ring_potential(ring, inside, 1, source, J, slope, &work, &first) == RF_OK)
         require_finite(J, RF_LEVELS, "potential of a ring");
     const rf_grid *grid = &ring->grids[0];

@@ -52,12 +52,14 @@ static size_t middle_of(const rf_ring *ring, const rf_grid *grid)
 static void hold(rf_levels *levels, const rf_grid *grid)
 {
     const size_t nodes = grid->nodes, middle = middle_of(levels->ring, grid);
+    memset(levels->held, 0, grid->lines * nodes);
+    memset(levels->pressure, 0, grid->lines * nodes * sizeof(double));
     for (size_t i = 0; i < grid->lines; ++i)
-        for (size_t j = 0; j < nodes; ++j) {
-            const int held = (j >= middle ? j - middle : middle - j) < (size_t)grid->held[i];
-            levels->held[i * nodes + j] = (uint8_t)held;
-            levels->pressure[i * nodes + j] = held ? grid->value[i] : 0.0;
-        }
+        for (size_t j = 0; grid->held[i] > 0 && j < nodes; ++j)
+            if ((j >= middle ? j - middle : middle - j) < (size_t)grid->held[i]) {
+                levels->held[i * nodes + j] = 1;
+                levels->pressure[i * nodes + j] = grid->value[i];
+            }
 }
 
 /* Begin with the nodes where the source drives pressure, or the whole film. A step drives pressure far beyond what

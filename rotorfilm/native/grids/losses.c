@@ -183,22 +183,37 @@ static void reach(const stream *oil, size_t i, size_t j, double share[3])
     }
 }
 
+/* The gap of each part at the face before a line, at the one after it, and at the line on that side. */
+typedef struct gaps {
+    double in[2], out[2], line[2];
+} gaps;
+
+static gaps gaps_at(const stream *oil, size_t i)
+{
+    gaps at;
+    for (int part = 0; part < oil->parts; ++part) {
+        at.in[part] = face_gap(oil, i, part, 0);
+        at.out[part] = face_gap(oil, i, part, 1);
+        at.line[part] = line_gap(oil, i, part, 1);
+    }
+    return at;
+}
+
 /* Take the oil of a row over a node, and tell how much of its cell is film. An opening fills the gap. */
-static double carry(stream *oil, size_t i, size_t j)
+static double carry(stream *oil, const gaps *at, size_t i, size_t j)
 {
     double share[3] = {1.0, 0.0, 0.0};
     if (j < held_on(oil, i)) {
         for (int part = 0; part < oil->parts; ++part)
-            oil->brought[part][j] = line_gap(oil, i, part, 1);
+            oil->brought[part][j] = at->line[part];
         return 0.0;
     }
     const int film = is_film(oil, i * oil->grid->nodes + j);
     if (!film)
         reach(oil, i, j, share);
     for (int part = 0; part < oil->parts; ++part) {
-        const double out = face_gap(oil, i, part, 1);
         double *brought = &oil->brought[part][j];
-        *brought = film ? out : *brought + (share[0] + share[2]) * (out - face_gap(oil, i, part, 0));
+        *brought = film ? at->out[part] : *brought + (share[0] + share[2]) * (at->out[part] - at->in[part]);
     }
     return share[0] + share[1] + share[2];
 }
@@ -286,12 +301,13 @@ static void cross_held(stream *oil, const half halves[2], size_t i, size_t j, rf
 static void cross_cells(stream *oil, size_t i, rf_pad_oil *sums)
 {
     const half halves[2] = {half_at(oil, i, 0), half_at(oil, i, 1)};
+    const gaps at = gaps_at(oil, i);
     for (size_t j = 0; j < oil->grid->nodes; ++j) {
         if (j < held_on(oil, i)) {
             cross_held(oil, halves, i, j, sums);
             continue;
         }
-        const double full = carry(oil, i, j);
+        const double full = carry(oil, &at, i, j);
         for (int part = 0; part < oil->parts; ++part)
             for (int after = 0; after < 2; ++after)
                 add_half(oil, &halves[after], i, part, oil->width[part][j], full, oil->brought[part][j], sums);
@@ -319,12 +335,12 @@ static void add_shear(stream *oil, rf_pad_oil *sums)
 }
 
 /* Whether the film that begins at a node takes more than the oil brings. */
-static int starves(const stream *oil, size_t i, size_t j)
+static int starves(const stream *oil, const gaps *at, size_t i, size_t j)
 {
     double taken = drawn(oil, i, j, 0), come = 0.0;
     for (int part = 0; part < oil->parts; ++part) {
         const double width = oil->stepped ? oil->width[part][j] : oil->grid->width[j];
-        taken += oil->rate * width * face_gap(oil, i, part, 0);
+        taken += oil->rate * width * at->in[part];
         come += oil->rate * width * oil->brought[part][j];
     }
     return taken > come * (1.0 + EXCESS);
@@ -339,16 +355,25 @@ static int shut_starts(stream *oil)
     size_t i = 0;
     for (size_t k = 0; k < 2 * lines; ++k, i = next_line(oil, i, 1)) {
         const size_t last = next_line(oil, i, 0);
+        const gaps at = gaps_at(oil, i);
         for (size_t j = 0; j < nodes; ++j) {
-            const size_t at = i * nodes + j;
-            const int starts = j >= held_on(oil, i) && is_film(oil, at) && j >= held_on(oil, last)
+            const size_t q = i * nodes + j;
+            const int starts = k >= lines && j >= held_on(oil, i) && is_film(oil, q) && j >= held_on(oil, last)
                                && !is_film(oil, last * nodes + j);
-            if (k >= lines && starts && starves(oil, i, j))
-                shut = oil->film->held[at] = 1;
-            carry(oil, i, j);
+            if (starts && starves(oil, &at, i, j))
+                shut = oil->film->held[q] = 1;
+            carry(oil, &at, i, j);
         }
     }
     return shut;
+}
+
+/* Take the oil over all nodes of a line. */
+static void pass(stream *oil, size_t i)
+{
+    const gaps at = gaps_at(oil, i);
+    for (size_t j = 0; j < oil->grid->nodes; ++j)
+        carry(oil, &at, i, j);
 }
 
 /* What runs out of and into the opening at line i, through the face after it in the direction of the oil or, with 0,
@@ -431,8 +456,7 @@ static void add_flows(stream *oil, size_t n, size_t openings, double *out, doubl
             cross_edge(oil, i, 1, &out[at], &in[at]);
             cross_end(oil, i, &out[at], &in[at]);
         }
-        for (size_t j = 0; j < oil->grid->nodes; ++j)
-            carry(oil, i, j);
+        pass(oil, i);
     }
 }
 
@@ -524,8 +548,7 @@ int rf_follow_pad(rf_levels *film, const double *q, const double *drive, rf_pad_
         for (size_t k = 0; k < oil.grid->lines; ++k, i = next_line(&oil, i, 1)) {
             for (int after = 0; after < 2; ++after)
                 cross_edge(&oil, i, after, &out[after], &in[after]);
-            for (size_t j = 0; j < oil.grid->nodes; ++j)
-                carry(&oil, i, j);
+            pass(&oil, i);
         }
         sums->leaving = in[0] - out[0];
         sums->entering = out[1] - in[1];
