@@ -17,10 +17,10 @@ from rotorfilm.analysis import simulate
 from rotorfilm.core import CouplingWarning
 from rotorfilm.cosim import SIExp3, cosimulate, critical_macro_step
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.export_scene import export_scene, resting_rotor
+from rotorfilm.scenes.export_scene import at_rest_on_film, export_scene
 
 scene = bundled_scene()
-bearing, rotor, speed = scene.bearing, resting_rotor(scene), scene.speed
+(rotor, bearing), speed = at_rest_on_film(scene), scene.speed
 duration = scene.time_of(2.0 * 2.0 * math.pi)  # two turns of the shaft
 
 limit = critical_macro_step(rotor, bearing, state=rotor.initial_state).macro_step

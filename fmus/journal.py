@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.export_scene import resting_rotor
+from rotorfilm.scenes.export_scene import at_rest_on_film
 
 COMPONENT = "bearing"
 
@@ -25,7 +25,7 @@ def model() -> JournalBearing:
 
 def start() -> dict[str, float]:
     """Return the start values: the rotor of `rotor.py` at rest in its equilibrium."""
-    x, y = resting_rotor(scene()).position
+    x, y = at_rest_on_film(scene())[0].position
     return {"x": x, "y": y, "speed": scene().operation.speed}
 
 

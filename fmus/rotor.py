@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.export_scene import resting_rotor
+from rotorfilm.scenes.export_scene import at_rest_on_film
 
 COMPONENT = "rotor"
 
@@ -21,7 +21,7 @@ def scene() -> Scene:
 
 def model() -> RigidRotor:
     """Return the rotor: 525 N at 1500 rpm, unbalanced by ISO 21940-11 grade G 6.3."""
-    return resting_rotor(scene())
+    return at_rest_on_film(scene())[0]
 
 
 def start() -> dict[str, float]:
