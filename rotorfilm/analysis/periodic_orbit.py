@@ -201,7 +201,9 @@ def periodic_orbit(
     InputError
         If an argument breaks its rule, or whirl has no start.
     ConvergenceError
-        If no orbit is found.
+        If no orbit is found, or something drifts where the rotor rests, as wear does.
+    EquilibriumError
+        If there is no rest.
     """
     require_count("periods", periods)
     require_positive("tolerance", tolerance)

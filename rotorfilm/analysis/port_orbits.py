@@ -45,6 +45,9 @@ from .rotor_equilibrium import rotor_equilibrium
 STEPS_PER_HARMONIC, LEAST_STEPS = 2, 64
 """Steps of the monodromy matrix."""
 
+LARGEST_DRIFT = 1e14
+"""Condition of the matrix of small motion from which on something counts as free to drift."""
+
 
 class LinearizedRotor(NamedTuple):
     """Rotor and reactions about their rest.
@@ -103,6 +106,8 @@ class PortRotor:
         ------
         InputError
             If the rotor has no constant speed or hysteresis, or a bearing an added mass.
+        ConvergenceError
+            If something drifts from the rest.
         """
         bare, bearings = mounted.bare, mounted.all_bearings
         if not isinstance(bare, RigidRotor | FlexibleRotor):
@@ -116,7 +121,9 @@ class PortRotor:
                 raise InputError(
                     f"bearings[{name!r}] must have no added mass on a periodic orbit, got {bearing!r}"
                 )
-        return cls(mount(bare, bearings), float(bare.profile.speeds[0]))
+        found = cls(mount(bare, bearings), float(bare.profile.speeds[0]))
+        found.require_held()
+        return found
 
     @cached_property
     def mounts(self) -> Sequence[Mount]:
@@ -236,14 +243,24 @@ class PortRotor:
         return np.array(answers), np.array(rates)
 
     def _solved(self, s: complex, right: Array) -> Complex:
-        """Return (s - A)^-1 right; ConvergenceError where something drifts."""
-        try:
-            return np.linalg.solve(s * np.eye(len(self.small.matrix)) - self.small.matrix, right)
-        except np.linalg.LinAlgError as failure:
+        """Return (s - A)^-1 right."""
+        return np.linalg.solve(s * np.eye(len(self.small.matrix)) - self.small.matrix, right)
+
+    def require_held(self) -> None:
+        """Raise ConvergenceError where a motion of the shaft or a state of a bearing drifts from its rest."""
+        scaled = self.small.matrix * self._scale / self._scale[:, None]
+        if not np.linalg.cond(scaled) < LARGEST_DRIFT:
             raise ConvergenceError(
                 "rotor and bearings must be held at rest for a periodic orbit, but a motion of the shaft or "
-                "a state of a bearing drifts, as wear does"
-            ) from failure
+                "a state of a bearing drifts, as wear does, or as a shaft without a thrust bearing does"
+            )
+
+    @cached_property
+    def _scale(self) -> Array:
+        """Sizes of the states: rates by the speed, states of bearings by their nominal values."""
+        nominal = [s.nominal / NOMINAL_LENGTH for m in self.mounts for s in m.reaction.states]
+        half = len(self.mounted.rotor.states) // 2
+        return np.array([*np.repeat([1.0, abs(self.speed) or 1.0], half), *nominal])
 
     def external(self, harmonics: int, periods: int, frequency: float) -> Array:
         """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
@@ -367,11 +384,8 @@ class PortRotor:
         local = np.concatenate([self._square(part) for part in both], axis=2)
         small, mean = self.small, local.mean(axis=0)
         felt = np.vstack([small.sense, small.rates])
-        step, speed = 2.0 * np.pi / (frequency * steps), abs(self.speed) or 1.0
-        size = len(self.mounted.rotor.states)
-        nominal = [s.nominal / NOMINAL_LENGTH for m in self.mounts for s in m.reaction.states]
-        scale = np.array([*np.repeat([1.0, speed], size // 2), *nominal])
-        values, shapes, inverse, condition = modes(small.matrix + small.push @ mean @ felt, scale)
+        step = 2.0 * np.pi / (frequency * steps)
+        values, shapes, inverse, condition = modes(small.matrix + small.push @ mean @ felt, self._scale)
         if not condition < LARGEST_CONDITION:
             raise ConvergenceError(
                 f"modes of rotor and bearings must be distinct, got a condition of {condition:.3g}"

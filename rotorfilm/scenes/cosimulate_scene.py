@@ -183,7 +183,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
-    known = not isinstance(scheme, Adaptive) and not in_time(scene.bearing).states
+    known = not isinstance(scheme, Adaptive) and not getattr(in_time(scene.bearing), "states", ())
     tried = () if result.choice is None else result.choice.trials
     return CosimAnswer(
         scheme=scheme.label,

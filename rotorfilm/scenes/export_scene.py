@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import equilibrium, rotor_equilibrium
+from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
 from ..core.files import written_together
 from ..core.inputs import arguments
-from ..core.model import Array
 from ..core.port import Reaction, from_rest
 from ..fmu import export_fmu, export_ssp
 from ..rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
@@ -203,8 +202,10 @@ def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
     highest = scene.shaft.highest_frequency or 2.0 * speeds.last
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
-    rotor, _ = _at_rest(reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor, bearings, speed)
-    return mount(rotor, bearings), scene.cosimulation.macro_angle / (abs(speed) or 1.0), speed
+    reduced = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
+    rotor, at = _at_rest(reduced, bearings, speed)
+    step = scene.cosimulation.macro_angle / (abs(speed) or 1.0)
+    return mount(rotor, from_shaft_rest(bearings, at)), step, speed
 
 
 @arguments
@@ -251,11 +252,11 @@ def export_rotor_fmu(
     reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
     start = {}
     if bearings is not None:
-        rotor, loads = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
+        rotor, at = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
         reduction = replace(reduction, rotor=rotor)
         start = {
             name: -value
-            for station, load in loads.items()
+            for station, load in at.loads.items()
             for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
         }
     model = SteadyRotor(rotor=reduction.rotor)
@@ -265,8 +266,16 @@ def export_rotor_fmu(
 
 def _at_rest(
     rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
-) -> tuple[ReducedRotor, Mapping[str, Array]]:
-    """Return the rotor as it rests in its bearings at a speed [rad/s], and its load on each [N]."""
+) -> tuple[ReducedRotor, RotorEquilibrium]:
+    """Return the rotor as it rests in its bearings at a speed [rad/s], and that equilibrium."""
     at = rotor_equilibrium(rotor, bearings, speed)
     rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
-    return replace(rotor, initial=tuple(rest.tolist())), at.loads
+    return replace(rotor, initial=tuple(rest.tolist())), at
+
+
+def from_shaft_rest(bearings: Mapping[str, Reaction], at: RotorEquilibrium) -> dict[str, Reaction]:
+    """Return the bearings of a shaft as they run from its rest: as warm, and pads as tilted, as there."""
+    return {
+        name: from_rest(bearing, at.coefficients[name].position, at.speed, at.temperatures.get(name))
+        for name, bearing in bearings.items()
+    }

@@ -33,6 +33,7 @@ from .excitation_table import (
     UnbalanceTable,
     require_kind,
 )
+from .export_scene import from_shaft_rest
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -119,7 +120,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Notes
     -----
     A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
-    A shaft on a motor is integrated by scipy, all else in C.
+    A shaft on a motor, and one on bearings with states, is integrated by scipy, all else in C.
     """
     report(0.0, "equilibrium")
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
@@ -221,10 +222,7 @@ def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
     bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
     at = rotor_equilibrium(rotor, bearings, scene.speed)
     still = at.displacement
-    for name, bearing in bearings.items():
-        place = at.coefficients[name].position
-        bearings[name] = from_rest(bearing, place, scene.speed, at.temperatures.get(name))
-    return replace(rotor, initial=(*still, *0.0 * still)), bearings
+    return replace(rotor, initial=(*still, *0.0 * still)), from_shaft_rest(bearings, at)
 
 
 def _massless(name: str, bearing: Reaction) -> Reaction:
@@ -269,7 +267,7 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
         rotor = BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
-    if any(bearing.states for bearing in parts.bearings.values()):
+    if any(getattr(bearing, "states", ()) for bearing in parts.bearings.values()):
         return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
     return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
 

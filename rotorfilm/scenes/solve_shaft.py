@@ -255,14 +255,14 @@ def level_one_remarks(scene: Scene) -> tuple[str, ...]:
     """
     shaft, table = _compressor(scene)
     rotor, oil = shaft.build(), scene.lubricant.properties
-    messages = {
+    told_at = {
         name: shaft_remarks(rotor, bearings, oil, table.speed)
         for name, bearings in table.cases(shaft.bearings).items()
     }
     common = [
-        line for line in next(iter(messages.values())) if all(line in lines for lines in messages.values())
+        line for line in next(iter(told_at.values())) if all(line in lines for lines in told_at.values())
     ]
-    own = [f"{name}: {line}" for name, lines in messages.items() for line in lines if line not in common]
+    own = [f"{name}: {line}" for name, lines in told_at.items() for line in lines if line not in common]
     return (*oil_remarks(scene.tables, scene.lubricant), *common, *own)
 
 

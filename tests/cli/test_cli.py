@@ -18,7 +18,6 @@ from fmpy import read_model_description
 
 import rotorfilm
 from rotorfilm import studies as ladders
-from rotorfilm.__main__ import main as program
 from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
@@ -464,11 +463,19 @@ def test_a_question_that_a_scene_cannot_be_asked_names_the_file(run, tmp_path):
     assert "asked.toml: rigid_rotor is required for whirl_threshold" in err.replace("\n", "")
 
 
-def test_small_matrices_take_one_thread_unless_the_environment_says_otherwise(monkeypatch):
-    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
-    monkeypatch.setenv("MKL_NUM_THREADS", "1")
-    monkeypatch.setenv("OMP_NUM_THREADS", "3")
-    monkeypatch.setattr(sys, "argv", ["rotorfilm", "--version"])
-    program()
-    assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
-    assert os.environ["OMP_NUM_THREADS"] == "3"
+def test_small_matrices_take_one_thread_unless_the_environment_says_otherwise():
+    """Before numpy is there, since its library looks once."""
+    code = (
+        "import sys; import rotorfilm.__main__ as own; assert 'numpy' not in sys.modules; "
+        "sys.argv = ['rotorfilm', '--version']; own.main(); import os; "
+        "print(os.environ['OPENBLAS_NUM_THREADS'], os.environ['OMP_NUM_THREADS'])"
+    )
+    others = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    ran = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**others, "OMP_NUM_THREADS": "3"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert ran.stdout.split()[-2:] == ["1", "3"]

@@ -46,6 +46,8 @@ NO_RESULTS = {
             "CompiledRotor",
             "PortRotor",
             "DrivenRotor",
+            "OilCells",
+            "ScaledFilm",
             "Corrected",
             "StudyModel",
         ),

@@ -14,7 +14,7 @@ from rotorfilm.scenes import (
     journal_tables as journal_remarks,
     solve_shaft as shaft_remarks,
 )
-from rotorfilm.scenes.families import Remark, said
+from rotorfilm.scenes.families import Remark, messages
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -65,7 +65,7 @@ def test_every_remark_of_a_family_can_be_said(family):
 
 def test_a_remark_is_said_beyond_its_limit():
     above, below = Remark("x", 2.0, "above: {x:.1f} of {y}"), Remark("x", 1.0, "below: {x:.1f}", below=True)
-    assert said((above, below), {"x": 2.5, "y": 7}) == ("above: 2.5 of 7",)
-    assert said((above, below), {"x": 0.5, "y": 7}) == ("below: 0.5",)
+    assert messages((above, below), {"x": 2.5, "y": 7}) == ("above: 2.5 of 7",)
+    assert messages((above, below), {"x": 0.5, "y": 7}) == ("below: 0.5",)
     for x in (1.0, 1.5, 2.0, math.nan):
-        assert said((above, below), {"x": x, "y": 7}) == ()
+        assert messages((above, below), {"x": x, "y": 7}) == ()

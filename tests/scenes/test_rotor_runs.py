@@ -13,13 +13,19 @@ from numpy.testing import assert_allclose
 from rotorfilm import (
     BaseExcitedRotor,
     BaseMotion,
+    Cooling,
+    Groove,
     InputError,
+    JFOFilm,
+    JournalBearing,
+    Oil,
     SceneError,
     ValidityWarning,
     mount,
     rotor_equilibrium,
     simulate_rotor,
 )
+from rotorfilm.core.port import from_rest
 from rotorfilm.scenes import Scene, read_scene, rotor_runs, run_damper
 from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
 from rotorfilm.scenes.rotor_runs import run_rotor
@@ -224,3 +230,18 @@ def test_a_run_with_too_few_samples_a_turn_says_so(monkeypatch):
     scene = Scene.load(EXAMPLES / "weak_motor.toml")
     with pytest.warns(ValidityWarning, match=r"21 samples of a run are 1.05 in a turn at the highest speed"):
         run_rotor(scene)
+
+
+def test_a_film_without_a_temperature_over_time_is_refused_by_name():
+    film = JFOFilm(
+        bearing=JournalBearing(
+            radius=0.05,
+            length=0.05,
+            clearance=1e-4,
+            oil=Oil.iso_vg(32),
+            cooling=Cooling(supply_temperature=313.15),
+            grooves=(Groove(center=0.0, width=0.3),),
+        )
+    )
+    with pytest.raises(InputError, match="film must be a law with a heat balance over time"):
+        from_rest(film, np.zeros(2), 300.0, 330.0)

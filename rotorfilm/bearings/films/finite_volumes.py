@@ -326,11 +326,20 @@ class Mobility(Protocol):
 _MOBILITY = CFUNCTYPE(None, c_void_p, c_double, POINTER(c_double), POINTER(c_double))
 
 
-def _compiled_mobility(mobility: Mobility) -> Any:
-    """Return a mobility as a function of the C library calls it."""
+def _compiled_mobility(mobility: Mobility, raised: list[BaseException]) -> Any:
+    """Return a mobility as a function of the C library calls it; what it raises goes into the list."""
 
     def told(_: int, thickness: float, factors: Any, slopes: Any) -> None:
-        for row, numbers in zip((factors, slopes), mobility(thickness), strict=True):
+        try:
+            found = np.array(mobility(thickness), dtype=float)
+            if found.shape != (2, 3) or not np.all(np.isfinite(found)):
+                raise InputError(
+                    f"mobility must return two times three finite numbers, got {found!r} at H = {thickness!r}"
+                )
+        except BaseException as error:  # for the caller of the library, which knows no exceptions
+            raised.append(error)
+            found = np.array([[1.0] * 3, [0.0] * 3])
+        for row, numbers in zip((factors, slopes), found.tolist(), strict=True):
             row[0], row[1], row[2] = numbers
 
     return _MOBILITY(told)
@@ -372,7 +381,8 @@ class RingKernel(FilmKernel):
         self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad, mobility, resting)
         self.grids = grids
         self._kept: list[Array] = []
-        self._mobility = None if mobility is None else _compiled_mobility(mobility)
+        self._raised: list[BaseException] = []
+        self._mobility = None if mobility is None else _compiled_mobility(mobility, self._raised)
         self.struct = structure("rf_ring")(
             grids=(structure("rf_grid") * len(grids))(*map(self._grid, grids)),
             start=self._place(spans.start),
@@ -425,9 +435,26 @@ class RingKernel(FilmKernel):
         """Ask the library of states (2, n), and report the first that is none."""
         e, w, first = _float(eccentricity), _float(source), c_size_t()
         places = [None if numbers is None else numbers.ctypes.data for numbers in (e, w, *further)]
-        status = loops()[what](byref(self.struct), e.shape[1], *places, byref(first))
+        status = self._called(what, e.shape[1], *places, byref(first))
         if status:
             self._report(status, e[:, first.value], w[:, first.value])
+
+    def _called(self, what: str, *arguments: Any) -> int:
+        """Return the status of a function of the library; raise what the mobility raised meanwhile."""
+        status: int = loops()[what](byref(self.struct), *arguments)
+        self._raise_foreign()
+        return status
+
+    def _raise_foreign(self) -> None:
+        if self._raised:
+            first = self._raised[0]
+            self._raised.clear()
+            raise first
+
+    def _batch(self, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
+        found = super()._batch(e, w, shape)
+        self._raise_foreign()
+        return found
 
     def field(self, eccentricity: Array, source: Array) -> tuple[Array, Array, Array, float]:
         """Return the solution of one state (2,) on the finest grid of N lines with M unknown nodes each.
@@ -444,7 +471,7 @@ class RingKernel(FilmKernel):
         theta, face = np.empty((2, len(grid.span)))
         pressure, side_flow = np.empty((len(grid.span), len(grid.width))), c_double()
         places = [numbers.ctypes.data for numbers in (e, w, theta, face, pressure)]
-        status = loops()["rf_ring_field"](byref(self.struct), *places, byref(side_flow))
+        status = self._called("rf_ring_field", *places, byref(side_flow))
         self._report(status, e, w)
         return theta, face, pressure, side_flow.value
 
@@ -477,7 +504,7 @@ class RingKernel(FilmKernel):
         q, w = _float(place), _float(drive)
         places = [numbers.ctypes.data for numbers in (q, w, force)]
         by = slopes.ctypes.data if differentiated else None
-        self._report(loops()["rf_ring_wrench"](byref(self.struct), *places, by), q[:2], w[:2])
+        self._report(self._called("rf_ring_wrench", *places, by), q[:2], w[:2])
         return force, slopes
 
     def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
@@ -501,9 +528,7 @@ class RingKernel(FilmKernel):
         levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), structure("rf_grid_work")()
         J, slope = np.empty((levels, n)), np.empty((levels, 2, n) if slopes else 0)
         places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data if slopes else None]
-        status = loops()["rf_ring_potential"](
-            byref(self.struct), e.ctypes.data, n, *places, byref(work), byref(first)
-        )
+        status = self._called("rf_ring_potential", e.ctypes.data, n, *places, byref(work), byref(first))
         if status:
             self._report(status, e, w[:, first.value])
         return RingPotential(J, slope, work.solutions, work.lines)

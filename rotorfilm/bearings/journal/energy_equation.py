@@ -23,6 +23,7 @@ from ...core.errors import (
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.readable import Readable
+from ...native import Status
 from ...native.library import loops
 from ...native.structs import structure
 from ..films.mass_conserving import Fluidity, contiguous
@@ -381,7 +382,9 @@ def _solve(
     answers = np.empty(shape), np.empty(openings), np.empty(len(opening)), np.empty(4)
     status = loops()["rf_solve_energy"](byref(struct), *(answer.ctypes.data for answer in answers))
     if status:
-        raise ConvergenceError(f"the heat of a film must have a solution, got status {status}")
+        if status == Status.NO_MEMORY:
+            raise MemoryError("no memory for the heat of a film")
+        raise ConvergenceError("the heat of a film must have a solution, and the equations have none")
     return answers
 
 

@@ -319,7 +319,7 @@ class JFOFilm(MassConserving):
         """Return None: nothing has the temperature of the balance at every state."""
         return
 
-    def in_time(self) -> None:
+    def in_time(self, start_temperature: float | None = None) -> None:
         """Raise InputError: over time it has no temperature."""
         raise InputError("film must be a law with a heat balance over time, as MapFilm, got JFOFilm")
 
@@ -403,7 +403,8 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau)."""
-        return float(self.scaled.film.gap(place).side.min())
+        ends = (place[:2] + place[2:], place[:2] - place[2:])
+        return 1.0 - max(float(np.hypot(*end)) for end in ends)
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return the film of a journal at rest, and what makes forces and moments of its own."""
@@ -425,7 +426,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
 def require_at_rest(velocity: Array) -> None:
     """Raise InputError unless the rates of a journal are 0."""
     if np.any(velocity):
-        raise InputError(f"velocity must be 0 for a film that remembers, got {velocity!r}")
+        raise InputError(f"velocity must be 0 for a film that conserves its oil, got {velocity!r}")
 
 
 # What a film that conserves its oil says at one place of the journal, in SI units.

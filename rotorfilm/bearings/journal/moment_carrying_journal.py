@@ -87,9 +87,10 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         moment_x = -integral of z f_y dz,    moment_y = integral of z f_x dz
 
     for the force f(z) per length, about the middle of the bearing. Of a shaft without tilt the force is that
-    of the bearing. Stiffness and damping, 4 x 4, are exact derivatives of the film found; the damping is
-    symmetric. The film has about four times the unknowns of the aligned one on each line, and takes some 1 ms
-    on 96 x 8 cells. Contact is that of the ends too.
+    of the bearing, unless its film has a mobility with a factor of the Couette flow. Stiffness and damping,
+    4 x 4, are exact derivatives of the film found; the damping is symmetric. The film has about four times
+    the unknowns of the aligned one on each line, and takes some 1 ms on 96 x 8 cells. Contact is that of the
+    ends too.
 
     It goes into a station with `feels_tilt=True` of a `ShaftRotor`.
 

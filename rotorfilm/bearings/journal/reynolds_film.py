@@ -67,8 +67,8 @@ class ReynoldsFilm(KernelFilm):
         Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can be;
         `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the bearing.
     mobility : Mobility or None
-        How easily the oil flows over the thickness of the film, hashable; None for laminar flow. Its factor
-        of the Couette flow acts on moments of tilted journals only: a film law knows no speed.
+        How easily the oil flows over the thickness of the film, hashable; None for laminar flow. A film
+        law knows no speed, so that the factor of the Couette flow acts in `MomentCarryingJournal` only.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
 

@@ -309,9 +309,12 @@ class LobedBearing(FilmReaction, PadBearing):
         return FilmGeometry(pads=tuple(Pad(start=lobe.start, extent=lobe.extent) for lobe in self.lobes))
 
     def centers_at(self, angle: Array) -> Array:
-        """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N)."""
-        middles = np.array([lobe.middle for lobe in self.lobes])
-        away = np.abs((angle[:, None] - middles + math.pi) % TURN - math.pi)
+        """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N).
+
+        Between two lobes it is that of the nearer one.
+        """
+        middles, extents = np.array([(lobe.middle, lobe.extent) for lobe in self.lobes]).T
+        away = np.abs((angle[:, None] - middles + math.pi) % TURN - math.pi) - 0.5 * extents
         return np.array([lobe.center for lobe in self.lobes])[np.argmin(away, axis=1)].T
 
     def require_film(self, position: Array) -> None:

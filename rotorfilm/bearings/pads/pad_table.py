@@ -263,13 +263,13 @@ def gap_slopes_of_pad(eccentricity: Array, extent: float) -> Array:
     chi, first, last = _gap_ends(eccentricity, extent)
     squares = squared_integral(chi, last) - squared_integral(chi, first)
     centered = chi < NEAR**2
-    _outward = (squares - gap_shear_of_pad(eccentricity, extent)) / np.where(centered, 1.0, chi)
-    _outward = np.where(centered, np.sin(first) - np.sin(last), _outward)
+    outward = (squares - gap_shear_of_pad(eccentricity, extent)) / np.where(centered, 1.0, chi)
+    outward = np.where(centered, np.sin(first) - np.sin(last), outward)
     thick = [1.0 + chi * np.cos(end) for end in (first, last)]
     around = (np.cos(last) - np.cos(first)) / (thick[0] * thick[1])
     theta = np.arctan2(eccentricity[1], eccentricity[0])
     c, s = np.cos(theta), np.sin(theta)
-    return np.stack([_outward * c - around * s, _outward * s + around * c])
+    return np.stack([outward * c - around * s, outward * s + around * c])
 
 
 def _gap_ends(eccentricity: Array, extent: float) -> tuple[Array, Array, Array]:

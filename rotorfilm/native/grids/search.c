@@ -65,11 +65,6 @@ static void set_outflow(const rf_stencil *film, const double *pressure, double *
     }
 }
 
-void rf_set_outflow(const rf_stencil *film, const double *pressure, double *flow)
-{
-    set_outflow(film, pressure, flow);
-}
-
 /* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
 static void set_line(const rf_search *search, size_t i, double *diagonal, double *along, double *after)
 {

@@ -53,9 +53,6 @@ int rf_search_film(rf_search *search, const rf_stencil *film, int ruptured, doub
 /* Solve again with the film that was found: right-hand side and answer lines x nodes, 0 where it is not full. */
 void rf_solve_film(const rf_search *search, const double *right, double *answer);
 
-/* What flows out of each node. */
-void rf_set_outflow(const rf_stencil *film, const double *pressure, double *flow);
-
 /* One film that ruptures. The right-hand sides `answers` (count x lines x nodes) are replaced by solutions of the
    same film. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_stencil_film(const rf_stencil *film, double *pressure, uint8_t *full, size_t count,

@@ -359,3 +359,19 @@ def test_a_sagging_shaft_is_stable_to_higher_speeds(feels_tilt, threshold):
     held = rf.bearings.MomentCarryingJournal(bearing=bearing) if feels_tilt else bearing
     found = rf.rotor_threshold(two_disks(feels_tilt), dict.fromkeys(("left", "right"), held), [200.0, 245.0])
     assert found.speed == pytest.approx(threshold, rel=0.02)
+
+
+def test_what_a_mobility_raises_is_raised():
+    def thin(thickness):
+        if thickness > 1.2:
+            raise KeyError("thick")
+        return (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
+
+    def bad(thickness):
+        return (np.nan, 1.0, 1.0), (0.0, 0.0, 0.0)
+
+    e, w = np.array([0.5, 0.0]), np.array([0.0, 1.0])
+    with pytest.raises(KeyError, match="thick"):
+        ReynoldsFilm(cells=(32, 4), mobility=thin).force(e, w, 0.5)
+    with pytest.raises(InputError, match="mobility must return two times three finite numbers"):
+        ReynoldsFilm(cells=(32, 4), mobility=bad).force(e, w, 0.5)

@@ -122,6 +122,9 @@ def test_what_has_no_orbit_is_refused_by_name():
     worn = rf.BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=16, extent=1.4, retardation=2e-4)
     with pytest.raises(rf.ConvergenceError, match="a state of a bearing drifts, as wear does"):
         periodic_orbit(rf.mount(replace(mounted.rotor, mass=10.0), {"": worn}))
+    loose = rf.mount(shaft(axial=True), {"left": FILM, "right": FILM})
+    with pytest.raises(rf.ConvergenceError, match="as a shaft without a thrust bearing does"):
+        periodic_orbit(loose)
     other = periodic_orbit(rf.mount(shaft(), {"left": FILM, "right": FILM}))
     with pytest.raises(rf.InputError, match="start must be an orbit of these bearings"):
         periodic_orbit(mounted, start=other)

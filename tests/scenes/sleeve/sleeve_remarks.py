@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..families import Remark, said
+from ..families import Remark, messages
 from ..lubricant_table import Lubricant
 from .sleeve_bearing import ViscousSleeve
 
@@ -18,4 +18,4 @@ def sleeve_remarks(sleeve: ViscousSleeve, oil: Lubricant, speed: float) -> tuple
     """Return what is left out and should not be, one line each, at a speed [rad/s]."""
     thickness = sleeve.clearance / sleeve.radius
     reynolds = abs(speed) * sleeve.radius * sleeve.clearance * oil.density / sleeve.viscosity
-    return said(REMARKS, {"taylor": reynolds * math.sqrt(thickness), "thickness": thickness})
+    return messages(REMARKS, {"taylor": reynolds * math.sqrt(thickness), "thickness": thickness})

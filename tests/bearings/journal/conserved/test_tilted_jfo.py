@@ -83,10 +83,23 @@ def test_a_load_and_a_moment_find_their_place():
 def test_what_it_refuses():
     with pytest.raises(FilmContactError, match="position must leave a film over the whole length"):
         TILTED.force([3e-5, -4e-5, 0.0, 3.2e-3], REST, omega)
-    with pytest.raises(InputError, match="velocity must be 0 for a film that remembers"):
+    with pytest.raises(InputError, match="velocity must be 0 for a film that conserves its oil"):
         TILTED.force(PLACE, [0.0, 1e-3, 0.0, 0.0], omega)
     split = dataclasses.replace(FED, grooves=(), circumferential_groove=2e-3)
     with pytest.raises(InputError, match="without a circumferential groove"):
         MomentCarryingJFOFilm(film=JFOFilm(bearing=split))
     with pytest.raises(InputError, match="film must be a JFOFilm"):
         MomentCarryingJFOFilm(film=BEARING)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("angle", [0.1, 0.13])
+def test_the_least_film_lies_between_lines_too(angle):
+    """On few lines: at the ends the journal is a circle in a circle."""
+    few = MomentCarryingJFOFilm(film=dataclasses.replace(PLANAR, cells=(16, 4)))
+    e, tau = 0.9 * np.array([np.cos(angle), np.sin(angle)]), np.array([0.05, 0.02])
+    place = np.array([*e * c, -tau[1] * 2.0 * c / L, tau[0] * 2.0 * c / L])
+    expected = c * (1.0 - max(np.hypot(*(e + tau)), np.hypot(*(e - tau))))
+    assert few.minimum_film(place) == pytest.approx(expected, rel=1e-12)
+    with pytest.raises(FilmContactError):
+        few.force(place * 1.06, REST, omega)
