@@ -49,7 +49,7 @@ class Reaction(Model, Protocol):
     - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
     - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
     - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
-    - `from_rest(position, speed)`, this reaction with initial states as at rest there;
+    - `from_rest(position, speed, temperature)`, this reaction with initial states as at rest there;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
       `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
     - `rest_linearization(position, speed)`, the exact derivatives about that rest;
@@ -348,7 +348,7 @@ def from_rest(reaction: Any, position: Array, speed: float, temperature: float |
     """
     own = getattr(reaction, "from_rest", None)
     if own is not None:
-        return own(position, speed)
+        return own(position, speed, temperature)
     return reaction.in_time(temperature) if is_warming(reaction) else reaction
 
 

@@ -14,13 +14,20 @@ from rotorfilm import (
     BaseExcitedRotor,
     BaseMotion,
     Cooling,
+    Disk,
+    ElasticMaterial,
     Groove,
     InputError,
     JFOFilm,
     JournalBearing,
     Oil,
     SceneError,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    TiltingPadBearing,
     ValidityWarning,
+    even_pivots,
     mount,
     rotor_equilibrium,
     simulate_rotor,
@@ -28,6 +35,7 @@ from rotorfilm import (
 from rotorfilm.core.port import from_rest
 from rotorfilm.scenes import Scene, read_scene, rotor_runs, run_damper
 from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
+from rotorfilm.scenes.export_scene import from_shaft_rest
 from rotorfilm.scenes.rotor_runs import run_rotor
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -245,3 +253,29 @@ def test_a_film_without_a_temperature_over_time_is_refused_by_name():
     )
     with pytest.raises(InputError, match="film must be a law with a heat balance over time"):
         from_rest(film, np.zeros(2), 300.0, 330.0)
+
+
+def test_a_shaft_on_warm_films_and_pads_stays_where_it_rests():
+    """Films begin as warm, and pads as tilted, as at rest: all rates are 0, those of temperatures too."""
+    size = {"radius": 0.05, "length": 0.05}
+    oil = {"oil": Oil.iso_vg(32), "cooling": Cooling(supply_temperature=313.15)}
+    steel = ElasticMaterial(young_modulus=2.11e11, shear_modulus=8.12e10, density=7810.0)
+    shaft = ShaftRotor(
+        elements=ShaftElement(length=1.0, outer_diameter=0.06, material=steel).split(4),
+        disks=(Disk(node=2, mass=50.0, polar_inertia=0.2, diametral_inertia=0.1),),
+        stations=(Station(node=0, name="left"), Station(node=4, name="right")),
+        speed=300.0,
+    )
+    pads = TiltingPadBearing(
+        **size, **oil, pivots=even_pivots(5), extent=1.0, preload=0.3, assembled_clearance=7e-5
+    )
+    bearings = {"left": JournalBearing(**size, clearance=1e-4, **oil), "right": pads}
+    at = rotor_equilibrium(shaft, bearings, 300.0)
+    still = at.displacement
+    whole = mount(replace(shaft, initial=(*still, *0.0 * still)), from_shaft_rest(bearings, at))
+    nominal = np.array([signal.nominal for signal in whole.states])
+    rates = whole.derivative(0.0, whole.initial_state, ()) / (300.0 * nominal)
+    assert len(whole.states) == 2 * len(still) + 1 + 5
+    assert_allclose(rates, 0.0, atol=1e-6)
+    cold = mount(whole.rotor, {**from_shaft_rest(bearings, at), "left": bearings["left"]})
+    assert np.abs(cold.derivative(0.0, cold.initial_state, ()) / (300.0 * nominal)).max() > 1e-3

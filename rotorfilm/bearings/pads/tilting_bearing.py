@@ -27,7 +27,7 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array, Linearization
-from ...core.port import Tangent, at_balanced_temperature
+from ...core.port import Tangent
 from ...core.readable import Readable
 from ...core.results import BearingLosses, Equilibrium
 from ...core.signals import Signal, force_outputs, journal_inputs
@@ -250,9 +250,9 @@ class TiltingPadBearing(Called, PadBearing):
         """Return the force on a journal at rest, each pad in its stable tilt."""
         return StaticTiltingPads(self)
 
-    def from_rest(self, position: ArrayLike, speed: float) -> TiltingPadBearing:
+    def from_rest(self, position: ArrayLike, speed: float, temperature: float | None) -> TiltingPadBearing:
         """Return this bearing with its pads as at rest under a journal there at first, as warm as there."""
-        warm = at_balanced_temperature(self, position, speed)
+        warm = self if temperature is None else self.at_temperature(temperature)
         pads = warm.at_rest().pad_states(position, speed)
         places = pads.tilts if self.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
         return replace(warm, start=tuple(float(place) for place in places))
