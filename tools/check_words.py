@@ -16,10 +16,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CLEAN = """
-CONTRIBUTING.md README.md docs/commands.md docs/index.md docs/jobs.md docs/machine_elements.md
-""".split()
-"""Files and folders without a finding, which `.ci/run` keeps so. Sorted; add a page when it is clean."""
+CLEAN = [
+    "CONTRIBUTING.md", "README.md", "docs/commands.md", "docs/index.md",
+    "docs/jobs.md", "docs/machine_elements.md",
+]  # fmt: skip
+"""Files and folders without a finding, which `.ci/run` keeps so. Add a page when it is clean."""
 MOST_WORDS, LONGEST_PAGE = 40, 3000
 RIDDLES = {
     "but (?:by|for|that of|those of)": "'except'",
