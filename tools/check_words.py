@@ -17,8 +17,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 CLEAN = [
-    "CONTRIBUTING.md", "README.md", "docs/commands.md", "docs/index.md",
-    "docs/jobs.md", "docs/machine_elements.md",
+    "CONTRIBUTING.md", "README.md", "docs/adding_a_bearing.md", "docs/commands.md", "docs/conventions.md",
+    "docs/damper.md", "docs/damper_films.md",
+    "docs/failures.md", "docs/groove_map.md", "docs/heat.md", "docs/index.md", "docs/jobs.md",
+    "docs/journal.md", "docs/machine_elements.md", "docs/map.md", "docs/mass_conserving.md",
+    "docs/own_bearing.md", "docs/pads.md", "docs/supply.md",
 ]  # fmt: skip
 """Files and folders without a finding, which `.ci/run` keeps so. Add a page when it is clean."""
 MOST_WORDS, LONGEST_PAGE = 40, 3000
