@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -135,6 +135,8 @@ class ShaftRotor(FlexibleRotor):
     initial: tuple[float, ...] = ()
     axial: bool = False
     torsional: bool = False
+
+    _shown: ClassVar[tuple[str, ...]] = ("mass",)
 
     def __post_init__(self) -> None:
         if all(isinstance(element, Coupling) for element in self.elements):
