@@ -1,5 +1,6 @@
 """The page of machine elements leads somewhere, and that of the interface shows every public name once."""
 
+import json
 import re
 from collections import Counter
 from pathlib import Path
@@ -8,10 +9,11 @@ import draw_pictures
 import example_gallery
 import interface_tasks
 import pytest
+import scene_pages
 
 from rotorfilm import charts
 from rotorfilm.core import published
-from rotorfilm.scenes import Scene
+from rotorfilm.scenes import Scene, json_schema
 
 ROOT = Path(__file__).parents[1]
 
@@ -95,6 +97,19 @@ def test_no_name_has_two_places_of_equal_length():
     for name in published():
         lengths = [length for length, _, _ in interface_tasks.fitting(name)]
         assert len(set(lengths)) == len(lengths), name
+
+
+def test_pages_of_scene_keys_are_made_of_the_tables():
+    for name, text in scene_pages.pages().items():
+        assert read(f"docs/{name}") == text, "run `python tools/scene_schema.py`"
+
+
+def test_pages_of_scene_keys_have_every_table():
+    text = "".join(read(f"docs/{name}") for name in scene_pages.PAGES)
+    tables = json.loads(json_schema())["properties"].keys() - {"schema", "title"}
+    assert set(re.findall(r"^## `(\w+)`$", text, re.MULTILINE)) == tables
+    for key in ("film_start", "end_inner_diameter", "spectrum", "viscosity_40"):
+        assert f"| `{key}`" in text
 
 
 def test_the_gallery_has_every_script_and_every_file_that_one_reads(tmp_path):

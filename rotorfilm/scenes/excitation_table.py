@@ -148,6 +148,7 @@ class MotorTable(UnbalanceTable):
     stall_torque : float [N m]
         Torque at rest; it falls in a line to nothing at the idle speed.
     idle_speed : float [rad/s]
+        At which the motor has no torque.
     resistance : float [N m s/rad]
         Torque per rad/s that resists.
     """
