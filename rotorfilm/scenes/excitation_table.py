@@ -181,8 +181,8 @@ class GroundTable:
     displacement : tuple or None
         Columns time [s], x and maybe y [m]; the cubic spline through it, at rest at both ends.
     spectrum : tuple or None
-        Columns frequency [rad/s] and one-sided spectral density per rad/s of the acceleration [m2/s3], the
-        same along x and along y.
+        Columns `frequency [rad/s]` and `density [m2/s3]`, the one-sided spectral density of the acceleration,
+        the same along x and along y.
     scale : float [1]
         By which the motion is multiplied.
     seed : int
