@@ -34,6 +34,7 @@ from ..rotors import RigidRotor
 from ..rotors.structure import rotating_linearization
 from .coefficients import coefficients
 from .linearize import state_space
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
@@ -148,6 +149,7 @@ class SynchronousOrbits(Drawable):
         )
 
 
+@one_blas_thread
 @arguments
 def synchronous_orbits(
     rotor: RigidRotor, reaction: Reaction, unbalances: ArrayLike | None = None
@@ -222,6 +224,7 @@ class OrbitsOverSpeed(Drawable):
         return (self.to_table(),) if self.orbits else ()
 
 
+@one_blas_thread
 @arguments
 def orbits_over_speed(rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike) -> OrbitsOverSpeed:
     """Return the orbits of a rotor with its own unbalance at each of the speeds [rad/s]."""
@@ -529,6 +532,7 @@ def polar_series(trajectory: Trajectory, rotor: RigidRotor, clearance: float) ->
     return np.hypot(x, y) / clearance, phase
 
 
+@one_blas_thread
 @arguments
 def transmitted_ratio(trajectory: Trajectory, rotor: RigidRotor) -> Array:
     """Return the force on the housing over time per centrifugal force of the unbalance, shape (n,) [1].
@@ -579,6 +583,7 @@ class BistableMap(Drawable):
     jump_down: Array
 
 
+@one_blas_thread
 @arguments
 def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
     """Return where the response to an unbalance folds.
@@ -611,6 +616,7 @@ def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: Ar
     )
 
 
+@one_blas_thread
 @arguments
 def bistability_limit(damper: Reaction, spring_ratio: float) -> float:
     """Return the squeeze number Bs/Omega above which the response to an unbalance has no fold."""
@@ -701,6 +707,7 @@ class OrbitCoefficients(Readable):
     speed: float
 
 
+@one_blas_thread
 @arguments
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
@@ -744,6 +751,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     )
 
 
+@one_blas_thread
 @arguments
 def small_motion_transmissibility(
     rotor: RigidRotor, reaction: Reaction, name: str | None = None
@@ -784,6 +792,7 @@ def small_motion_transmissibility(
     )
 
 
+@one_blas_thread
 @arguments
 def orbit_system(
     rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None

@@ -47,6 +47,7 @@ from .rotor_matrices import (
     value_error,
     whirl_errors,
 )
+from .threads import one_blas_thread
 
 _OSCILLATES = 1e-6
 
@@ -201,6 +202,7 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
     return np.asarray(-2.0 * np.pi * values.real / np.abs(values.imag))
 
 
+@one_blas_thread
 @arguments
 def rotor_modes(
     rotor: FlexibleRotor, bearings: Bearings, speed: float, highest_frequency: float = math.inf
@@ -559,6 +561,7 @@ class CriticalSpeed(Readable):
         return str(senses(self.direction))
 
 
+@one_blas_thread
 @arguments
 def campbell(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, highest_frequency: float = math.inf
@@ -608,6 +611,7 @@ def campbell(
     )
 
 
+@one_blas_thread
 @arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
@@ -677,6 +681,7 @@ def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpe
     ]
 
 
+@one_blas_thread
 @arguments
 def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
     """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
@@ -803,6 +808,7 @@ class StabilityChange(Readable):
     speed_error: float = 0.0
 
 
+@one_blas_thread
 @arguments
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
@@ -855,6 +861,7 @@ def rotor_threshold(
     )
 
 
+@one_blas_thread
 @arguments
 def stability_changes(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
