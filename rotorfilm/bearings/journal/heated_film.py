@@ -18,6 +18,7 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
+from ...core.readable import Drawable
 from ..films.finite_volumes import require_cells
 from ..films.geometry import FilmGeometry
 from ..films.mass_conserving import (
@@ -419,7 +420,7 @@ def _before_start(state: HeatedState) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState(StaticFilm):
+class HeatedState(StaticFilm, Drawable):
     """A film with its temperature, for a journal at rest; N lines with M nodes on each.
 
     Attributes
