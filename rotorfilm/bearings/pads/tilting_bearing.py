@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,7 +37,7 @@ from ...native.pad_kernels import RestPoint, TiltingKernel, TiltingPoint
 from ...native.spec import NativeSpec, journal_spec
 from ..oil.heated_bearing import FilmHeat, HeatedBearing, fed_temperature
 from ..reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
-from .pad_bearing import WEDGE, PadBearing, PadUnderJournal, losses_of_pads
+from .pad_bearing import WEDGE, OwnCenter, PadBearing, PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
 from .pad_matrices import PadMatrices
 from .pad_table import LossyPadFilm, least_film
@@ -157,6 +158,12 @@ class TiltingPadBearing(Called, PadBearing):
         return (self.extent,)
 
     @property
+    def arcs(self) -> tuple[OwnCenter, ...]:
+        """The pads without tilt."""
+        own = {"extent": self.extent, "preload": self.preload, "offset": self.pivot_offset}
+        return tuple(OwnCenter(start=at - self.pivot_offset * self.extent, **own) for at in self.pivots)
+
+    @property
     def travel_limit(self) -> float:
         """Distance [m] that the journal center stays within: the farthest corner that rigid pivots leave.
 
@@ -173,6 +180,12 @@ class TiltingPadBearing(Called, PadBearing):
         along = np.tensordot(directions(self.pivots)[:, :, 0], require_vector("position", position), 1)
         return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0))
 
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError, with the pad, where no tilt leaves a film to a journal at (2,) [m]."""
+        if not self.minimum_film(position) > 0.0:
+            along = directions(self.pivots)[:, :, 0] @ position
+            report_pads(self, Status.AT_WALL, int(np.argmax(along)), position)
+
     @property
     def _yielding(self) -> float:
         return 1.0 if self.pivot_stiffness is None else 2.0
@@ -186,8 +199,12 @@ class TiltingPadBearing(Called, PadBearing):
     def kernel(self) -> TiltingKernel:
         """The bearing in compiled code; InputError without a stated temperature."""
         self.require_temperature()
+        return self.kernel_on(self.film)
+
+    def kernel_on(self, film: PadFilm) -> TiltingKernel:
+        """Return the bearing in compiled code with another film, of fresh oil where none is stated."""
         return TiltingKernel(
-            self.film.kernel(self.extent, self.slenderness),
+            film.kernel(self.extent, self.slenderness),
             self.extent,
             self.pivot_offset,
             np.array(self.pivots),
@@ -249,6 +266,12 @@ class TiltingPadBearing(Called, PadBearing):
     def at_rest(self) -> StaticTiltingPads:
         """Return the force on a journal at rest, each pad in its stable tilt."""
         return StaticTiltingPads(self)
+
+    def on_frozen(self, film: Any) -> Any:
+        """Return the pads on a film around all of them, without tilt, whose oil keeps its temperature."""
+        from .frozen_pads import FrozenTiltingPads
+
+        return FrozenTiltingPads(self, film)
 
     def from_rest(self, position: ArrayLike, speed: float, temperature: float | None) -> TiltingPadBearing:
         """Return this bearing with its pads as at rest under a journal there at first, as warm as there."""
@@ -791,6 +814,9 @@ class StaticTiltingPads:
                 f"position must have shape (2,) and velocity be (0, 0) for pads at rest, got {position!r} "
                 f"and {velocity!r}"
             )
-        point = self.bearing.kernel.at_rest(place, require_number("speed", speed))  # type: ignore[arg-type]
+        point = self._solved(place, require_number("speed", speed))  # type: ignore[arg-type]
         report_pads(self.bearing, point.status, point.pad, place)
         return point
+
+    def _solved(self, position: Array, speed: float) -> RestPoint:
+        return self.bearing.kernel.at_rest(position, speed)
