@@ -191,7 +191,8 @@ def _cells_along(edges: Array, along: int) -> list[int]:
 def _shares(geometry: FilmGeometry) -> tuple[float, ...]:
     """Return where openings and recesses end within the length, each once."""
     found: list[float] = []
-    for share in sorted(one.share for one in (*geometry.pockets, *geometry.recesses)):
+    shares = [pocket.share for pocket in geometry.pockets] + [sunk.share for sunk in geometry.recesses]
+    for share in sorted(shares):
         if share < 1.0 and (not found or share - found[-1] > ROUNDOFF):
             found.append(share)
     return tuple(found)

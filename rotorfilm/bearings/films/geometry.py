@@ -128,14 +128,14 @@ class SunkArc:
         Angles of its edges in the bearing frame.
     share : float [1]
         Of the bearing's length that it covers, 0 < share <= 1.
-    depth : float [1]
-        Below the wall, over the clearance.
+    depth_ratio : float [1]
+        Depth below the wall over the clearance.
     """
 
     start: float
     end: float
     share: float
-    depth: float
+    depth_ratio: float
 
     def covers(self, angle: float) -> bool:
         """Return whether it lies at an angle [rad]."""

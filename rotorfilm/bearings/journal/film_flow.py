@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...core.model import Array
 from ...core.port import Tangent, has_wall
@@ -258,8 +257,8 @@ class FilmCells(NamedTuple):
         1 where there is a film after a line, and 0 in openings, in which the gap counts as 1.
     slenderness : float [1]
         Length / diameter.
-    depth : ndarray, shape (N, M), or None [1]
-        Of a recess after a line and after a node, over the clearance; None without any.
+    depth_ratio : ndarray, shape (N, M), or None [1]
+        Depth of a recess after a line and after a node, over the clearance; None without any.
     """
 
     theta: Array
@@ -275,7 +274,7 @@ class FilmCells(NamedTuple):
     center: Array
     film: Array
     slenderness: float
-    depth: Array | None = None
+    depth_ratio: Array | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -298,40 +297,43 @@ class FilmCells(NamedTuple):
         Their shape is (N, 1), with recesses (N, M + 1): on either side of a node it is as deep as there.
         """
         H = self.thickness(eccentricity, angle)[:, None]
-        if self.depth is None:
+        if self.depth_ratio is None:
             return H**power
         half = 0.5 / self.conductance
-        parts = half * (H + self.depth) ** power
+        parts = half * (H + self.depth_ratio) ** power
         return (_before(parts) + _after(parts)) / self.width
 
     def at_ends(self, eccentricity: Array, power: int) -> Array:
         """Return the means of H^power over the faces after the nodes along the bearing, (N, 1) or (N, M)."""
         H = self.thickness(eccentricity, self.theta)[:, None]
-        if self.depth is None:
+        if self.depth_ratio is None:
             return H**power
         before, after = self._halves
-        parts = before * (H + np.roll(self.depth, 1, axis=0)) ** power + after * (H + self.depth) ** power
+        parts = (
+            before * (H + np.roll(self.depth_ratio, 1, axis=0)) ** power
+            + after * (H + self.depth_ratio) ** power
+        )
         return np.asarray(parts / (before + after))
 
     def mean_thickness(self, eccentricity: Array) -> Array:
         """Return H at the lines, shape (N, 1), with recesses its means over the cells, (N, M + 1)."""
-        if self.depth is None:
+        if self.depth_ratio is None:
             return self.thickness(eccentricity, self.theta)[:, None]
         mean = self.at_ends(eccentricity, 1) * (0.5 / self.conductance)
         return (_before(mean) + _after(mean)) / self.width
 
     def integral_of_inverse(self, eccentricity: Array) -> Array:
         """Return the integral of 1/H over the cells around the film, (N, 1), with recesses (N, M + 1)."""
-        if self.depth is None:
+        if self.depth_ratio is None:
             return self._inverse(eccentricity, self.start, self.extent, 0.0)
         before = (self.theta - self.start) % (2.0 * np.pi)
-        deep = np.roll(self.depth, 1, axis=0)
+        deep = np.roll(self.depth_ratio, 1, axis=0)
         parts = self._inverse(eccentricity, self.start, before, deep)
-        parts = parts + self._inverse(eccentricity, self.theta, self.extent - before, self.depth)
+        parts = parts + self._inverse(eccentricity, self.theta, self.extent - before, self.depth_ratio)
         parts = parts * (0.5 / self.conductance)
         return (_before(parts) + _after(parts)) / self.width
 
-    def _inverse(self, eccentricity: Array, start: Array, extent: Array, depth: ArrayLike) -> Array:
+    def _inverse(self, eccentricity: Array, start: Array, extent: Array, depth: Array | float) -> Array:
         """Return the integral of 1/(H + depth) from angles (N,) on, of the shape of the depth or (N, 1)."""
         angles = start + 0.5 * extent * (1.0 + _GAUSS_NODES[:, None])
         H = self.thickness(eccentricity, angles)[..., None] + depth
@@ -404,7 +406,7 @@ def film_cells(
         center=np.zeros((2, 1)) if centers is None else centers[:, grid.span],
         film=grid.film,
         slenderness=slenderness,
-        depth=_depths(spans, grid, recesses) if recesses else None,
+        depth_ratio=_depths(spans, grid, recesses) if recesses else None,
     )
 
 
@@ -414,7 +416,7 @@ def _depths(spans: Spans, grid: Grid, recesses: Sequence[SunkArc]) -> Array:
     total = np.zeros((len(middles), len(along)))
     for sunk in recesses:
         inside = np.array([sunk.covers(angle) for angle in middles]) & (grid.film > 0.0)
-        total += sunk.depth * np.outer(inside, along < sunk.share)
+        total += sunk.depth_ratio * np.outer(inside, along < sunk.share)
     return total
 
 

@@ -231,7 +231,9 @@ class PressureDamBearing(PadBearing, KernelReaction):
     def recesses(self) -> tuple[SunkArc, ...]:
         """Recesses in the pads."""
         return tuple(
-            SunkArc(start=first, end=last, share=pad.recess.share, depth=pad.recess.depth / self.clearance)
+            SunkArc(
+                start=first, end=last, share=pad.recess.share, depth_ratio=pad.recess.depth / self.clearance
+            )
             for pad in self.pads
             for _, first, last, _ in [pad.edges]
             if pad.recess is not None and first < last
