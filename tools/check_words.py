@@ -24,7 +24,7 @@ CLEAN = [
     "docs/damper_films.md", "docs/failures.md", "docs/groove_map.md", "docs/heat.md", "docs/index.md",
     "docs/jobs.md", "docs/journal.md", "docs/machine_elements.md", "docs/map.md", "docs/mass_conserving.md",
     "docs/orbits.md", "docs/own_bearing.md", "docs/pads.md", "docs/paper.md", "docs/question_errors.md",
-    "docs/questions.md", "docs/results.md", "docs/rolling.md", "docs/rolling_rotors.md",
+    "docs/questions.md", "docs/recipes.md", "docs/results.md", "docs/rolling.md", "docs/rolling_rotors.md",
     "docs/rotor_accuracy.md", "docs/rotors.md", "docs/scene_elements.md", "docs/scene_journals.md",
     "docs/scene_operation.md", "docs/scene_pads.md", "docs/scene_rotors.md", "docs/scenes.md",
     "docs/supply.md", "docs/sweeps.md",
