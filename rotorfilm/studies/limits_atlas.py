@@ -226,7 +226,7 @@ def _whirling(
 @panel(
     "journal",
     "where the film ends",
-    "whirl speed / shaft speed at eccentricity ratio .5",
+    "whirl speed / shaft speed at eccentricity ratio 0.5",
     "error of the force",
 )
 def journal_extent() -> Iterator[Curve]:
