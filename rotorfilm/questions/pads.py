@@ -1,4 +1,4 @@
-"""What bearings of pads bring to scenes and questions: the films that may answer, and their ladders."""
+"""Films of lobed and tilting-pad bearings that may answer a question, and their ladders."""
 
 from __future__ import annotations
 

@@ -296,7 +296,7 @@ def value_on(rung: ShaftRung, found: RungResult, rests: Mapping[str, WarmRest]) 
 
 
 def steps_error(rung: ShaftRung, found: RungResult, own: float, rests: Mapping[str, WarmRest]) -> HeatEffect:
-    """Return how far a value is off by heat, by steps of each film towards T3."""
+    """Return the error of a value by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
     samples = {name: one.sample for name, one in steps.items()}
     start = value_on(rung, found, rests)

@@ -277,7 +277,8 @@ DENSER = 0.1
 """Growth of the density under the contact that is worth a word."""
 
 FLAT = 0.1
-"""Contact radius / ball radius from which the ball is no paraboloid; the gap errs by its square / 4."""
+"""Contact radius / ball radius from which the ball is no paraboloid; the error of the gap is its square /
+4."""
 
 
 REMARKS = (
@@ -365,5 +366,5 @@ def _beyond_roelands(ball: RollingBall) -> float:
 def contact_remarks(
     ball: RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
+    """Return the neglected effects that matter, one line each, of a ball; see `contact_numbers`."""
     return messages(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))

@@ -505,7 +505,7 @@ def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: flo
 def damper_remarks(
     damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
+    """Return the neglected effects that matter, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
     ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
     return messages((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)

@@ -373,7 +373,7 @@ class RestJudge:
         return self.distance(self.value(own), self.value(other))
 
     def error(self, own: Any, steps: HeatSteps) -> HeatError:
-        """Return how far the quantity of a rest is off by heat."""
+        """Return the error by heat of a quantity of an equilibrium."""
         start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
         coarse, fine, long = bases
         return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)

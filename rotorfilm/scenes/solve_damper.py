@@ -106,7 +106,7 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
 RTOL = 1e-6
 
 STEPS_A_TURN = 192
-"""Steps in a turn of a film that conserves its oil: within .2 % of its force."""
+"""Steps in a turn of a film that conserves its oil: within 0.2 % of its force."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -226,11 +226,11 @@ def _whirling(
 @panel(
     "journal",
     "where the film ends",
-    "whirl speed / shaft speed at eccentricity ratio .5",
+    "whirl speed / shaft speed at eccentricity ratio 0.5",
     "error of the force",
 )
 def journal_extent() -> Iterator[Curve]:
-    """Yield what arcs err by in circular whirl."""
+    """Yield the errors of arcs in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
     whirl = whirl[np.abs(whirl - 0.5) > 0.02]  # no source of pressure there
     exact = journal(MapFilm())
@@ -243,7 +243,7 @@ def journal_extent() -> Iterator[Curve]:
 
 @panel("journal", "order of the splitting film", "eccentricity ratio", "error of the force, same arc")
 def journal_order() -> Iterator[Curve]:
-    """Yield what few functions err by."""
+    """Yield the errors of few functions."""
     ratios = np.linspace(0.05, 0.95, 19)
 
     def force(n: int, m: int | None) -> Array:
@@ -256,7 +256,7 @@ def journal_order() -> Iterator[Curve]:
 
 @panel("journal", "short bearing", "length / diameter", "error of the static force", logarithmic=True)
 def journal_length() -> Iterator[Curve]:
-    """Yield what the short film errs by."""
+    """Yield the errors of the short film."""
     slenderness = np.geomspace(0.1, 2.0, 14)
     for ratio in (0.2, 0.6, 0.9):
         pairs = [
@@ -268,7 +268,7 @@ def journal_length() -> Iterator[Curve]:
 
 @panel("journal", "grid of the Reynolds film", "eccentricity ratio", "error of K")
 def journal_grid() -> Iterator[Curve]:
-    """Yield what coarse grids err by."""
+    """Yield the errors of coarse grids."""
     exact = journal(MapFilm())
 
     def stiffness(model: JournalBearing) -> list[Array]:
@@ -284,7 +284,7 @@ def journal_grid() -> Iterator[Curve]:
 
 @panel("journal", "linearization", "displacement / gap to the wall", "error of the change of force")
 def journal_linearization() -> Iterator[Curve]:
-    """Yield what stiffness errs by in large displacements, in the worst direction."""
+    """Yield the errors of stiffness in large displacements, in the worst direction."""
     model, parts = journal(MapFilm()), np.geomspace(0.01, 0.8, 20)
     angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
     around = np.array([np.cos(angles), np.sin(angles)])
@@ -322,7 +322,7 @@ QUANTITIES = ("place", "side flow", "friction torque", "stiffness")
     "supply", f"Reynolds rupture, supply {AT_PRESSURE:g}", "Sommerfeld number So", "error", logarithmic=True
 )
 def supply_load() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the load rises, at one supply pressure."""
+    """Yield the errors of Reynolds rupture as the load rises, at one supply pressure."""
     yield from _supply_curves(LOADS, lambda load: _supply_errors(load, AT_PRESSURE))
 
 
@@ -334,7 +334,7 @@ def supply_load() -> Iterator[Curve]:
     logarithmic=True,
 )
 def supply_pressure() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the supply pressure rises, at one load."""
+    """Yield the errors of Reynolds rupture as the supply pressure rises, at one load."""
     yield from _supply_curves(PRESSURES, lambda pressure: _supply_errors(AT_LOAD, pressure))
 
 
@@ -345,7 +345,7 @@ def supply_pressure() -> Iterator[Curve]:
     "error",
 )
 def supply_starvation() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the groove gets less oil than it would take, at one load."""
+    """Yield the errors of Reynolds rupture as the groove gets less oil than it would take, at one load."""
     yield from _supply_curves(MISSING, lambda missing: _supply_errors(AT_LOAD, 0.0, 1.0 - missing))
 
 
@@ -406,7 +406,7 @@ def _supply_errors(sommerfeld: float, pressure: float, share: float | None = Non
 
 SUPPLY, HEAT_VISCOSITY, HEAT_SPEED = 45.0 + CELSIUS, 0.03, 100.0 * np.pi
 LOAD = 5e3
-"""It takes the cold journal to an eccentricity ratio of .48 [N]."""
+"""It takes the cold journal to an eccentricity ratio of 0.48 [N]."""
 
 HEAT_CELLS, LAYERS = (48, 4), 6
 
@@ -419,14 +419,14 @@ COMPARED = (HeatModel.SUPPLY, HeatModel.HOUSING, HeatModel.BUSH)
 
 @panel("heat", f"models, Pe = {AT_PECLET:g}", "thinning x rise E", "error of the position", logarithmic=True)
 def heat_rise() -> Iterator[Curve]:
-    """Yield what the models err by as oil thins more."""
+    """Yield the errors of the models as oil thins more."""
     for model in COMPARED:
         yield model.label, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
 
 
 @panel("heat", f"models, E = {AT_RISE:g}", "Peclet number Pe", "error of the position", logarithmic=True)
 def heat_peclet() -> Iterator[Curve]:
-    """Yield what the models err by as oil conducts less."""
+    """Yield the errors of the models as oil conducts less."""
     for model in COMPARED:
         yield model.label, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
 
@@ -435,7 +435,7 @@ def heat_peclet() -> Iterator[Curve]:
     "heat", "no profile across the film (T2)", "Nahme number Na", "error of the position", logarithmic=True
 )
 def heat_profile() -> Iterator[Curve]:
-    """Yield what a mean temperature across the film errs by."""
+    """Yield the errors of a mean temperature across the film."""
     case = heat_case(1.0, AT_PECLET)
     # Na/E at this Peclet number, which the geometry and the load decide
     per_rise = _cold_numbers(case).nahme
@@ -520,7 +520,7 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
     logarithmic=True,
 )
 def rotor_time_step() -> Iterator[Curve]:
-    """Yield what steps of each scheme err by."""
+    """Yield the errors of steps of each scheme."""
     matrix = _rotor_matrix(STEP_AT, STEP_MASS)
     shortest = 1.0 / float(np.abs(np.linalg.eigvals(matrix)).max())
     whole = TURNS * 2.0 * np.pi / SPEED
@@ -600,7 +600,7 @@ def _damper_errors(models: Sequence[PorousDamper], better: Sequence[PorousDamper
     logarithmic=True,
 )
 def damper_length() -> Iterator[Curve]:
-    """Yield what the short film errs by, on a solid and on a porous cage."""
+    """Yield the errors of the short film, on a solid and on a porous cage."""
     slenderness = np.geomspace(0.05, 1.5, 12)
     for cage, number in (("solid cage", 0.0), ("porous, Phi = 0.1", 0.1)):
         made = [compared_damper(ld, number) for ld in slenderness.tolist()]
@@ -617,7 +617,7 @@ def damper_length() -> Iterator[Curve]:
     logarithmic=True,
 )
 def damper_cage() -> Iterator[Curve]:
-    """Yield what a cage without depth, or without pores, errs by."""
+    """Yield the errors of a cage without depth, or without pores,."""
     numbers = np.geomspace(1e-5, 10.0, 25)
     whole = [compared_damper(0.25, number) for number in numbers.tolist()]
     thin = [replace(one.cage, thin=True) for one in whole if one.cage is not None]
@@ -629,7 +629,7 @@ def damper_cage() -> Iterator[Curve]:
 
 @panel("damper", "linearization about the center", "radius of the orbit / clearance", "error of the force")
 def damper_linearization() -> Iterator[Curve]:
-    """Yield what damping at the center errs by in large orbits."""
+    """Yield the errors of damping at the center in large orbits."""
     ratios = np.linspace(0.02, 0.9, 30)
     for slenderness in SLENDERNESSES:
         full = replace(compared_damper(slenderness), film=FiniteSqueeze())
@@ -675,7 +675,7 @@ STEPPERS: dict[str, Callable[[complex], complex]] = {
     logarithmic=True,
 )
 def contact_grid() -> Iterator[Curve]:
-    """Yield what coarse grids err by, upwind and staggered."""
+    """Yield the errors of coarse grids, upwind and staggered."""
     fine, coarse = (_films(published_contact(cells, UpwindScheme())) for cells in REFERENCE)
     right = fine + (fine - coarse) / ((REFERENCE[0] / REFERENCE[1]) ** UpwindScheme.order - 1.0)
     schemes: dict[str, ContactScheme] = {"upwind": UpwindScheme(), "as published": StaggeredScheme()}
@@ -723,7 +723,7 @@ EXTENT = 1.5
 
 @panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
 def bush_flux() -> Iterator[Curve]:
-    """Yield what the closed form errs by."""
+    """Yield the errors of the closed form."""
     for stubbiness in STUBBINESSES:
         *_, errors = shaft_flux_errors(stubbinesses=(stubbiness,)).values()
         yield f"shaft radius / half length {stubbiness:g}", COOLINGS, np.abs(errors)
@@ -731,7 +731,7 @@ def bush_flux() -> Iterator[Curve]:
 
 @panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
 def bush_published() -> Iterator[Curve]:
-    """Yield what the published stage errs by under a growing load."""
+    """Yield the errors of the published stage under a growing load."""
     times, exact = _exact()
     grown = 1.0 + (BUSH_LOADS[1] / BUSH_LOADS[0] - 1.0) * times / DURATION
     for steps in STEPS:
@@ -747,7 +747,7 @@ def bush_published() -> Iterator[Curve]:
     logarithmic=True,
 )
 def bush_nodes() -> Iterator[Curve]:
-    """Yield what few nodes err by."""
+    """Yield the errors of few nodes."""
     times, exact = _exact()
     errors = []
     for nodes in NODES:

@@ -206,7 +206,7 @@ def test_contact_is_no_number_but_a_statement():
     thin = scene(FULL, SCENE.replace("5 mPa s", "0.2 mPa s"))
     solid = asked(with_loss(thin, 1e-2), "peak_displacement", 0.5).ask()
     assert not solid.met
-    assert solid.message.startswith("no rung can be trusted; the closest may be nonlinear, 768 steps")
+    assert solid.message.startswith("no model can be trusted; the closest may be nonlinear, 768 steps")
     assert (
         "it may touch the wall" in solid.rungs[-1].reason or "leave the clearance" in solid.rungs[-1].reason
     )

@@ -435,7 +435,7 @@ class MassConserving(ConservedAtRest):
 
     A film is a Stepped model: the input u is the motion of the journal at the end of a step. On the way there
     it goes along the cubic with the positions and velocities of both ends, in inner steps of a turn/192 and
-    .02 clearances at most, halved where the film is not found. Outputs belong to the end of the last step,
+    0.02 clearances at most, halved where the film is not found. Outputs belong to the end of the last step,
     mean flows to the whole of it. They have the differences of the inner steps, so that in steps of any
     length, to round-off,
 

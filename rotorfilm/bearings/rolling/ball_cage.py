@@ -168,8 +168,8 @@ class FiveDegreeBalls:
     """A ball bearing, or a pair, as a static Model of five degrees of freedom.
 
     Its inputs are x, y, z [m], tilt_x, tilt_y [rad] of the shaft, vx, vy [m/s] for the damping, the speed
-    [rad/s], and the angles of the cage and of the shaft [rad]; its outputs three forces [N] and two moments
-    [N m] on the shaft. How the bearing holds z and tilts of a planar rotor does not count here.
+    [rad/s], and the angles of the cage and of the shaft [rad]. Its outputs are three forces [N] and two
+    moments [N m] on the shaft. How the bearing holds z and tilts of a planar rotor does not count here.
 
     Parameters
     ----------
