@@ -81,7 +81,8 @@ class ShaftRotor(Plottable, FlexibleRotor):
         elements and couplings and drives forward whirl slower than the shaft.
     mass_damping, stiffness_damping : float [1/s, s]
         Proportional damping alpha M + beta K of shaft and disks against the ground: it does not turn with the
-        shaft. A mode w of a free shaft has the damping ratio alpha / (2 w) + beta w / 2.
+        shaft. A mode w of a free shaft has the damping ratio
+        `alpha / (2 w) + beta w / 2`.
     loss_factor : float [1]
         Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
         strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
