@@ -369,8 +369,8 @@ def _tilting_candidate(
     )
 
 
-PAD_STATICS = [name for name in QUANTITIES if name not in ("maximum_temperature", "maximum_pressure")]
-"""Static quantities of pads: films of one temperature, of which only those with recesses tell a pressure."""
+PAD_STATICS = [name for name in QUANTITIES if name != "maximum_pressure"]
+"""Static quantities of pads, of which only those with recesses tell a pressure."""
 
 
 # What bearings of fixed pads bring to scenes and questions.

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ..analysis import equilibrium, heated_equilibrium
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import (
+    AdiabaticWalls,
     BushRing,
     FilmProfile,
     HeatedFilm,
@@ -31,6 +32,7 @@ from ..bearings.journal import (
 )
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import RING
+from ..bearings.pads import PadBearing, TiltingPadBearing
 from ..core.errors import RotorfilmError
 from ..core.port import Reaction
 from ..core.results import Coefficients, Equilibrium
@@ -95,13 +97,15 @@ class WarmRest(JournalEquilibrium):
         return film_coefficients(self.reaction, self.rest.position, self.rest.speed)
 
 
-def bush_of(bearing: JournalBearing) -> Walls:
+def bush_of(bearing: Any) -> Walls:
     """Return the bush that a temperature field is in: of steel, to `RING` times the radius.
 
     It carries as much heat to the ambient as the housing conductance of the bearing's cooling; where that is
     0 it conducts around the film only. One that would hold that heat up is thinner. The shaft is as warm as
-    makes its net heat zero.
+    makes its net heat zero. Tilting pads take no heat.
     """
+    if isinstance(bearing, TiltingPadBearing):
+        return AdiabaticWalls()
     _, cooling = bearing.cooled
     R, outer = bearing.radius, RING * bearing.radius
     wanted = cooling.housing_conductance / (2.0 * math.pi * R * bearing.length)
@@ -149,7 +153,10 @@ def warm_field(
     if isinstance(bearing, JFOFilm):
         film = replace(bearing, cells=cells)
         return HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
-    return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=profile)
+    around, along = cells
+    if isinstance(bearing, PadBearing):
+        around *= (len(bearing.arcs) + 1) // 2  # as many on each pad as on one of two
+    return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=(around, along), profile=profile)
 
 
 def ends_within(bearing: JournalBearing | JFOFilm) -> bool:
@@ -199,6 +206,15 @@ def rest_of_state(
 PROFILE, CELLS = LayeredTemperature(8), (80, 8)
 """Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
+
+def richest_profile(bearing: Any) -> FilmProfile:
+    """Return the profile across the film towards which steps lead.
+
+    The oil beside a wall that takes no heat gets too hot: for tilting pads it is the mean.
+    """
+    return MeanTemperature() if isinstance(bearing, TiltingPadBearing) else PROFILE
+
+
 HALF = (CELLS[0] // 2, CELLS[1] // 2)
 """Cells twice as long."""
 
@@ -242,6 +258,11 @@ class HeatSteps:
     bearing: JournalBearing | JFOFilm
     own: WarmRest
 
+    @property
+    def name(self) -> str:
+        """Where they lead."""
+        return f"steps towards {'T3' if richest_profile(self.bearing).layers > 1 else 'T2'}"
+
     @cached_property
     def taken(self) -> tuple[WarmRest, ...]:
         """The rests after each step."""
@@ -266,7 +287,7 @@ class HeatSteps:
         first = max(float(moves[0]), SMALL * self.bearing.clearance)
         if moves[-1] <= SETTLED * first:
             return ""
-        return f"step {STEPS} towards T3 moves the journal by {moves[-1] / first:.0%} of the first"
+        return f"step {STEPS} moves the journal by {moves[-1] / first:.0%} of the first"
 
     def _steps(self, cells: tuple[int, int]) -> tuple[WarmRest, ...]:
         own, bearing = self.own, self.bearing
@@ -283,7 +304,7 @@ class HeatSteps:
         return tuple(found)
 
     def _film(self, cells: tuple[int, int]) -> HeatedFilm | HeatedJFOFilm:
-        return warm_field(self.bearing, cells, PROFILE)
+        return warm_field(self.bearing, cells, richest_profile(self.bearing))
 
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
         """Return the start by one temperature on these cells, whose own error is none of the heat.
@@ -505,7 +526,9 @@ def assumed_figures(bearing: Any, moved: Callable[[Any], float], *, fields: bool
         except RotorfilmError:
             change = "a change that is not known"
         lines.append(f"{text}: moves the answer by {change}")
-    if fields:
+    if fields and isinstance(bearing, TiltingPadBearing):
+        lines.append("pads of T2: take no heat, which makes the oil too hot by some kelvins")
+    elif fields:
         lines.append(
             f"bush of T2 and T3: steel to {RING:g} times the radius, that gives off what housing_conductance "
             "says; the shaft takes no heat in the mean"
