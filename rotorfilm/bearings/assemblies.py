@@ -385,25 +385,47 @@ class Parallel(SharedReaction):
             total[rows] += force_along(one, position[rows], velocity[rows], acceleration[rows], speed)
         return total
 
+    @cached_property
+    def _varying(self) -> list[_Place]:
+        """The reactions besides springs and dampers."""
+        return [place for place in self._places if not is_constant(place.reaction)]
+
+    @cached_property
+    def _springs(self) -> Array:
+        """Derivatives of the forces of all springs and dampers together, shape (n, 2 n + 1)."""
+        n = len(self.freedoms)
+        total = np.zeros((n, 2 * n + 1))
+        for one, rows, columns, _ in self._places:
+            if is_constant(one):
+                still = np.zeros(len(rows))
+                total[np.ix_(rows, columns)] += static_slopes(one, still, still, 0.0)
+        return total
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops; states are held where they begin."""
-        total = np.zeros(position.shape)
-        for one, rows, _, _ in self._places:
-            total[rows] += static_force(one, position[rows], velocity[rows], speed)
+        total = np.tensordot(self._springs[:, :-1], np.concatenate([position, velocity]), 1)
+        for one, rows, _, _ in self._varying:
+            if len(rows) == len(total):
+                total += static_force(one, position, velocity, speed)
+            else:
+                total[rows] += static_force(one, position[rows], velocity[rows], speed)
         return total
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops."""
-        total = np.zeros((len(position), 2 * len(position) + 1, *speed.shape))
-        for one, rows, columns, _ in self._places:
-            total[np.ix_(rows, columns)] += static_slopes(one, position[rows], velocity[rows], speed)
+        total = self._springs.reshape(*self._springs.shape, *[1] * speed.ndim) + np.zeros(speed.shape)
+        for one, rows, columns, _ in self._varying:
+            if len(rows) == len(total):
+                total += static_slopes(one, position, velocity, speed)
+            else:
+                total[np.ix_(rows, columns)] += static_slopes(one, position[rows], velocity[rows], speed)
         return total
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the forces on the shaft, and with inertia the mass [kg], at u = (places, rates, speed)."""
         state, values, n = self._checked(x), input_vector(u, self.freedoms), len(self.freedoms)
-        total = np.zeros(n)
-        for one, rows, columns, inner in self._places:
+        total = self._springs @ values
+        for one, rows, columns, inner in self._varying:
             total[rows] += one.output(t, state[inner], values[columns])[: len(rows)]
         mass = self.mass(values[:n], values[n : 2 * n], values[-1]) if self.has_inertia else np.zeros((n, n))
         return np.concatenate([total, mass_entries(self, mass)])
