@@ -64,11 +64,11 @@ from ..scenes.damper_films import (
     damper_models,
     lands,
     mapped_short,
+    on_springs,
     orbit_films,
     plain_films,
     quiet,
     rotor_remarks,
-    sprung,
 )
 from ..scenes.damper_table import DamperTable
 from ..scenes.excitation_table import BladeLossTable, RunUpTable
@@ -113,13 +113,13 @@ class DamperCurveRung(CandidateRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs."""
-        return sprung(self.film.reaction, self.stiffness)
+        return on_springs(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> PlanarReaction:
         """Film and springs that are quick enough for hundreds of orbits."""
         slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
-        return sprung(self.film.moving, self.stiffness) if slow else self.support
+        return on_springs(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> WorkUnit:
@@ -188,7 +188,7 @@ class DamperCurveRung(CandidateRung):
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {limit:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
         change = self._fold if self.is_fold else self._orbit
-        richer = damped_orbit(self.rotor, sprung(rich, self.stiffness))
+        richer = damped_orbit(self.rotor, on_springs(rich, self.stiffness))
         value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
@@ -359,7 +359,7 @@ class DamperPeakRung(PeakRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs, the film on its map where it has one."""
-        return sprung(self.film.moving, self.stiffness)
+        return on_springs(self.film.moving, self.stiffness)
 
     @cached_property
     def tangent(self) -> Tangent:
@@ -370,7 +370,7 @@ class DamperPeakRung(PeakRung):
     def rich(self) -> PlanarReaction | None:
         """The richer film and the springs; None if there is none."""
         found = self.film.rich_moving
-        return None if found is None else sprung(found, self.stiffness)
+        return None if found is None else on_springs(found, self.stiffness)
 
     @property
     def shaken(self) -> ExcitedRotor:

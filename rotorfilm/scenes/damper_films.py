@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..analysis.circular_orbits import synchronous_orbits
-from ..bearings.assemblies import Sprung
+from ..bearings.assemblies import Parallel, with_springs
 from ..bearings.damper import (
     FULL_LIMITS,
     RUPTURED_LIMITS,
@@ -275,9 +275,9 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def sprung(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> PlanarReaction:
+def on_springs(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> PlanarReaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
-    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+    return with_springs(damper, stiffness) if stiffness else damper
 
 
 # The films of a damper with seals or inertia as rungs: without and with inertia, short and finite.
@@ -608,7 +608,7 @@ def _orbits(damper: PorousDamper, stiffness: float, rotor: RigidRotor) -> tuple[
     slow = damper.is_fed and not isinstance(damper.extent, FullFilm)
     if slow or not rotor.unbalance:
         return ()
-    return synchronous_orbits(rotor, sprung(damper, stiffness)).at(rotor.unbalance)
+    return synchronous_orbits(rotor, on_springs(damper, stiffness)).at(rotor.unbalance)
 
 
 def _smallest_stable(found: tuple[CircularOrbit, ...]) -> CircularOrbit | None:
@@ -638,7 +638,7 @@ class DamperScene(NamedTuple):
     ----------
     rotor : RigidRotor
         At the center of the damper, or its offset, at rest.
-    support : PorousDamper, Sprung or JFODamper
+    support : PorousDamper, Parallel or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.
     duration : float [s]
@@ -647,7 +647,7 @@ class DamperScene(NamedTuple):
     """
 
     rotor: RigidRotor
-    support: PorousDamper | Sprung | JFODamper
+    support: PorousDamper | Parallel | JFODamper
     start: float
     duration: float
     step: float

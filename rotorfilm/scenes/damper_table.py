@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-from ..bearings.assemblies import Sprung
+from ..bearings.assemblies import Parallel, with_springs
 from ..bearings.damper import (
     AxialFeed,
     DamperSupply,
@@ -225,13 +225,13 @@ class DamperTable(Taking):
                 )
         return made_from(JFODamper, self, supply=supply)
 
-    def support(self) -> PorousDamper | Sprung | JFODamper:
+    def support(self) -> PorousDamper | Parallel | JFODamper:
         """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
         if self.supply is not None and self.film is None:
             return replace(self.conserved(self.supply), cells=CELLS)
         return self.plain()
 
-    def plain(self) -> PorousDamper | Sprung:
+    def plain(self) -> PorousDamper | Parallel:
         """Return the damper of a film that knows no supply, with its springs, if it has some."""
         damper = self.build()
-        return Sprung(reaction=damper, stiffness=self.stiffness) if self.stiffness else damper
+        return with_springs(damper, self.stiffness) if self.stiffness else damper

@@ -668,7 +668,7 @@ class EndSeal:
 
     Damping and added mass of a sealed damper are set by its seals, not by its film, and no seal is known to
     better than some tenths: its uncertainty belongs to every answer. An O-ring is tight (leakage 0), with a
-    stiffness of its own that `Sprung` adds.
+    stiffness of its own that `with_springs` adds.
 
     Parameters
     ----------
