@@ -32,7 +32,7 @@ from ...core.errors import (
 from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_call import FilmCall, address_of
-from ...native.film_kernels import Batch, ResponseKernel
+from ...native.film_kernels import Batch, ResponseKernel, static_rate as static_rate
 from ...native.loss_kernels import LossKernel
 from ..reaction import broadcast_state, without_overflow
 from .geometry import FilmGeometry
@@ -92,6 +92,13 @@ class FilmOptions:
 
     def fitted(self, geometry: FilmGeometry) -> FilmLaw | None:
         """Return the law in a bearing of this geometry; None if it can represent no openings nor supply."""
+        return None
+
+    def at_scale(self, reynolds_scale: float) -> FilmLaw | None:
+        """Return the law in a bearing of this radius times clearance over viscosity [m3/kg s].
+
+        None if the law does not change with the Reynolds number, density |speed| times that.
+        """
         return None
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel | None:
@@ -657,13 +664,6 @@ def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
         if span.film > 0.0
     ]
     return np.asarray(np.sum(parts, axis=0))
-
-
-def static_rate(eccentricity: Array, source: Array) -> Array:
-    """Return the rate at which the oil of a journal at rest runs, speed/2 [1/s]; 0 at the center."""
-    squared = (eccentricity * eccentricity).sum(axis=0)
-    turned = eccentricity[1] * source[0] - eccentricity[0] * source[1]
-    return np.asarray(np.where(squared > 0.0, turned, 0.0) / np.where(squared > 0.0, squared, 1.0))
 
 
 def gap_integral(chi: Array | float, angle: Array | float) -> Array:

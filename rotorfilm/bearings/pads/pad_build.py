@@ -35,6 +35,7 @@ from ..films.map_fit import (
     quintic_coefficients,
     state_errors,
 )
+from ..films.mobility import Mobility
 from .pad_table import (
     CELLS as LOSS_CELLS,
     LARGEST,
@@ -62,7 +63,13 @@ CELLS = (96, 8)
 
 @lru_cache(maxsize=64)
 def pad_grid(
-    extent: float, slenderness: float, cells: tuple[int, int] = CELLS, *, extrapolated: bool = True
+    extent: float,
+    slenderness: float,
+    cells: tuple[int, int] = CELLS,
+    mobility: Mobility | None = None,
+    per_rate: float = 0.0,
+    *,
+    extrapolated: bool = True,
 ) -> RingKernel:
     """Return the film on one pad in its own frame, ruptured where it would be in tension.
 
@@ -74,14 +81,16 @@ def pad_grid(
         Length / diameter.
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4.
+    mobility : Mobility or None
+    per_rate : float [s]
+        Local Reynolds number over thickness and half the speed, where the mobility has a density.
     extrapolated : bool
         Whether the force is that extrapolated from these cells and half as many.
     """
     geometry = FilmGeometry(pads=(Pad(start=-0.5 * extent, extent=extent),))
     grids = ring_grids(geometry, *cells, max(slenderness, LONG))
-    return RingKernel(
-        slenderness, ring_spans(geometry), grids, Complementarity(), extrapolated=extrapolated, pad=True
-    )
+    own = (slenderness, ring_spans(geometry), grids, Complementarity(), extrapolated)
+    return RingKernel(*own, pad=True, mobility=mobility, per_rate=per_rate)
 
 
 # How the map of a pad is made: potentials of the two-dimensional film, and their fit.

@@ -17,9 +17,10 @@ from ...core.progress import Report, silent
 from ...core.sources import source_digest
 from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
-from ..films.finite_volumes import require_cells
+from ..films.finite_volumes import RingKernel, require_cells
 from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
+from ..films.mobility import Mobility, per_rate, require_mobility
 from . import pad_build
 from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
@@ -144,25 +145,40 @@ class PadGridFilm:
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4. The force is
         extrapolated from these and half as many; that of 96 x 8 is within 1e-3 in 99 of 100 states.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, set by the bearing where the mobility has a density.
 
     Raises
     ------
     InputError
-        If the cells break their rule.
+        If the cells break their rule, or another argument is of the wrong kind.
     """
 
     cells: tuple[int, int] = CELLS
+    mobility: Mobility | None = None
+    reynolds_scale: float = field(default=0.0, repr=False)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
+        require_mobility(self.mobility)
+
+    def at_scale(self, reynolds_scale: float) -> PadGridFilm:
+        """Return this film in a bearing of this radius times clearance over viscosity [m3/kg s]."""
+        return replace(self, reynolds_scale=reynolds_scale)
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
-        return pad_grid(extent, slenderness, self.cells)
+        return self._grid(extent, slenderness)
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest; see `LossyPadFilm`."""
-        return partial(grid_flows, pad_grid(extent, slenderness, self.cells))
+        return partial(grid_flows, self._grid(extent, slenderness))
+
+    def _grid(self, extent: float, slenderness: float) -> RingKernel:
+        own = (self.mobility, per_rate(self.mobility, self.reynolds_scale))
+        return pad_grid(extent, slenderness, self.cells, *own)
 
 
 def fitted_pad_film(
