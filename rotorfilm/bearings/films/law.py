@@ -36,6 +36,7 @@ from ...native.film_kernels import Batch, ResponseKernel, static_rate as static_
 from ...native.loss_kernels import LossKernel
 from ..reaction import broadcast_state, without_overflow
 from .geometry import FilmGeometry
+from .mobility import Mobility, sheared_gap
 
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle, or that of the centered film."""
@@ -655,13 +656,27 @@ def kernel_losses(
     return FilmLosses(film, streamers, gap, flow, none, none, batch.slopes.reshape(3, 4, *shape))
 
 
-def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
-    """Return Sigma of a gap that is full all round but for the openings, at eccentricities (2, ...)."""
+def gap_shear(
+    eccentricity: Array,
+    geometry: FilmGeometry,
+    mobility: Mobility | None = None,
+    per_thickness: Array | None = None,
+) -> Array:
+    """Return Sigma of a gap that is full all round but for the openings, at eccentricities (2, ...).
+
+    Where a mobility changes with the speed, its X per thickness (...) is asked for.
+    """
+    films = [span for span in geometry.spans() if span.film > 0.0]
+    if mobility is not None:
+        flat, shape = eccentricity.reshape(2, -1), eccentricity.shape[1:]
+        grown = mobility.per_thickness if per_thickness is None else per_thickness
+        own = mobility, np.broadcast_to(grown, shape).ravel(), flat
+        eased = [span.film * sheared_gap(*own, span.start, span.end)[0] for span in films]
+        return np.asarray(np.sum(eased, axis=0)).reshape(shape)
     chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
     parts = [
         span.film * (gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away))
-        for span in geometry.spans()
-        if span.film > 0.0
+        for span in films
     ]
     return np.asarray(np.sum(parts, axis=0))
 

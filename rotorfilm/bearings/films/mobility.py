@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -63,6 +64,15 @@ class Mobility(StoredTable):
                 "scale, last_node and per_thickness of a mobility must be positive and density not negative, "
                 f"got {(*numbers, self.density)!r}"
             )
+
+    def __repr__(self) -> str:
+        """As its checksum, which stands in the names of maps that are kept."""
+        return f"Mobility(checksum={self.checksum:.0f})"
+
+    @property
+    def checksum(self) -> float:
+        """Checksum of its numbers, by which maps know it."""
+        return float(zlib.crc32(self._content))
 
     @property
     def drags(self) -> bool:
@@ -160,6 +170,27 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
 def require_mobility(mobility: object) -> None:
     """Raise InputError unless this is a mobility or None."""
     require_kind("mobility", mobility, Mobility | None, "a Mobility, as of mobility_of(...), or None")
+
+
+def require_thickness_law(mobility: Mobility | None) -> None:
+    """Raise InputError where a film has no potential that a map could hold, or one for each speed."""
+    require_mobility(mobility)
+    if mobility is not None and (mobility.drags or mobility.density > 0.0):
+        raise InputError(
+            "mobility of a map must be a law of the thickness that leaves the Couette flow as it is; a film "
+            f"on a grid takes others, got {mobility!r}"
+        )
+
+
+def checksum_of(mobility: Mobility | None) -> float:
+    """Return the checksum of a mobility, 0 for none."""
+    return 0.0 if mobility is None else mobility.checksum
+
+
+def require_same_mobility(told: float, mobility: Mobility | None) -> None:
+    """Raise InputError unless this is the mobility that a table has a checksum of."""
+    if told != checksum_of(mobility):
+        raise InputError(f"mobility must be that of the table, with checksum {told:.0f}, got {mobility!r}")
 
 
 GAUSS = np.polynomial.legendre.leggauss(24)

@@ -264,7 +264,7 @@ class JournalBearing(FilmReaction, WarmBearing):
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
         """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
         law = options(self.fitted_film, FilmOptions)
-        if is_sped(law):
+        if is_sped(law) or getattr(law, "mobility", None) is not None:  # the gaps of the library are laminar
             return None
         losses = law.loss_kernel(self.slenderness)
         scale = self.film_length * self.radius**3 / self.clearance**2

@@ -31,7 +31,7 @@ from ..films.finite_volumes import (
 )
 from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
-from ..films.mobility import Mobility, per_rate, require_mobility, sheared_gap
+from ..films.mobility import Mobility, per_rate, require_mobility
 
 
 @quantities
@@ -182,15 +182,9 @@ class ReynoldsFilm(KernelFilm):
         # Nothing flows out of the line at which a film starts, if it starts at one.
         inflow, arriving = np.array(openings).reshape(2, -1, *shape)[:, self.film_start != FREE :]
         film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
-        gap = gap_shear(e, self.geometry)
-        if self.mobility is not None:
-            per_thickness = self.mobility.at_rate(along, self.reynolds_scale)
-            spans = [span for span in self.geometry.spans() if span.film > 0.0]
-            parts = [
-                span.film * sheared_gap(self.mobility, per_thickness, flat[0], span.start, span.end)[0]
-                for span in spans
-            ]
-            gap = np.sum(parts, axis=0).reshape(shape)
+        eased = self.mobility
+        grown = None if eased is None else eased.at_rate(along, self.reynolds_scale).reshape(shape)
+        gap = gap_shear(e, self.geometry, eased, grown)
         return FilmLosses(film, streamers, gap, flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:

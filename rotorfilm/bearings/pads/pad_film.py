@@ -20,7 +20,13 @@ from ...native.film_kernels import FilmKernel
 from ..films.finite_volumes import RingKernel, require_cells
 from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
-from ..films.mobility import Mobility, per_rate, require_mobility
+from ..films.mobility import (
+    Mobility,
+    per_rate,
+    require_mobility,
+    require_same_mobility,
+    require_thickness_law,
+)
 from . import pad_build
 from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
@@ -70,13 +76,20 @@ class PadMapFilm:
         Cells and nodes of the map.
     tables : tuple of PadMapTable
         Maps that are there already: for pads of these shapes nothing is built nor looked for.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
+        factor of its Couette flow is 1, and it does not change with the speed.
     much_preload : bool
         Set by the bearing: whether a pad has a preload above 0.5, for which the default map is another one.
     """
 
     resolution: PadResolution = FINE
     tables: tuple[PadMapTable, ...] = ()
+    mobility: Mobility | None = None
     much_preload: bool = field(default=False, repr=False)
+
+    def __post_init__(self) -> None:
+        require_thickness_law(self.mobility)
 
     def table(self, extent: float, slenderness: float, report: Report = silent) -> PadMapTable:
         """Return the map of a pad: a given one, the one on disk, or a new one, which is then kept.
@@ -105,6 +118,7 @@ class PadMapFilm:
     def _given(self, extent: float, slenderness: float) -> PadMapTable | None:
         shape = np.array([extent, slenderness])
         for table in self.tables:
+            require_same_mobility(table.mobility, self.mobility)
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
                 return table
         return None
@@ -112,7 +126,8 @@ class PadMapFilm:
     @property
     def own_resolution(self) -> PadResolution:
         """Cells and nodes of the map of these pads; the default ones go by their preload."""
-        return NEAR if self.much_preload and self.resolution == FINE else self.resolution
+        near = self.much_preload and self.resolution == FINE
+        return replace(NEAR if near else self.resolution, mobility=self.mobility)
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest from its maps; see `LossyPadFilm`."""

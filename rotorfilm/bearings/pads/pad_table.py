@@ -57,6 +57,8 @@ class PadMapTable(BoundedTable):
         Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
         the force, and of K and C, relative to what is said there, of the shear at rest, and of flows at rest
         relative to what enters a concentric pad.
+    mobility : float
+        Checksum of the mobility of its oil, 0 of a laminar film.
 
     Raises
     ------
@@ -71,6 +73,7 @@ class PadMapTable(BoundedTable):
     coefficients: Array = field(repr=False)
     losses: Array = field(repr=False)
     bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
+    mobility: float = 0.0
     _outward: ClassVar[bool] = False
 
     def __post_init__(self) -> None:

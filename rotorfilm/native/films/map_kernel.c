@@ -107,7 +107,7 @@ void rf_map_to_wall(rf_map *map)
 
 int rf_map_error(const rf_map *map)
 {
-    return map->slenderness > 0.0 ? rf_wall_error(map->x.last) : 0;
+    return map->slenderness > 0.0 && !map->eased ? rf_wall_error(map->x.last) : 0;
 }
 
 /* u and Y of a place, and their derivatives: u does not depend on eta. */

@@ -42,7 +42,7 @@ typedef struct rf_map {
     const double *coefficients; /* of M, with 5 more than cells in each axis, s fastest; of turns the last five repeat */
     const double *center;       /* of L0: a number, or with openings over phi as the angles */
     int32_t cells_w;            /* cells of a turn in phi, for L0 with openings */
-    int32_t unused;
+    int32_t eased;              /* whether the oil has a mobility, so that beyond the last node the error is unknown */
     double squeeze, axis;       /* in (0, 1]; angle of the axis of the openings in the bearing frame [rad] */
     double sine, cosine;        /* of b, of a pad */
     double slenderness, share;  /* length/diameter of the film at the wall, 0 where it is not that; its share, 1 in units of

@@ -27,6 +27,7 @@ static int set_coordinates(rf_map *map, int32_t kind, uint32_t given, const doub
         map->x.last = n[1];
         map->squeeze = n[2];
         map->axis = n[3];
+        map->eased = given == 5 && n[4] == 0.0;
         return n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0 && n[2] <= 1.0;
     }
     if (kind == RF_PAD) {
@@ -57,7 +58,7 @@ int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tabl
     const uint32_t *n = c->extent, layers = plain ? n[0] : LEAST, count = kind == RF_PAD ? LEAST : center->extent[0];
     const uint32_t given = numbers->extent[0];
     int fits = plain ? count == layers && (layers == 1 || (kind == RF_LAYERED && layers >= LEAST)) : count >= LEAST;
-    fits = fits && layers <= MOST && count <= MOST && (plain ? given == 1 || given == 3 : given == 4);
+    fits = fits && layers <= MOST && count <= MOST && (plain ? given == 1 || given == 3 : given == 4 || (given == 5 && kind == RF_GROOVED));
     for (int k = plain; k < 3; ++k)
         fits = fits && n[k] >= LEAST && n[k] <= MOST;
     if (!fits)
