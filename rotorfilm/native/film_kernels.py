@@ -136,6 +136,7 @@ class MapKind(Enum):
     PLAIN = "rf_map_film"
     GROOVED = "rf_groove_film"
     PAD = "rf_pad_film"
+    SPED = "rf_sped_film"
 
 
 class MapKernel(FilmKernel):
@@ -159,6 +160,7 @@ class MapKernel(FilmKernel):
     def __init__(self, kind: MapKind, tables: Mapping[str, ArrayLike]) -> None:
         self._arguments = kind, tables
         self._function, self.openings = kind.value, kind is MapKind.GROOVED
+        self.sped = kind is MapKind.SPED
         self._tables = as_floats(tables)
         number = constant(f"RF_{kind.name}")
         self.struct = taken(structure("rf_map")(), "rf_take_map", self._tables, number, b"")

@@ -1,4 +1,4 @@
-"""Maps of films whose oil has a mobility, and their losses, against the films on grids that they are made of."""
+"""Maps of films whose oil has a mobility, and their losses, against the films on grids."""
 
 from dataclasses import replace
 
