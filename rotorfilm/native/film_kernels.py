@@ -59,6 +59,8 @@ class FilmKernel:
         Whether that holds only where no opening is near.
     is_table : bool
         Whether it has a table, beyond which it goes on.
+    sped : bool
+        Whether the force changes with the speed by more than its source.
     """
 
     _function: str
@@ -66,6 +68,7 @@ class FilmKernel:
     struct: Any
     error: float = 0.0
     openings: bool = False
+    sped: bool = False
     is_table: ClassVar[bool] = False
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -81,18 +84,29 @@ class FilmKernel:
         """The address of its rf_film."""
         return address_of(self._function)
 
-    def force(self, eccentricity: Array, source: Array) -> Batch:
-        """Return the forces (2, n) at the eccentricities and sources (2, n)."""
-        return self._batch(eccentricity, source, ())
+    def force(self, eccentricity: Array, source: Array, rate: Array | None = None) -> Batch:
+        """Return the forces (2, n) at the eccentricities and sources (2, n).
 
-    def jacobian(self, eccentricity: Array, source: Array) -> Batch:
-        """Return d force / d (eccentricity, source), shape (2, 4, n)."""
-        return self._batch(eccentricity, source, (2, 4))
+        A film that changes with the speed by more than its source asks for half of it, (n,) [1/s]; by default
+        it is that of a journal at rest.
+        """
+        return self._batch(eccentricity, source, (), rate)
 
-    def _batch(self, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
-        e, w = as_rows(e), as_rows(w)
-        film = [self.film, byref(self.struct)]
-        return run_batch("rf_film_batch", film, e.shape[1], [*row_places(e), *row_places(w)], shape)
+    def jacobian(self, eccentricity: Array, source: Array, rate: Array | None = None) -> Batch:
+        """Return d force / d (eccentricity, source), shape (2, 4, n), at one speed; see `force`."""
+        found = self._batch(eccentricity, source, (10,) if self.sped else (2, 4), rate)
+        return found._replace(values=found.values[:8].reshape(2, 4, -1)) if self.sped else found
+
+    def rate_slopes(self, eccentricity: Array, source: Array, rate: Array) -> Array:
+        """Return d force / d rate, shape (2, n), of a film that changes with the speed; see `force`."""
+        return self._batch(eccentricity, source, (10,), rate).values[8:]
+
+    def _batch(self, e: Array, w: Array, shape: tuple[int, ...], rate: Array | None = None) -> Batch:
+        e, w, film = as_rows(e), as_rows(w), [self.film, byref(self.struct)]
+        if self.sped:
+            along = np.ascontiguousarray(static_rate(e, w) if rate is None else rate, dtype=float)
+        given = [*row_places(e), *row_places(w), along.ctypes.data if self.sped else None]
+        return run_batch("rf_film_batch", film, e.shape[1], given, shape)
 
 
 class ShortKernel(FilmKernel):
@@ -122,6 +136,7 @@ class MapKind(Enum):
     PLAIN = "rf_map_film"
     GROOVED = "rf_groove_film"
     PAD = "rf_pad_film"
+    SPED = "rf_sped_film"
 
 
 class MapKernel(FilmKernel):
@@ -145,6 +160,7 @@ class MapKernel(FilmKernel):
     def __init__(self, kind: MapKind, tables: Mapping[str, ArrayLike]) -> None:
         self._arguments = kind, tables
         self._function, self.openings = kind.value, kind is MapKind.GROOVED
+        self.sped = kind is MapKind.SPED
         self._tables = as_floats(tables)
         number = constant(f"RF_{kind.name}")
         self.struct = taken(structure("rf_map")(), "rf_take_map", self._tables, number, b"")
@@ -156,6 +172,13 @@ class MapKernel(FilmKernel):
     def tables(self) -> dict[str, Array]:
         """The map; see `FilmKernel.tables`."""
         return self._tables
+
+
+def static_rate(eccentricity: Array, source: Array) -> Array:
+    """Return the rate at which the oil of a journal at rest runs, speed/2 [1/s]; 0 at the center."""
+    squared = (eccentricity * eccentricity).sum(axis=0)
+    turned = eccentricity[1] * source[0] - eccentricity[0] * source[1]
+    return np.asarray(np.where(squared > 0.0, turned, 0.0) / np.where(squared > 0.0, squared, 1.0))
 
 
 def as_floats(tables: Mapping[str, ArrayLike]) -> dict[str, Array]:

@@ -122,7 +122,8 @@ def _with_coarser_check(film: FilmRung) -> FilmRung:
 
 def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
     """Return the bearing with the film in two dimensions, extrapolated from two grids."""
-    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
+    own = getattr(bearing.fitted_film, "mobility", None)
+    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells, mobility=own)))
 
 
 def _map(bearing: JournalBearing) -> FilmRung:

@@ -19,7 +19,7 @@ LARGEST = {
     "rotorfilm_states": 105_000,
     "rotorfilm_systems": 90_000,
     "rotorfilm_bushes": 60_000,
-    "rotorfilm_grids": 92_000,
+    "rotorfilm_grids": 94_000,
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 88_000,
     "rotorfilm_pads": 74_000,

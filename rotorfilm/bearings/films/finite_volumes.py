@@ -10,12 +10,12 @@ on the state but the angles, so a grid is made once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_size_t, c_void_p, cast
+from collections.abc import Callable
+from ctypes import byref, c_double, c_size_t
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from ...native.library import loops
 from ...native.structs import structure
 from .geometry import TURN, Cavitation, FilmGeometry, FilmOnset, FreeOnset, Span
 from .law import report_law
+from .mobility import Mobility
 
 LEVELS = 3
 """Grids per solution, each with half the cells of the one before; the finest first."""
@@ -312,40 +313,6 @@ class RingPotential(NamedTuple):
     lines: int
 
 
-@runtime_checkable
-class Mobility(Protocol):
-    """How easily oil flows where the film is thick or thin: turbulent, thinning, or with porous walls."""
-
-    def __call__(self, thickness: float) -> tuple[Sequence[float], Sequence[float]]:
-        """Return three factors, 1 in a laminar film, and their derivatives by the thickness.
-
-        They are factors of H^3 in the flow that pressure drives, of H in the Couette flow and of 1/H in the
-        shear, at a thickness H [1] in clearances.
-        """
-
-
-_MOBILITY = CFUNCTYPE(None, c_void_p, c_double, POINTER(c_double), POINTER(c_double))
-
-
-def _compiled_mobility(mobility: Mobility, raised: list[BaseException]) -> Any:
-    """Return a mobility as a function of the C library calls it; what it raises goes into the list."""
-
-    def told(_: int, thickness: float, factors: Any, slopes: Any) -> None:
-        try:
-            found = np.array(mobility(thickness), dtype=float)
-            if found.shape != (2, 3) or not np.all(np.isfinite(found)):
-                raise InputError(
-                    f"mobility must return two times three finite numbers, got {found!r} at H = {thickness!r}"
-                )
-        except BaseException as error:  # for the caller of the library, which knows no exceptions
-            raised.append(error)
-            found = np.array([[1.0] * 3, [0.0] * 3])
-        for row, numbers in zip((factors, slopes), found.tolist(), strict=True):
-            row[0], row[1], row[2] = numbers
-
-    return _MOBILITY(told)
-
-
 class RingKernel(FilmKernel):
     """A film on the grids of a ring.
 
@@ -362,8 +329,11 @@ class RingKernel(FilmKernel):
     pad : bool
         Whether the second of two spans is a pad of its own, which the journal touches on its arc only.
     mobility : Mobility or None
+        With a density the force is that at a speed too; see `FilmKernel.force`.
     resting : bool
         Whether the lines rest, uniform on every span, where the journal moves.
+    per_rate : float [s]
+        Local Reynolds number over thickness and half the speed, where the mobility has a density.
     """
 
     _function = "rf_ring_film"
@@ -378,18 +348,26 @@ class RingKernel(FilmKernel):
         pad: bool = False,
         mobility: Mobility | None = None,
         resting: bool = False,
+        per_rate: float = 0.0,
     ) -> None:
-        self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad, mobility, resting)
-        self.grids = grids
+        self._arguments = (
+            slenderness,
+            spans,
+            grids,
+            cavitation,
+            extrapolated,
+            pad,
+            mobility,
+            resting,
+            per_rate,
+        )
+        self.grids, self.mobility, self.per_rate = grids, mobility, per_rate
         self._kept: list[Array] = []
-        self._raised: list[BaseException] = []
-        self._mobility = None if mobility is None else _compiled_mobility(mobility, self._raised)
         self.struct = structure("rf_ring")(
             grids=(structure("rf_grid") * len(grids))(*map(self._grid, grids)),
             start=self._place(spans.start),
             extent=self._place(spans.extent),
             slenderness=slenderness,
-            mobility=None if self._mobility is None else cast(self._mobility, c_void_p).value,
             spans=len(spans.start),
             recess=-1,
             whole=grids[0].place is not None,
@@ -402,6 +380,9 @@ class RingKernel(FilmKernel):
             extrapolated=extrapolated,
             pad=pad,
         )
+        if mobility is not None:
+            self.struct.mobility = mobility.struct(per_rate)
+            self.sped = mobility.drags or per_rate > 0.0
 
     def _grid(self, grid: Grid) -> Any:
         floats = "line", "face", "value", "width", "conductance", "place", "wall"
@@ -436,26 +417,9 @@ class RingKernel(FilmKernel):
         """Ask the library of states (2, n), and report the first that is none."""
         e, w, first = _float(eccentricity), _float(source), c_size_t()
         places = [None if numbers is None else numbers.ctypes.data for numbers in (e, w, *further)]
-        status = self._called(what, e.shape[1], *places, byref(first))
+        status = loops()[what](byref(self.struct), e.shape[1], *places, byref(first))
         if status:
             self._report(status, e[:, first.value], w[:, first.value])
-
-    def _called(self, what: str, *arguments: Any) -> int:
-        """Return the status of a function of the library; raise what the mobility raised meanwhile."""
-        status: int = loops()[what](byref(self.struct), *arguments)
-        self._raise_foreign()
-        return status
-
-    def _raise_foreign(self) -> None:
-        if self._raised:
-            first = self._raised[0]
-            self._raised.clear()
-            raise first
-
-    def _batch(self, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
-        found = super()._batch(e, w, shape)
-        self._raise_foreign()
-        return found
 
     def field(self, eccentricity: Array, source: Array) -> tuple[Array, Array, Array, float]:
         """Return the solution of one state (2,) on the finest grid of N lines with M unknown nodes each.
@@ -472,7 +436,7 @@ class RingKernel(FilmKernel):
         theta, face = np.empty((2, len(grid.span)))
         pressure, side_flow = np.empty((len(grid.span), len(grid.width))), c_double()
         places = [numbers.ctypes.data for numbers in (e, w, theta, face, pressure)]
-        status = self._called("rf_ring_field", *places, byref(side_flow))
+        status = loops()["rf_ring_field"](byref(self.struct), *places, byref(side_flow))
         self._report(status, e, w)
         return theta, face, pressure, side_flow.value
 
@@ -505,7 +469,7 @@ class RingKernel(FilmKernel):
         q, w = _float(place), _float(drive)
         places = [numbers.ctypes.data for numbers in (q, w, force)]
         by = slopes.ctypes.data if differentiated else None
-        self._report(self._called("rf_ring_wrench", *places, by), q[:2], w[:2])
+        self._report(loops()["rf_ring_wrench"](byref(self.struct), *places, by), q[:2], w[:2])
         return force, slopes
 
     def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
@@ -529,7 +493,8 @@ class RingKernel(FilmKernel):
         levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), structure("rf_grid_work")()
         J, slope = np.empty((levels, n)), np.empty((levels, 2, n) if slopes else 0)
         places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data if slopes else None]
-        status = self._called("rf_ring_potential", e.ctypes.data, n, *places, byref(work), byref(first))
+        given = [e.ctypes.data, n, *places, byref(work), byref(first)]
+        status = loops()["rf_ring_potential"](byref(self.struct), *given)
         if status:
             self._report(status, e, w[:, first.value])
         return RingPotential(J, slope, work.solutions, work.lines)

@@ -32,10 +32,11 @@ from ...core.errors import (
 from ...core.model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_call import FilmCall, address_of
-from ...native.film_kernels import Batch, ResponseKernel
+from ...native.film_kernels import Batch, ResponseKernel, static_rate as static_rate
 from ...native.loss_kernels import LossKernel
 from ..reaction import broadcast_state, without_overflow
 from .geometry import FilmGeometry
+from .mobility import Mobility, sheared_gap
 
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle, or that of the centered film."""
@@ -92,6 +93,13 @@ class FilmOptions:
 
     def fitted(self, geometry: FilmGeometry) -> FilmLaw | None:
         """Return the law in a bearing of this geometry; None if it can represent no openings nor supply."""
+        return None
+
+    def at_scale(self, reynolds_scale: float) -> FilmLaw | None:
+        """Return the law in a bearing of this radius times clearance over viscosity [m3/kg s].
+
+        None if the law does not change with the Reynolds number, density |speed| times that.
+        """
         return None
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel | None:
@@ -648,22 +656,29 @@ def kernel_losses(
     return FilmLosses(film, streamers, gap, flow, none, none, batch.slopes.reshape(3, 4, *shape))
 
 
-def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
-    """Return Sigma of a gap that is full all around, except in the openings, at eccentricities (2, ...)."""
+def gap_shear(
+    eccentricity: Array,
+    geometry: FilmGeometry,
+    mobility: Mobility | None = None,
+    per_thickness: Array | None = None,
+) -> Array:
+    """Return Sigma of a gap that is full all around, except in the openings, at eccentricities (2, ...).
+
+    Where a mobility changes with the speed, its X per thickness (...) is asked for.
+    """
+    films = [span for span in geometry.spans() if span.film > 0.0]
+    if mobility is not None:
+        flat, shape = eccentricity.reshape(2, -1), eccentricity.shape[1:]
+        grown = mobility.per_thickness if per_thickness is None else per_thickness
+        own = mobility, np.broadcast_to(grown, shape).ravel(), flat
+        eased = [span.film * sheared_gap(*own, span.start, span.end)[0] for span in films]
+        return np.asarray(np.sum(eased, axis=0)).reshape(shape)
     chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
     parts = [
         span.film * (gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away))
-        for span in geometry.spans()
-        if span.film > 0.0
+        for span in films
     ]
     return np.asarray(np.sum(parts, axis=0))
-
-
-def static_rate(eccentricity: Array, source: Array) -> Array:
-    """Return the rate at which the oil of a journal at rest runs, speed/2 [1/s]; 0 at the center."""
-    squared = (eccentricity * eccentricity).sum(axis=0)
-    turned = eccentricity[1] * source[0] - eccentricity[0] * source[1]
-    return np.asarray(np.where(squared > 0.0, turned, 0.0) / np.where(squared > 0.0, squared, 1.0))
 
 
 def gap_integral(chi: Array | float, angle: Array | float) -> Array:

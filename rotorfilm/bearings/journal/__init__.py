@@ -48,6 +48,7 @@ if TYPE_CHECKING:
         rupture_error as rupture_error,
     )
     from .map_film import MapFilm as MapFilm, bearing_table
+    from .mobile_map import MobileMapFilm, MobileMapTable
     from .moment_carrying_journal import MomentCarryingJournal as MomentCarryingJournal
     from .reynolds_film import (
         ExtrapolatedFilm as ExtrapolatedFilm,

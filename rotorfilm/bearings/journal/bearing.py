@@ -209,7 +209,8 @@ class JournalBearing(FilmReaction, WarmBearing):
         """The film law tied to the dimensions of this bearing; InputError without a stated temperature."""
         self.require_temperature()
         slenderness, clearance, force_scale = self.slenderness, self.clearance, self.force_scale
-        in_c = self._options.bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
+        law = options(self.film_at_speed, FilmOptions)
+        in_c = law.bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
         return in_c or BoundLaw(
             law=self.fitted_film,
             slenderness=slenderness,
@@ -221,6 +222,14 @@ class JournalBearing(FilmReaction, WarmBearing):
     @property
     def _options(self) -> FilmOptions:
         return options(self.fitted_film, FilmOptions)
+
+    @cached_property
+    def film_at_speed(self) -> FilmLaw:
+        """The film law with the Reynolds number of this bearing, where it changes with that."""
+        if not is_sped(self.fitted_film):
+            return self.fitted_film
+        scale = self.radius * self.clearance / self.film_viscosity
+        return self._options.at_scale(scale) or self.fitted_film
 
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
@@ -255,6 +264,8 @@ class JournalBearing(FilmReaction, WarmBearing):
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
         """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
         law = options(self.fitted_film, FilmOptions)
+        if is_sped(law) or getattr(law, "mobility", None) is not None:  # the gaps of the library are laminar
+            return None
         losses = law.loss_kernel(self.slenderness)
         scale = self.film_length * self.radius**3 / self.clearance**2
         film = law.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=scale)
@@ -283,7 +294,7 @@ class JournalBearing(FilmReaction, WarmBearing):
         def heat(temperature: float) -> FilmHeat:
             return self.at_temperature(temperature).film_heat(position, velocity, speed)
 
-        if self.supply_pressure == 0.0:
+        if self.supply_pressure == 0.0 and not is_sped(self.fitted_film):
             return balance_temperature(heat(cooling.coldest), oil, cooling)
         return fed_temperature(heat, oil, cooling)
 
@@ -292,6 +303,11 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, which may be meant for other bearings: that is the question."""
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         return replace(bearing, film=film)
+
+
+def is_sped(film: object) -> bool:
+    """Return whether a film law changes with the Reynolds number of its bearing."""
+    return options(film, FilmOptions).at_scale(1.0) is not None
 
 
 # Which film law a bearing really has: the one that is given, or the usual one, in the bearing's geometry.
@@ -521,7 +537,7 @@ def bearing_losses(
     """
     require_inside(position, bearing.clearance)
     e, w = bearing.kinematics(position, velocity, speed)
-    law = options(bearing.fitted_film, FilmOptions)
+    law = options(bearing.film_at_speed, FilmOptions)
     found = law.losses(e, w, bearing.slenderness, 0.5 * speed)
     if found is None:
         return None

@@ -50,6 +50,7 @@ from ..films.map_fit import (
     state_errors,
 )
 from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch, unstretch
+from ..films.mobility import Mobility, checksum_of
 
 DIRECTIONS = 192
 """Nodes of L0 over the direction of the source."""
@@ -83,6 +84,8 @@ class GrooveMapTable(BoundedTable):
         has the eccentricity ratio up to which it holds, and the relative errors of the force, of K and C
         (relative to their largest entry), of the shear, and of the flow of fresh oil. None of them where
         nothing is known.
+    mobility : float
+        Checksum of the mobility of its oil, 0 of a laminar film.
 
     Raises
     ------
@@ -99,6 +102,7 @@ class GrooveMapTable(BoundedTable):
     shear: Array = field(repr=False)
     flows: Array = field(repr=False)
     bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
+    mobility: float = 0.0
 
     def __post_init__(self) -> None:
         require_shapes(self, log_center=(DIRECTIONS,), coefficients=(None, None, None))
@@ -127,7 +131,7 @@ class GrooveMapTable(BoundedTable):
             {
                 "coefficients": periodic(periodic(self.coefficients, 1), 2),
                 "center": periodic(self.log_center, 0),
-                "map": [self.slenderness, self.reach, self.crowding, axis],
+                "map": [self.slenderness, self.reach, self.crowding, axis, float(self.mobility == 0.0)],
             },
         )
 
@@ -181,11 +185,16 @@ TURNING = 1e-9
 """Rate of the oil, for a source of 1/s, where it turns back: its sign alone counts."""
 
 
-def opened_film(grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> RingKernel:
+def opened_film(
+    grooves: tuple[Groove, ...],
+    slenderness: float,
+    cells: tuple[int, int],
+    mobility: Mobility | None = None,
+) -> RingKernel:
     """Return the two-dimensional film of a bearing with openings."""
     geometry = FilmGeometry(grooves=grooves)
     grids = ring_grids(geometry, *cells, max(slenderness, LONG))
-    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity())
+    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity(), mobility=mobility)
 
 
 def loss_cells(cells: tuple[int, int]) -> tuple[int, int]:
@@ -321,11 +330,14 @@ class Resolution(NamedTuple):
         source.
     largest_eccentricity_ratio : float [1]
         Of the last node.
+    mobility : Mobility or None
+        Of the oil, over the thickness.
     """
 
     cells: tuple[int, int]
     nodes: tuple[int, int, int]
     largest_eccentricity_ratio: float
+    mobility: Mobility | None = None
 
 
 def build_groove_table(
@@ -350,7 +362,7 @@ def build_groove_table(
     grooves, largest = openings.grooves, resolution.largest_eccentricity_ratio
     around, along = resolution.cells
     coarse, film, finer = (
-        opened_film(grooves, slenderness, cells)
+        opened_film(grooves, slenderness, cells, resolution.mobility)
         for cells in (loss_cells(resolution.cells), resolution.cells, (2 * around, 2 * along))
     )
     states, chi = bound_states(grooves, largest), loss_eccentricities(largest, resolution.nodes[0])
@@ -378,6 +390,7 @@ def build_groove_table(
         coefficients=_splines(M, resolution),
         shear=shear,
         flows=flows,
+        mobility=checksum_of(resolution.mobility),
     )
     half = len(exact) // 2
     both = np.concatenate([np.concatenate(part, axis=1) for part in (exact[:half], exact[half:])])

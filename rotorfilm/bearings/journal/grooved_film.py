@@ -19,8 +19,9 @@ from ...native import MapKernel
 from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import are_counts, require_cells
 from ..films.geometry import STEPS, TURN, AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
-from ..films.law import FilmLosses, KernelFilm, kernel_losses, require_film, static_rate
+from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 from ..films.map_table import cached_table, table_path, told
+from ..films.mobility import Mobility, require_same_mobility, require_thickness_law
 from . import groove_map as groove_build
 from .groove_map import GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
 from .map_film import MapFilm
@@ -61,6 +62,10 @@ class GroovedMapFilm(KernelFilm):
         eccentricity and of the source (even, at least 12).
     largest_eccentricity_ratio : float [1]
         Of the last node.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
+        factor of its Couette flow is 1, and it does not change with the speed. Beyond the largest
+        eccentricity ratio the error is then unknown.
     table : GrooveMapTable, optional
         The map, where it is there already: nothing is then built nor looked for.
     geometry : FilmGeometry
@@ -76,6 +81,7 @@ class GroovedMapFilm(KernelFilm):
     cells: tuple[int, int] = (192, 12)
     nodes: tuple[int, int, int] = (12, 72, 48)
     largest_eccentricity_ratio: float = 0.97
+    mobility: Mobility | None = None
     table: GrooveMapTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
@@ -89,6 +95,9 @@ class GroovedMapFilm(KernelFilm):
             )
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
         require_kind("table", self.table, GrooveMapTable | None, "a GrooveMapTable")
+        require_thickness_law(self.mobility)
+        if self.table is not None:
+            require_same_mobility(self.table.mobility, self.mobility)
         if not self.geometry.plain:
             require_mappable(self.geometry)
             if self.table is not None:
@@ -103,6 +112,8 @@ class GroovedMapFilm(KernelFilm):
 
     def fitted(self, geometry: FilmGeometry) -> GroovedMapFilm | MapFilm:
         """Return this film in a bearing of the given geometry; in a plain one that is `MapFilm()`."""
+        if geometry.plain and self.mobility is not None:
+            raise InputError("mobility of a plain bearing must be that of a ReynoldsFilm, got a map")
         if geometry.plain and self.table is None:
             return MapFilm()
         if geometry.plain:
@@ -130,7 +141,8 @@ class GroovedMapFilm(KernelFilm):
         places = [nearest(aligned.grooves, middle) for middle in middles]
         flows = kernel.flows(flat[0], along.ravel())[:, places].reshape(2, -1, *e.shape[1:])
         found = kernel_losses(kernel, e, w, self.geometry)
-        return found._replace(inflow=flows[0], arriving=flows[1])
+        gap = gap_shear(e, self.geometry, self.mobility)
+        return found._replace(shear_gap=gap, inflow=flows[0], arriving=flows[1])
 
     def loss_kernel(self, slenderness: float) -> LossKernel:
         """Return shear and flow of the map in compiled code; see `FilmOptions`."""
@@ -181,7 +193,7 @@ class GroovedMapFilm(KernelFilm):
         """Return what decides the content of a map: openings, length/diameter and resolution."""
         # So that L/D = 1/3 and its nine digits share a map.
         rounded = float(f"{slenderness:.9g}")
-        resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
+        resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio, self.mobility)
         return aligned_openings(self.geometry), rounded, resolution
 
     def _kernel(self, slenderness: float) -> MapKernel:

@@ -15,6 +15,7 @@ from ...core.errors import FilmContactError, InputError, require_kind
 from ...core.inputs import quantities
 from ...core.model import Array
 from ..films.finite_volumes import RingKernel, over_whole_length
+from ..films.mobility import per_rate
 from ..reaction import StaticReaction
 from .bearing import JournalBearing
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
@@ -87,7 +88,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         moment_x = -integral of z f_y dz,    moment_y = integral of z f_x dz
 
     for the force f(z) per length, about the middle of the bearing. Of a shaft without tilt the force is that
-    of the bearing, unless its film has a mobility with a factor of the Couette flow. Stiffness and damping,
+    of the bearing. Stiffness and damping,
     4 x 4, are exact derivatives of the film found; the damping is symmetric. The film has about four times
     the unknowns of the aligned one on each line, and takes some 1 ms on 96 x 8 cells. Contact is that of the
     ends too.
@@ -140,7 +141,10 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         slenderness = self.bearing.slenderness
         spans, grids = plain.grids(slenderness)
         whole = tuple(over_whole_length(grid) for grid in grids)
-        return RingKernel(slenderness, spans, whole, plain.cavitation, extrapolated, mobility=plain.mobility)
+        scale = self.bearing.radius * self.bearing.clearance / self.bearing.film_viscosity
+        grown = per_rate(plain.mobility, scale)
+        own = (slenderness, spans, whole, plain.cavitation, extrapolated)
+        return RingKernel(*own, mobility=plain.mobility, per_rate=grown)
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau)."""

@@ -21,7 +21,6 @@ from ..films.finite_volumes import (
     ORDER,
     FilmField,
     Grid,
-    Mobility,
     RingKernel,
     Spans,
     film_field,
@@ -30,8 +29,9 @@ from ..films.finite_volumes import (
     ring_grids,
     ring_spans,
 )
-from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset, FullFilm
+from ..films.geometry import Cavitation, Complementarity, FilmGeometry, FilmOnset, FreeOnset
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
+from ..films.mobility import Mobility, per_rate, require_mobility
 
 
 @quantities
@@ -67,10 +67,13 @@ class ReynoldsFilm(KernelFilm):
         Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can be;
         `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the bearing.
     mobility : Mobility or None
-        How easily the oil flows over the thickness of the film, hashable; None for laminar flow. A film
-        law knows no speed, so that the factor of the Couette flow acts in `MomentCarryingJournal` only.
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. A film
+        that changes with the speed by more than its source, by the density of a mobility or by its factor of
+        the Couette flow, is that of a journal at rest where the law alone is asked.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, set by the bearing where the mobility has a density.
 
     Raises
     ------
@@ -90,10 +93,11 @@ class ReynoldsFilm(KernelFilm):
     film_start: FilmOnset = field(default_factory=FreeOnset)
     mobility: Mobility | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
+    reynolds_scale: float = field(default=0.0, repr=False)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
-        require_kind("mobility", self.mobility, Mobility | None, "a function of the thickness, or None")
+        require_mobility(self.mobility)
         require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
         require_kind("film_start", self.film_start, FilmOnset, "such as FreeOnset()")
@@ -106,6 +110,11 @@ class ReynoldsFilm(KernelFilm):
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""
         return dataclasses.replace(self, geometry=geometry)
+
+    def at_scale(self, reynolds_scale: float) -> ReynoldsFilm | None:
+        """Return this film in a bearing of these dimensions; see `FilmOptions`."""
+        mobile = self.mobility is not None and self.mobility.density > 0.0
+        return dataclasses.replace(self, reynolds_scale=reynolds_scale) if mobile else None
 
     def force_pair(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
         """Return the forces on the grid and on one with half the cells, each of shape (2, ...).
@@ -173,11 +182,9 @@ class ReynoldsFilm(KernelFilm):
         # Nothing flows out of the line at which a film starts, if it starts at one.
         inflow, arriving = np.array(openings).reshape(2, -1, *shape)[:, self.film_start != FREE :]
         film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
-        if self.mobility is None:
-            gap = gap_shear(e, self.geometry)
-        else:
-            full = dataclasses.replace(self, cavitation=FullFilm())
-            gap = full._kernel(slenderness).losses(*flat, along)[0].reshape(shape)
+        eased = self.mobility
+        grown = None if eased is None else eased.at_rate(along, self.reynolds_scale).reshape(shape)
+        gap = gap_shear(e, self.geometry, eased, grown)
         return FilmLosses(film, streamers, gap, flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
@@ -186,9 +193,7 @@ class ReynoldsFilm(KernelFilm):
         return ring_spans(self.geometry, self.film_start), grids
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]] | None:
-        """Return the kernel and its tables; see `law.FilmOptions.native`. A mobility is in no kernel."""
-        if self.mobility is not None:
-            return None
+        """Return the kernel and its tables; see `law.FilmOptions.native`."""
         spans, grids = self.grids(slenderness)
         tables = {"spans": np.stack([spans.start, spans.extent])}
         for level, grid in enumerate(grids):
@@ -197,6 +202,8 @@ class ReynoldsFilm(KernelFilm):
             tables[f"nodes{level}"] = np.stack([grid.width, grid.conductance])
         flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned, spans.turning, False]
         tables["ring"] = np.array([slenderness, *flags], dtype=float)
+        if self.mobility is not None:
+            tables |= self.mobility.tables()
         if self.geometry.plain and not spans.pinned:
             # The nodes along a film that is not long are those of any other.
             tables["range"] = np.array([0.0, LONG] if slenderness <= LONG else [slenderness, slenderness])
@@ -209,9 +216,8 @@ class ReynoldsFilm(KernelFilm):
 @lru_cache(maxsize=64)
 def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> RingKernel:
     """Return the compiled film of a bearing, on the grid of the film or extrapolated from it."""
-    return RingKernel(
-        slenderness, *film.grids(slenderness), film.cavitation, extrapolated, mobility=film.mobility
-    )
+    own = (slenderness, *film.grids(slenderness), film.cavitation, extrapolated)
+    return RingKernel(*own, mobility=film.mobility, per_rate=per_rate(film.mobility, film.reynolds_scale))
 
 
 # The two-dimensional film extrapolated from two grids.
@@ -242,6 +248,11 @@ class ExtrapolatedFilm(KernelFilm):
         around, along = self.film.cells
         if around % 8 or along % 8 or around < 32:
             raise InputError(f"cells must be multiples of 8, at least (32, 8), got {self.film.cells!r}")
+
+    def at_scale(self, reynolds_scale: float) -> ExtrapolatedFilm | None:
+        """Return this film in a bearing of these dimensions; see `FilmOptions`."""
+        film = self.film.at_scale(reynolds_scale)
+        return None if film is None else ExtrapolatedFilm(film=film)
 
     @property
     def coarse(self) -> ReynoldsFilm:

@@ -283,7 +283,8 @@ class LobedBearing(FilmReaction, PadBearing):
     def bound_film(self) -> BoundLobes:
         """The films of the pads tied to the dimensions; InputError without a stated temperature."""
         self.require_temperature()
-        kernels = {extent: self.film.kernel(extent, self.slenderness) for extent in self.extents}
+        film = self.film_at_speed
+        kernels = {extent: film.kernel(extent, self.slenderness) for extent in self.extents}
         films = [JournalKernel(kernels[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
             (lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
@@ -309,7 +310,7 @@ class LobedBearing(FilmReaction, PadBearing):
         state = broadcast_state(position, velocity, speed)
         self.bound_film.force(*state)  # raises where the journal touches
         pads = [self._under(lobe, *state) for lobe in self.lobes]
-        return losses_of_pads(self, self.film, pads, state, full_gap=self.full_gap(full_gap))
+        return losses_of_pads(self, self.film_at_speed, pads, state, full_gap=self.full_gap(full_gap))
 
     def _under(
         self, lobe: Lobe, position: Array, velocity: Array, speed: Array, *, slopes: bool = False
@@ -320,8 +321,8 @@ class LobedBearing(FilmReaction, PadBearing):
         back = pad.turning.T
         e = back @ (position.reshape(2, -1) / c - np.array(lobe.center)[:, None])
         w = back @ velocity.reshape(2, -1) / c + turns * (WEDGE @ e)
-        film = self.film.kernel(lobe.extent, self.slenderness)
-        pad = pad._replace(eccentricity=e, force=scale * film.force(e, w).values)
+        film = self.film_at_speed.kernel(lobe.extent, self.slenderness)
+        pad = pad._replace(eccentricity=e, force=scale * film.force(e, w, turns).values)
         if not slopes:
             return pad
         none = np.zeros((2, 1))
@@ -342,7 +343,7 @@ class LobedBearing(FilmReaction, PadBearing):
         q, v, omega = broadcast_state(position, velocity, speed)
         self.bound_film.force(q, v, omega)  # raises where the journal touches
         pads = [self._under(lobe, q, v, omega, slopes=True) for lobe in self.lobes]
-        return heat_slopes_of_pads(self, self.film, pads, (q, v, float(omega)), cooling)
+        return heat_slopes_of_pads(self, self.film_at_speed, pads, (q, v, float(omega)), cooling)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +18,7 @@ from ..films.geometry import TURN, FilmGeometry, Pad, SunkArc
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import WarmBearing, flow_slopes, require_lubricant
 from ..reaction import require_no_overflow
-from .pad_table import LossyPadFilm, PadFlows, gap_shear_of_pad, gap_slopes_of_pad
+from .pad_table import LossyPadFilm, PadFlows, gap_of_pad
 
 _ROUNDOFF = 5e-14
 """Force that a map or a grid leaves of a few pads, over viscosity length radius^3 speed/clearance^2."""
@@ -184,6 +184,15 @@ class PadBearing(WarmBearing):
         """Clearance c_b of the assembled bearing [m], that of the pads with most preload."""
         return self.clearance * (1.0 - max(self.preloads))
 
+    @property
+    def film_at_speed(self) -> Any:
+        """The film law of the pads with the Reynolds number of this bearing, where it changes with that."""
+        film: Any = getattr(self, "film", None)
+        mobility = getattr(film, "mobility", None)
+        if mobility is None or mobility.density == 0.0:
+            return film
+        return film.at_scale(self.radius * self.clearance / self.film_viscosity)
+
     def film_at_unit_viscosity(self) -> None:
         """Return no film for the loops in C over warm films, which know one film only."""
 
@@ -273,7 +282,7 @@ def losses_of_pads(
     omega = state[2].ravel()
     flows = flows_of_pads(film, bearing.slenderness, pads, 0.5 * omega)
     shears = [
-        gap_shear_of_pad(pad.eccentricity, pad.extent) if full_gap else flows[k].shear
+        gap_of_pad(film, pad.extent, pad.eccentricity, 0.5 * omega).shear if full_gap else flows[k].shear
         for k, pad in enumerate(pads)
     ]
     force, drag = np.zeros((2, omega.size)), np.zeros(omega.size)
@@ -414,8 +423,8 @@ def heat_slopes_of_pads(
         slopes = of.slopes[:, :, 0]
         shear, by_e = of.shear[0], slopes[0, :2]
         if cooling.full_gap:
-            shear = gap_shear_of_pad(pad.eccentricity, pad.extent)[0]
-            by_e = gap_slopes_of_pad(pad.eccentricity, pad.extent)[:, 0]
+            gap = gap_of_pad(film, pad.extent, pad.eccentricity, np.array([0.5 * speed]))
+            shear, by_e = gap.shear[0], gap.slopes[:, 0]
         e, F = pad.eccentricity[:, 0], pad.force[:, 0]
         torque += per_shear * speed * shear + 0.5 * bearing.clearance * float(cross(e, F))
         by_state += per_shear * (shear * SPEED + speed * by_e @ de)

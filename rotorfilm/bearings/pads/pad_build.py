@@ -35,6 +35,7 @@ from ..films.map_fit import (
     quintic_coefficients,
     state_errors,
 )
+from ..films.mobility import Mobility, checksum_of, require_thickness_law
 from .pad_table import (
     CELLS as LOSS_CELLS,
     LARGEST,
@@ -62,7 +63,13 @@ CELLS = (96, 8)
 
 @lru_cache(maxsize=64)
 def pad_grid(
-    extent: float, slenderness: float, cells: tuple[int, int] = CELLS, *, extrapolated: bool = True
+    extent: float,
+    slenderness: float,
+    cells: tuple[int, int] = CELLS,
+    mobility: Mobility | None = None,
+    per_rate: float = 0.0,
+    *,
+    extrapolated: bool = True,
 ) -> RingKernel:
     """Return the film on one pad in its own frame, ruptured where it would be in tension.
 
@@ -74,14 +81,16 @@ def pad_grid(
         Length / diameter.
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4.
+    mobility : Mobility or None
+    per_rate : float [s]
+        Local Reynolds number over thickness and half the speed, where the mobility has a density.
     extrapolated : bool
         Whether the force is that extrapolated from these cells and half as many.
     """
     geometry = FilmGeometry(pads=(Pad(start=-0.5 * extent, extent=extent),))
     grids = ring_grids(geometry, *cells, max(slenderness, LONG))
-    return RingKernel(
-        slenderness, ring_spans(geometry), grids, Complementarity(), extrapolated=extrapolated, pad=True
-    )
+    own = (slenderness, ring_spans(geometry), grids, Complementarity(), extrapolated)
+    return RingKernel(*own, pad=True, mobility=mobility, per_rate=per_rate)
 
 
 # How the map of a pad is made: potentials of the two-dimensional film, and their fit.
@@ -121,6 +130,8 @@ class PadResolution:
         more each, and nodes over the angle of the source (even, at least 12).
     xi_range : (float, float) [1]
         First and last node towards the middle of the pad, (r - r_p)/c_p there; below 1.
+    mobility : Mobility or None
+        Of the oil, over the thickness.
     reach : float [1]
         |tanh Y| of the last nodes: eta there as a fraction of that at which the journal touches the pad.
     """
@@ -129,10 +140,12 @@ class PadResolution:
     nodes: tuple[int, int, int] = (14, 13, 128)
     xi_range: tuple[float, float] = (-1.0, 0.97)
     reach: float = 0.95
+    mobility: Mobility | None = None
 
     def checked(self) -> PadResolution:
         """Return this resolution; InputError where it breaks a rule."""
         require_cells(self.cells)
+        require_thickness_law(self.mobility)
         if not are_counts(self.nodes, (6, 6, 12), (1, 1, 2)):
             raise InputError(f"nodes must be at least (6, 6, 12), the last one even, got {self.nodes!r}")
         if not -math.inf < self.xi_range[0] < self.xi_range[1] < 1.0:
@@ -185,18 +198,19 @@ class _Seen(NamedTuple):
         return np.concatenate([back @ found[:2], slopes.reshape(8, -1)])
 
 
-def seen_film(extent: float, slenderness: float, cells: tuple[int, int], phi: float) -> _Seen:
+def seen_film(
+    extent: float, slenderness: float, cells: tuple[int, int], phi: float, mobility: Mobility | None = None
+) -> _Seen:
     """Return the film on as much of a pad as holds all of it for a source at phi [rad].
 
     Near the edge |phi| = pi/2 + b that is the end of the pad on the side of phi.
     """
     covered = min(extent, REACH * (0.5 * (np.pi + extent) - abs(phi)))
     if covered == extent:
-        return _Seen(pad_grid(extent, slenderness, cells), 0.0)
+        return _Seen(pad_grid(extent, slenderness, cells, mobility), 0.0)
     # Not kept among the films of whole pads: it is used while one map is made.
-    return _Seen(
-        pad_grid.__wrapped__(covered, slenderness, cells), math.copysign(0.5 * (extent - covered), phi)
-    )
+    turn = math.copysign(0.5 * (extent - covered), phi)
+    return _Seen(pad_grid.__wrapped__(covered, slenderness, cells, mobility), turn)
 
 
 def _rotation(angle: float) -> Array:
@@ -205,13 +219,13 @@ def _rotation(angle: float) -> Array:
 
 
 def pad_exponents(
-    extent: float, slenderness: float, cells: tuple[int, int], phi: Array
+    extent: float, slenderness: float, cells: tuple[int, int], phi: Array, mobility: Mobility | None = None
 ) -> Callable[[Array], Array]:
     """Return a function of a place e: M of one pad and its derivatives by e there, (3, D).
 
     The angles of the source, phi [rad], are above 0 and ascend.
     """
-    films = [seen_film(extent, slenderness, cells, angle) for angle in phi.tolist()]
+    films = [seen_film(extent, slenderness, cells, angle, mobility) for angle in phi.tolist()]
     whole = sum(film.turn == 0.0 for film in films)
     parts = [(films[0], phi[:whole])] if whole else []
     parts += [(films[k], phi[k : k + 1]) for k in range(whole, len(films))]
@@ -249,11 +263,12 @@ def build_pad_table(
     """
     *counts, count_phi = resolution.nodes
     angles = node_angles(extent, count_phi)[count_phi // 2 :]
-    exponents = pad_exponents(extent, slenderness, resolution.cells, angles)
+    exponents = pad_exponents(extent, slenderness, resolution.cells, angles, resolution.mobility)
     states = pad_states(extent, resolution.u_range, resolution.y_end)
     nodes = [partial(exponents, e) for e in node_places(extent, *resolution.places).reshape(2, -1).T]
-    checks = _checks(extent, slenderness, resolution.cells, states)
-    columns, loss_checks = _loss_pieces(extent, slenderness, resolution.cells)
+    own = extent, slenderness, resolution.cells, resolution.mobility
+    checks = _checks(*own, states)
+    columns, loss_checks = _loss_pieces(*own)
     levels, exact, losses, exact_losses = made_groups((nodes, checks, columns, loss_checks), report, TITLE)
     half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
     coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
@@ -266,6 +281,7 @@ def build_pad_table(
         y_end=resolution.y_end,
         coefficients=coefficients,
         losses=fitted_losses(np.array(losses)),
+        mobility=checksum_of(resolution.mobility),
     )
     known = np.concatenate(exact, axis=1), np.concatenate(exact_losses, axis=1)
     return replace(table, bounds=pad_bounds(table, states, *known))
@@ -293,27 +309,39 @@ def expected_time(resolution: PadResolution) -> float:
 
 
 def _loss_pieces(
-    extent: float, slenderness: float, cells: tuple[int, int]
+    extent: float, slenderness: float, cells: tuple[int, int], mobility: Mobility | None
 ) -> tuple[Sequence[Callable[[], Array]], Sequence[Callable[[], Array]]]:
     """Return the pieces of work of shear and flow: at the nodes, a direction each, and for their bounds."""
-    film = pad_grid(extent, slenderness, cells)
-    finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]))
+    film = pad_grid(extent, slenderness, cells, mobility)
+    finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]), mobility)
     places = [loss_places(extent, column) for column in range(LOSS_CELLS[1])]
     columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
     return columns, [partial(grid_losses, finer, *some) for some in batches(*loss_states(extent))]
 
 
 def _checks(
-    extent: float, slenderness: float, cells: tuple[int, int], states: PadStates
+    extent: float,
+    slenderness: float,
+    cells: tuple[int, int],
+    mobility: Mobility | None,
+    states: PadStates,
 ) -> list[Callable[[], Array]]:
     """Return the pieces of work, in the order of the states, that solve them on twice the cells."""
     finer = 2 * cells[0], 2 * cells[1]
-    return [partial(_solved, extent, slenderness, finer, *some) for some in batches(states.e, states.phi)]
+    own = extent, slenderness, finer, mobility
+    return [partial(_solved, *own, *some) for some in batches(states.e, states.phi)]
 
 
-def _solved(extent: float, slenderness: float, cells: tuple[int, int], e: Array, phi: Array) -> Array:
+def _solved(
+    extent: float,
+    slenderness: float,
+    cells: tuple[int, int],
+    mobility: Mobility | None,
+    e: Array,
+    phi: Array,
+) -> Array:
     w = np.stack([np.cos(phi), np.sin(phi)])
-    films = [seen_film(extent, slenderness, cells, angle) for angle in phi.tolist()]
+    films = [seen_film(extent, slenderness, cells, angle, mobility) for angle in phi.tolist()]
     return np.concatenate(
         [films[k].reference(e[:, k : k + 1], w[:, k : k + 1]) for k in range(len(films))], axis=1
     )

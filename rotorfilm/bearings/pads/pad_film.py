@@ -17,9 +17,16 @@ from ...core.progress import Report, silent
 from ...core.sources import source_digest
 from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
-from ..films.finite_volumes import require_cells
+from ..films.finite_volumes import RingKernel, require_cells
 from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
+from ..films.mobility import (
+    Mobility,
+    per_rate,
+    require_mobility,
+    require_same_mobility,
+    require_thickness_law,
+)
 from . import pad_build
 from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
@@ -69,13 +76,20 @@ class PadMapFilm:
         Cells and nodes of the map.
     tables : tuple of PadMapTable
         Maps that are there already: for pads of these shapes nothing is built nor looked for.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
+        factor of its Couette flow is 1, and it does not change with the speed.
     much_preload : bool
         Set by the bearing: whether a pad has a preload above 0.5, for which the default map is another one.
     """
 
     resolution: PadResolution = FINE
     tables: tuple[PadMapTable, ...] = ()
+    mobility: Mobility | None = None
     much_preload: bool = field(default=False, repr=False)
+
+    def __post_init__(self) -> None:
+        require_thickness_law(self.mobility)
 
     def table(self, extent: float, slenderness: float, report: Report = silent) -> PadMapTable:
         """Return the map of a pad: a given one, the one on disk, or a new one, which is then kept.
@@ -104,6 +118,7 @@ class PadMapFilm:
     def _given(self, extent: float, slenderness: float) -> PadMapTable | None:
         shape = np.array([extent, slenderness])
         for table in self.tables:
+            require_same_mobility(table.mobility, self.mobility)
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
                 return table
         return None
@@ -111,7 +126,8 @@ class PadMapFilm:
     @property
     def own_resolution(self) -> PadResolution:
         """Cells and nodes of the map of these pads; the default ones go by their preload."""
-        return NEAR if self.much_preload and self.resolution == FINE else self.resolution
+        near = self.much_preload and self.resolution == FINE
+        return replace(NEAR if near else self.resolution, mobility=self.mobility)
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest from its maps; see `LossyPadFilm`."""
@@ -144,25 +160,40 @@ class PadGridFilm:
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4. The force is
         extrapolated from these and half as many; that of 96 x 8 is within 1e-3 in 99 of 100 states.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, set by the bearing where the mobility has a density.
 
     Raises
     ------
     InputError
-        If the cells break their rule.
+        If the cells break their rule, or another argument is of the wrong kind.
     """
 
     cells: tuple[int, int] = CELLS
+    mobility: Mobility | None = None
+    reynolds_scale: float = field(default=0.0, repr=False)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
+        require_mobility(self.mobility)
+
+    def at_scale(self, reynolds_scale: float) -> PadGridFilm:
+        """Return this film in a bearing of this radius times clearance over viscosity [m3/kg s]."""
+        return replace(self, reynolds_scale=reynolds_scale)
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
-        return pad_grid(extent, slenderness, self.cells)
+        return self._grid(extent, slenderness)
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest; see `LossyPadFilm`."""
-        return partial(grid_flows, pad_grid(extent, slenderness, self.cells))
+        return partial(grid_flows, self._grid(extent, slenderness))
+
+    def _grid(self, extent: float, slenderness: float) -> RingKernel:
+        own = (self.mobility, per_rate(self.mobility, self.reynolds_scale))
+        return pad_grid(extent, slenderness, self.cells, *own)
 
 
 def fitted_pad_film(

@@ -32,6 +32,7 @@ from ..films.map_fit import (
     spline_weights,
 )
 from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
+from ..films.mobility import sheared_gap
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,6 +58,8 @@ class PadMapTable(BoundedTable):
         which it holds, and the errors of the force, of K and C, of the shear in equilibrium, and of flows in
         equilibrium. `pad_bounds` tells what they are relative to; flows are relative to the inflow of a
         concentric pad.
+    mobility : float
+        Checksum of the mobility of its oil, 0 of a laminar film.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class PadMapTable(BoundedTable):
     coefficients: Array = field(repr=False)
     losses: Array = field(repr=False)
     bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
+    mobility: float = 0.0
     _outward: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
@@ -251,6 +255,25 @@ def fitted_losses(nodes: Array) -> Array:
 def _node_shares() -> Array:
     """Return x of the nodes."""
     return np.maximum(node_eccentricities(LARGEST, CELLS[0]), NEAR)
+
+
+class GapOfPad(NamedTuple):
+    """Sigma of a gap that is full all along a pad, (n,), and its slopes by e, (2, n)."""
+
+    shear: Array
+    slopes: Array
+
+
+def gap_of_pad(film: object, extent: float, eccentricity: Array, rate: Array) -> GapOfPad:
+    """Return the shear of a full gap at eccentricities (2, n) in the frame of a pad of a film law.
+
+    Oil runs at the rates (n,) [1/s], at which a mobility of the film may change.
+    """
+    mobility = getattr(film, "mobility", None)
+    if mobility is None:
+        return GapOfPad(gap_shear_of_pad(eccentricity, extent), gap_slopes_of_pad(eccentricity, extent))
+    per_thickness = mobility.at_rate(rate, getattr(film, "reynolds_scale", 0.0))
+    return GapOfPad(*sheared_gap(mobility, per_thickness, eccentricity, -0.5 * extent, 0.5 * extent)[:2])
 
 
 def gap_shear_of_pad(eccentricity: Array, extent: float) -> Array:

@@ -122,7 +122,7 @@ PadSlopes = Callable[[Any, Array, Array], tuple[Array, Array]]
 """Returns dF/de and dF/dw of pads, as `pad_slopes`."""
 
 
-def pad_slopes(bearing: Any, e: Array, w: Array) -> tuple[Array, Array]:
+def pad_slopes(bearing: Any, e: Array, w: Array, rate: Array | None = None) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads in the frame of their pivots, shape (2, 2, n), without dimensions.
 
     Parameters
@@ -130,9 +130,11 @@ def pad_slopes(bearing: Any, e: Array, w: Array) -> tuple[Array, Array]:
     bearing : TiltingPadBearing
     e, w : ndarray, shape (2, n)
         Of n pads, one state each.
+    rate : ndarray, shape (n,) [1/s], optional
+        Half the speed, by default that of a journal at rest.
     """
     R = turning(bearing)
-    batch = bearing.kernel.film.jacobian(R @ e, R @ w)
+    batch = bearing.kernel.film.jacobian(R @ e, R @ w, rate)
     report_pads(
         bearing, batch.status, batch.first % len(bearing.pivots), bearing.clearance * e[:, batch.first]
     )
@@ -201,14 +203,17 @@ def held_jacobian(bearing: Any, u: Array, tilts: Array) -> Array:
     e = np.einsum("kij,in->jkn", Q, u[:2] / c) + raised
     half = 0.5 * u[4]
     w = np.einsum("kij,in->jkn", Q, u[2:4] / c) + half * np.einsum("ij,jkn->ikn", WEDGE, e)
-    by_e, by_w = (
-        one.reshape(2, 2, *e.shape[1:]) for one in pad_slopes(bearing, e.reshape(2, -1), w.reshape(2, -1))
-    )
+    flat = e.reshape(2, -1), w.reshape(2, -1), np.tile(half, len(tilts))
+    by_e, by_w = (one.reshape(2, 2, *e.shape[1:]) for one in pad_slopes(bearing, *flat))
     moved = by_e + half * np.einsum("ijkn,jl->ilkn", by_w, WEDGE)
     found = np.empty((2, 5, n))
     for columns, slopes in ((slice(0, 2), moved), (slice(2, 4), by_w)):
         found[:, columns] = np.einsum("kai,ijkn,kbj->abn", Q, slopes, Q) / c
     found[:, 4] = 0.5 * np.einsum("kai,ijkn,jl,lkn->an", Q, by_w, WEDGE, e)
+    film, R = bearing.kernel.film, turning(bearing)
+    if film.sped:
+        by_rate = R.T @ film.rate_slopes(R @ flat[0], R @ flat[1], flat[2])
+        found[:, 4] += 0.5 * np.einsum("kai,ikn->an", Q, by_rate.reshape(2, *e.shape[1:]))
     return bearing.force_scale * found
 
 
@@ -388,7 +393,7 @@ class StaticTiltingPads:
             for k, middle in enumerate(middles.tolist())
         ]
         gap = bearing.full_gap(full_gap)
-        return losses_of_pads(bearing, bearing.film, pads, state, full_gap=gap)
+        return losses_of_pads(bearing, bearing.film_at_speed, pads, state, full_gap=gap)
 
     def state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states of the bearing at rest: tilts, places of sprung pivots, rates 0."""

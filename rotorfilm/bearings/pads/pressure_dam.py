@@ -33,6 +33,7 @@ from ...native.spec import NativeSpec, parameter
 from ...native.structs import structure
 from ..films.finite_volumes import are_counts
 from ..films.geometry import TURN, SunkArc
+from ..films.mobility import Mobility, per_rate, require_mobility
 from ..reaction import KernelReaction, broadcast_state
 from .pad_bearing import OwnCenter, PadBearing, collected_losses, cross
 
@@ -177,6 +178,8 @@ class PressureDamBearing(PadBearing, KernelReaction):
         of the edges of a recess about as many as its part of them, at least 4.
     extrapolated : bool
         Whether the force is extrapolated from these cells and half as many, by a third of the difference.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
 
     Raises
     ------
@@ -194,7 +197,8 @@ class PressureDamBearing(PadBearing, KernelReaction):
     P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and what flows across a step is the
     difference of the Couette flow of both sides. Derivatives are those of the discrete film, the edge of the
     ruptured zone held, where its pressure and slope vanish; the damping matrix is symmetric. Left out are
-    losses and inertia at the step, turbulence in a deep recess, inlet pressure and hot oil from pad to pad.
+    losses and inertia at the step, inlet pressure and hot oil from pad to pad. A mobility is a factor of H^3
+    that goes by the depth in a recess, which is turbulent first.
     The force is of degree one in velocity and speed together: there is no map of it over the source alone.
 
     Examples
@@ -211,10 +215,12 @@ class PressureDamBearing(PadBearing, KernelReaction):
     pads: tuple[RecessedPad, ...]
     cells: tuple[int, int] = (64, 16)
     extrapolated: bool = True
+    mobility: Mobility | None = None
 
     def __post_init__(self) -> None:
         require_tuple("pads", self.pads, RecessedPad)
         require_kind("extrapolated", self.extrapolated, bool, "True or False")
+        require_mobility(self.mobility)
         if not self.pads:
             raise InputError(f"pads must be one at least, got {self.pads!r}")
         if not are_counts(self.cells, (16, 8), (4, 4)):
@@ -257,7 +263,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
     def kernel_on(self, extrapolated: bool) -> DamKernel:
         """Return the films in compiled code, extrapolated from two grids or not."""
         self.require_temperature()
-        return DamKernel(self.rows, list(self.dimensions.values()), extrapolated)
+        return DamKernel(self.rows, list(self.dimensions.values()), extrapolated, self.mobility)
 
     @cached_property
     def rows(self) -> Array:
@@ -350,7 +356,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
         """Return power loss, torques and oil flow, by the film on these cells.
 
         The opening of a number is the gap behind the pad of that number, in the sense of +theta. Where
-        `full_gap` is None, it is that of the cooling, or false. Flow in recesses is laminar, as the film.
+        `full_gap` is None, it is that of the cooling, or false.
 
         Raises
         ------
@@ -393,6 +399,8 @@ class PressureDamBearing(PadBearing, KernelReaction):
             for (name, unit, text), value in zip(PARAMETERS, self.kernel.dimensions, strict=True)
         )
         tables = {"pads": self.rows, "extrapolated": np.array([float(self.extrapolated)])}
+        if self.mobility is not None:
+            tables |= self.mobility.tables()
         return NativeSpec(kernel="pressure_dam", parameters=parameters, tables=tables)
 
     def _answers(
@@ -553,13 +561,25 @@ class DamKernel:
         Radius, length, clearance of a pad [m] and viscosity [Pa s].
     extrapolated : bool
         Whether forces are extrapolated from these cells and half as many.
+    mobility : Mobility, optional
     """
 
-    def __init__(self, rows: Array, dimensions: Sequence[float], extrapolated: bool) -> None:
-        self._arguments = (rows, list(dimensions), extrapolated)
+    def __init__(
+        self,
+        rows: Array,
+        dimensions: Sequence[float],
+        extrapolated: bool,
+        mobility: Mobility | None = None,
+    ) -> None:
+        self._arguments = (rows, list(dimensions), extrapolated, mobility)
         self.dimensions = tuple(dimensions)
         self._pads = (structure("rf_recess_pad") * len(rows))(*map(_pad_struct, rows))
-        self.struct = structure("rf_recess")(addressof(self._pads), len(rows), *dimensions, extrapolated)
+        self.struct = structure("rf_recess")(
+            addressof(self._pads), len(rows), *dimensions, extrapolated=extrapolated
+        )
+        if mobility is not None:
+            radius, _, clearance, viscosity = dimensions
+            self.struct.mobility = mobility.struct(per_rate(mobility, radius * clearance / viscosity))
         self._reference = byref(self.struct)
         self._at = loops()["rf_recess_at"]
 

@@ -199,7 +199,7 @@ class TiltingPadBearing(Called, PadBearing):
     def kernel(self) -> TiltingKernel:
         """The bearing in compiled code; InputError without a stated temperature."""
         self.require_temperature()
-        return self.kernel_on(self.film)
+        return self.kernel_on(self.film_at_speed)
 
     def kernel_on(self, film: PadFilm) -> TiltingKernel:
         """Return the bearing in compiled code with another film, of fresh oil where none is stated."""

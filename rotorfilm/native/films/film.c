@@ -12,13 +12,13 @@ static int respond(const void *of, const double *state, double *f, double *jacob
 }
 
 int rf_film_batch(rf_film film, const void *data, size_t n, const double *e, size_t e_stride,
-                  const double *w, size_t w_stride, double *f, size_t f_stride, double *jacobian,
+                  const double *w, size_t w_stride, const double *rate, double *f, size_t f_stride, double *jacobian,
                   size_t jacobian_stride, size_t *first)
 {
     const bound self = {film, data};
-    const rf_states states = {{e, e + e_stride, w, w + w_stride, w}, {1, 1, 1, 1, 0}};
+    const rf_states states = {{e, e + e_stride, w, w + w_stride, rate ? rate : w}, {1, 1, 1, 1, rate ? 1 : 0}};
     const rf_answers answers = {f, f_stride, jacobian, jacobian_stride};
-    return rf_each(respond, &self, &states, 4, n, &answers, first);
+    return rf_each(respond, &self, &states, rate ? 5 : 4, n, &answers, first);
 }
 
 int rf_response_call(rf_response respond_to, const void *of, double x, double y, double vx, double vy, double speed,

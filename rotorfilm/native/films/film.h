@@ -10,8 +10,9 @@
 #include "../export.h"
 #include "../status.h"
 
-/* Force f[2] at e[2], w[2] and, unless `jacobian` is NULL, jacobian[2][4] = d f/d(e, w); `data` is what the
-   film reads. Without source the force is zero; where it has no derivative there: RF_UNDEFINED. What fails
+/* Force f[2] at e[2], w[3], the source and the rate, half the speed, and, unless `jacobian` is NULL, jacobian[10]:
+   d f/d(e, w) as [2][4], and behind it d f/d(rate), w held. Only a film that knows the rate by more than its source
+   reads it, and writes that derivative; else it stays as it is. `data` is what the film reads. Without source the force is zero; where it has no derivative there: RF_UNDEFINED. What fails
    answers not-a-number together with its status. */
 typedef int (*rf_film)(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
@@ -62,10 +63,11 @@ static inline int rf_each(rf_response respond, const void *of, const rf_states *
 }
 
 /* A batch of n states: the components lead, one contiguous row of n each, the rows of e, w, f and jacobian
-   (2 x 4 rows, or NULL) one stride apart. */
+   (2 x 4 rows, or NULL) one stride apart. The rates are NULL where no film reads them; with them there are two more
+   rows, of the derivatives by the rate. */
 RF_EXPORT int rf_film_batch(rf_film film, const void *data, size_t n, const double *e, size_t e_stride,
-                            const double *w, size_t w_stride, double *f, size_t f_stride, double *jacobian,
-                            size_t jacobian_stride, size_t *first);
+                            const double *w, size_t w_stride, const double *rate, double *f, size_t f_stride,
+                            double *jacobian, size_t jacobian_stride, size_t *first);
 
 /* Scalar call of a force at (x, y, vx, vy, speed), for hosts that hold numbers, not arrays. */
 RF_EXPORT int rf_response_call(rf_response respond, const void *of, double x, double y, double vx, double vy,

@@ -21,7 +21,7 @@ static void set_kinematics(double clearance, const double *state, double *e, dou
         w[0] = w[1] = 0.0;
 }
 
-/* Turn film[2][4] = d f/d(e, w) into jacobian[2][5]. */
+/* Turn film[10] = d f/d(e, w) and d f/d(rate) into jacobian[2][5]. */
 static void set_jacobian(const rf_journal *journal, const double *e, double speed, const double *film,
                          double *jacobian)
 {
@@ -34,17 +34,18 @@ static void set_jacobian(const rf_journal *journal, const double *e, double spee
         row[1] = per_c * (by[1] + half * by[2]);
         row[2] = per_c * by[2];
         row[3] = per_c * by[3];
-        row[4] = 0.5 * scale * (by[2] * e[1] - by[3] * e[0]);
+        row[4] = 0.5 * scale * (by[2] * e[1] - by[3] * e[0] + film[8 + i]);
     }
 }
 
 int rf_journal_at(const void *of, const double *state, double *f, double *jacobian)
 {
     const rf_journal *journal = of;
-    double e[2], w[2], film[8];
+    double e[2], w[3], film[10] = {0.0};
     if (rf_is_broken(state, 5))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
     set_kinematics(journal->clearance, state, e, w);
+    w[2] = 0.5 * state[4];
     const int status = journal->film(journal->data, e, w, f, jacobian ? film : NULL);
     f[0] *= journal->force_scale;
     f[1] *= journal->force_scale;

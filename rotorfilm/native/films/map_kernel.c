@@ -10,11 +10,11 @@
 #define CENTER 1e-8 /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
 
 /* M of a plain map at X and cos; beyond the last node linear in ln X, so that J is a power of X, as in thin films. */
-static RF_INLINE rf_spline plain_spline(const rf_map *map, double x, double c, int order)
+static RF_INLINE rf_spline plain_spline(const rf_map *map, double x, const double *y, double c, int order)
 {
-    const int outside = x > map->x.last;
+    const int outside = x > map->x.last, axes = y ? 3 : 2;
     const rf_axis cosine = {map->s.cells, -1.0, 1.0};
-    const size_t stride = rf_width(&map->s);
+    const size_t width = rf_width(&map->s), stride[2] = {y ? width * rf_width(&map->y) : width, width};
     rf_weights by[3];
     rf_spline m;
     rf_weigh_from_zero(&map->x, outside ? map->x.last : x, order > 0, by);
@@ -23,17 +23,19 @@ static RF_INLINE rf_spline plain_spline(const rf_map *map, double x, double c, i
         by->per = map->x.cells / x;
     }
     rf_weigh_between(&cosine, c, order > 0 ? 2 : 1, by + 2);
-    rf_evaluate(map->coefficients, 2, order, &stride, by, &m);
+    if (y)
+        rf_weigh_from_zero(&map->y, *y, order > 0, by + 1);
+    rf_evaluate(map->coefficients, axes, order, stride, by, &m);
     return m;
 }
 
 /* Of a plain film, along the source. In sin and cos of the angle from w to e nothing is divided by chi. */
-static RF_INLINE rf_exponent plain_exponent(const rf_map *map, const rf_frame *at, double x, double slope, int order)
+static RF_INLINE rf_exponent exponent_of(double center, const rf_spline *of_m, const rf_frame *at, double slope, int order)
 {
     const double c = at->cos, s = at->sin, chi = at->chi;
-    const rf_spline m = plain_spline(map, x, c, order);
+    const rf_spline m = *of_m;
     const double turn = m.m_s * chi * s;
-    rf_exponent of = {map->center[0] + chi * m.m, 0.0, 0.0, turn, 0.0, 0.0, 0.0};
+    rf_exponent of = {center + chi * m.m, 0.0, 0.0, turn, 0.0, 0.0, 0.0};
     if (order > 0) {
         const double radial = m.m + chi * m.m_x * slope, bent = chi * slope * m.m_xs;
         of.along = radial * c + m.m_s * s * s;
@@ -43,6 +45,12 @@ static RF_INLINE rf_exponent plain_exponent(const rf_map *map, const rf_frame *a
         of.turn_turn = chi * (m.m_ss * s * s - m.m_s * c);
     }
     return of;
+}
+
+static RF_INLINE rf_exponent plain_exponent(const rf_map *map, const rf_frame *at, double x, double slope, int order)
+{
+    const rf_spline m = plain_spline(map, x, NULL, at->cos, order);
+    return exponent_of(map->center[0], &m, at, slope, order);
 }
 
 /* L at the last node. */
@@ -62,14 +70,14 @@ static int plain_beyond(const rf_map *map, const rf_frame *at, double *f, double
 }
 
 /* Without source: isotropic damping at the center, no derivative elsewhere. */
-static int resting(const rf_map *map, double chi, double *f, double *jacobian)
+static int resting(double center, double chi, double *f, double *jacobian)
 {
     if (!jacobian || chi > CENTER)
         return rf_rest(f, jacobian);
     f[0] = f[1] = 0.0;
     for (int i = 0; i < 8; ++i)
         jacobian[i] = 0.0;
-    jacobian[2] = jacobian[7] = -2.0 * exp(map->center[0]);
+    jacobian[2] = jacobian[7] = -2.0 * exp(center);
     return RF_OK;
 }
 
@@ -80,7 +88,7 @@ int rf_map_film(const void *of, const double *e, const double *w, double *f, dou
     double slope = 0.0;
     const int status = rf_orient(e, w, &at);
     if (status == RF_UNDEFINED)
-        return resting(map, at.chi, f, jacobian);
+        return resting(map->center[0], at.chi, f, jacobian);
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
@@ -90,6 +98,37 @@ int rf_map_film(const void *of, const double *e, const double *w, double *f, dou
     const rf_exponent here = plain_exponent(map, &at, x, slope, jacobian || x > map->x.last ? 2 : 0);
     rf_set_answer(&at, -exp(here.value), &here, at.nx, at.ny, f, jacobian);
     return rf_judge(x, map->x.last, f, jacobian);
+}
+
+int rf_sped_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
+{
+    const rf_map *map = of;
+    rf_frame at;
+    rf_weights by;
+    double slope = 0.0;
+    const int status = rf_orient(e, w, &at);
+    const double reynolds = fabs(w[2]) * map->per_rate, y = log1p(reynolds / map->scale), held = fmin(y, map->y.last);
+    rf_weigh_from_zero(&map->y, held, 1, &by);
+    const double center = rf_dot(map->center + by.cell, by.value);
+    if (status != RF_UNDEFINED && (status != RF_OK || !isfinite(w[2])))
+        return rf_fail(status == RF_OK ? RF_NOT_FINITE : status, f, jacobian, 10);
+    for (int k = 8; jacobian && k < 10; ++k)
+        jacobian[k] = 0.0;
+    if (status == RF_UNDEFINED)
+        return resting(center, at.chi, f, jacobian);
+    const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
+    const rf_spline m = plain_spline(map, x, &held, at.cos, 2);
+    const rf_exponent here = exponent_of(center, &m, &at, slope, 2);
+    const double potential = -exp(here.value);
+    rf_set_answer(&at, potential, &here, at.nx, at.ny, f, jacobian);
+    if (jacobian && y <= map->y.last && w[2] != 0.0) {
+        const double per = copysign(map->per_rate / (map->scale + reynolds), w[2]);
+        const double grown = per * (by.per * rf_dot(map->center + by.cell, by.slope) + at.chi * m.m_y);
+        const double turned = per * at.size * potential * at.chi * at.sin * m.m_ys;
+        jacobian[8] = grown * f[0] - turned * at.ny;
+        jacobian[9] = grown * f[1] + turned * at.nx;
+    }
+    return rf_judge(fmax(x / map->x.last, y / map->y.last), 1.0, f, jacobian);
 }
 
 void rf_map_to_wall(rf_map *map)
@@ -107,7 +146,7 @@ void rf_map_to_wall(rf_map *map)
 
 int rf_map_error(const rf_map *map)
 {
-    return map->slenderness > 0.0 ? rf_wall_error(map->x.last) : 0;
+    return map->slenderness > 0.0 && !map->eased ? rf_wall_error(map->x.last) : 0;
 }
 
 /* u and Y of a place, and their derivatives: u does not depend on eta. */

@@ -9,6 +9,7 @@
    coordinates that follow the film, and a part in closed form:
 
        plain      L = L0 + chi M(X, cos)                X = chi/(1 - chi^2)^(1/4), cos the cosine of the angle from w to e;
+       sped       L = L0(y) + chi M(X, y, cos)          y = ln(1 + Re/scale), Re the Reynolds number, which grows with the speed;
        grooved    L = L0(phi) + chi M(X, theta, s)      e at the angle theta and w at phi, both from the axis of the openings,
                                                         tan s = squeeze tan(phi - theta), which crowds the nodes where the
                                                         source is across the eccentricity;
@@ -38,20 +39,26 @@ typedef struct rf_axis {
 } rf_axis;
 
 typedef struct rf_map {
-    rf_axis x, y, s;            /* X, theta and s; of a plain film X and cos alone; of a pad u, Y and phi */
+    rf_axis x, y, s;            /* X, theta and s; of a plain film X and cos alone, with y where it is sped; of a pad u, Y and
+                                   phi */
     const double *coefficients; /* of M, with 5 more than cells in each axis, s fastest; of turns the last five repeat */
     const double *center;       /* of L0: a number, or with openings over phi as the angles */
     int32_t cells_w;            /* cells of a turn in phi, for L0 with openings */
-    int32_t unused;
+    int32_t eased;              /* whether the oil has a mobility, so that beyond the last node the error is unknown */
     double squeeze, axis;       /* in (0, 1]; angle of the axis of the openings in the bearing frame [rad] */
     double sine, cosine;        /* of b, of a pad */
     double slenderness, share;  /* length/diameter of the film at the wall, 0 where it is not that; its share, 1 in units of
                                    a journal */
+    double scale, per_rate;     /* of y, and Re over the rate [s] */
 } rf_map;
 
 /* The film of a plain map. Beyond the last node, where that is no film at the wall, J goes on as a power of X:
    RF_OUTSIDE. Without source there is a derivative at the center only. */
 RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
+
+/* That of a plain map which changes with the rate, and its derivative by that. Beyond the last X J goes on as a power of
+   it, beyond the last y it stays: RF_OUTSIDE. */
+RF_EXPORT int rf_sped_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 /* That of a map with openings. Beyond the last node it is the film at the wall as far as the openings leave it:
    RF_OUTSIDE. Without source there is no derivative, not at the center either. */

@@ -27,7 +27,15 @@ static int set_coordinates(rf_map *map, int32_t kind, uint32_t given, const doub
         map->x.last = n[1];
         map->squeeze = n[2];
         map->axis = n[3];
+        map->eased = given == 5 && n[4] == 0.0;
         return n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0 && n[2] <= 1.0;
+    }
+    if (kind == RF_SPED) {
+        map->x.last = n[0];
+        map->scale = n[1];
+        map->y.last = n[2];
+        map->per_rate = n[3];
+        return n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0 && n[3] > 0.0 && map->cells_w == map->y.cells;
     }
     if (kind == RF_PAD) {
         map->x.first = n[1];
@@ -57,7 +65,7 @@ int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tabl
     const uint32_t *n = c->extent, layers = plain ? n[0] : LEAST, count = kind == RF_PAD ? LEAST : center->extent[0];
     const uint32_t given = numbers->extent[0];
     int fits = plain ? count == layers && (layers == 1 || (kind == RF_LAYERED && layers >= LEAST)) : count >= LEAST;
-    fits = fits && layers <= MOST && count <= MOST && (plain ? given == 1 || given == 3 : given == 4);
+    fits = fits && layers <= MOST && count <= MOST && (plain ? given == 1 || given == 3 : given == 4 || (given == 5 && kind == RF_GROOVED));
     for (int k = plain; k < 3; ++k)
         fits = fits && n[k] >= LEAST && n[k] <= MOST;
     if (!fits)
@@ -65,7 +73,7 @@ int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tabl
                       of, (unsigned)n[0], (unsigned)n[1], (unsigned)n[2], (unsigned)count, (unsigned)given);
     const rf_map found = {{(int32_t)n[plain] - 5, 0.0, 0.0}, {plain ? 0 : (int32_t)n[1] - 5, 0.0, RF_TURN},
                           {(int32_t)n[2] - 5, 0.0, RF_TURN}, c->numbers, center->numbers, (int32_t)count - 5,
-                          0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+                          0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0};
     *map = found;
     if (!set_coordinates(map, kind, given, numbers->numbers))
         return rf_say(why, RF_INVALID, "%smap must be numbers of a film, got %.9g and others", of, numbers->numbers[0]);

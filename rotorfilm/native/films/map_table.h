@@ -9,9 +9,10 @@
 
        RF_PLAIN     (1, X, cos), (1), and reach, or reach with length/diameter and share of the film at the wall
        RF_LAYERED   (S, X, cos), (S) over S = ln(length/diameter), and reach; with `range`, its first and last one
-       RF_GROOVED   (X, theta, s), (phi), and length/diameter, reach, squeeze and axis [rad]
+       RF_GROOVED   (X, theta, s), (phi), and length/diameter, reach, squeeze, axis [rad] and whether the oil is laminar
+       RF_SPED      (X, y, cos), (y), and reach, scale and last y, Re over the rate [s]
        RF_PAD       (u, Y, phi), none, and extent [rad], first and last u, last Y */
-typedef enum rf_map_kind { RF_PLAIN, RF_LAYERED, RF_GROOVED, RF_PAD } rf_map_kind;
+typedef enum rf_map_kind { RF_PLAIN, RF_LAYERED, RF_GROOVED, RF_PAD, RF_SPED } rf_map_kind;
 
 /* Take a map, for rf_map_to_wall where it is plain, whose coefficients stay where they are; of layers, the first. The names of its tables have `of` in front.
    RF_INVALID, with the message, where there is none. */

@@ -8,16 +8,23 @@
 
 #define CROWDING 0.35 /* the distance of lines at the minimum film falls as its thickness to this power */
 #define TURN 6.28318530717958647692
-#define LINE_ROWS 10
+#define LINE_ROWS 11
 
 static int drags(const rf_ring *ring)
 {
-    return ring->mobility != NULL || (ring->recess >= 0 && ring->depth > 0.0);
+    return ring->mobility.drags || (ring->recess >= 0 && ring->depth > 0.0);
+}
+
+/* Arrays of numbers by cell. */
+static size_t cell_rows(const rf_ring *ring)
+{
+    const size_t drawn = drags(ring) ? 6 : 4, grown = drags(ring) ? 3 : 2;
+    return drawn + (ring->mobility.per_rate > 0.0 ? grown : 0);
 }
 
 size_t rf_cells_size(const rf_ring *ring, const rf_grid *grid)
 {
-    return LINE_ROWS * grid->lines + (drags(ring) ? 6 : 4) * grid->lines * grid->nodes + grid->nodes;
+    return LINE_ROWS * grid->lines + cell_rows(ring) * grid->lines * grid->nodes + grid->nodes;
 }
 
 /* Whether the cells between a node and the next are within the share of the recess, which lies about the middle. */
@@ -31,16 +38,20 @@ void rf_open_cells(rf_cells *cells, const rf_ring *ring, const rf_grid *grid, do
 {
     double **const by_line[LINE_ROWS] = {
         &cells->theta,      &cells->face,      &cells->at_line[0], &cells->at_line[1], &cells->at_face[0],
-        &cells->at_face[1], &cells->normal[0], &cells->normal[1],  &cells->entry,      &cells->entry_slope};
-    double **const by_cell[6] = {&cells->around,      &cells->along,   &cells->around_slope,
-                                 &cells->along_slope, &cells->dragged, &cells->dragged_slope};
+        &cells->at_face[1], &cells->normal[0], &cells->normal[1],  &cells->entry,      &cells->entry_slope,
+        &cells->entry_grown};
+    double **const by_cell[9] = {&cells->around,        &cells->along,        &cells->around_slope,
+                                 &cells->along_slope,   &cells->dragged,      &cells->dragged_slope,
+                                 &cells->around_grown,  &cells->along_grown,  &cells->dragged_grown};
+    const int grows = ring->mobility.per_rate > 0.0;
     const size_t nodes = grid->nodes;
     cells->ring = ring;
     cells->grid = grid;
     for (int k = 0; k < LINE_ROWS; ++k, memory += grid->lines)
         *by_line[k] = memory;
-    for (int k = 0; k < 6; ++k) {
-        *by_cell[k] = k < 4 || drags(ring) ? memory : NULL;
+    for (int k = 0; k < 9; ++k) {
+        const int taken = (k < 6 || grows) && (k < 4 || k == 6 || k == 7 || drags(ring));
+        *by_cell[k] = taken ? memory : NULL;
         memory += *by_cell[k] ? grid->lines * nodes : 0;
     }
     cells->deep = memory;
@@ -162,57 +173,98 @@ static double thickness(const strip *across, size_t k)
     return grid->place ? grid->wall[k] - across->base - grid->place[k] * across->lean : 1.0 - across->base;
 }
 
-/* Add a conductance of so much width per length at a thickness, and its derivative by the thickness. */
-static void conduct(const rf_ring *ring, double H, double share, double *conductance, double *slope)
+/* What a face adds up, and its derivatives by the thickness and by the logarithm of the growth of the mobility. */
+typedef struct sum {
+    double *value, *slope, *grown;
+} sum;
+
+/* The sum of a cell; there may be none of the growth. */
+static sum sum_at(double *value, double *slope, double *grown, size_t at)
 {
-    double flow = H * H * H, by = 3.0 * H * H, factor[3], slopes[3];
-    if (ring->mobility) {
-        ring->mobility(ring->mobile, H, factor, slopes);
-        by = factor[0] * by + slopes[0] * flow;
-        flow *= factor[0];
+    const sum found = {value + at, slope + at, grown ? grown + at : NULL};
+    return found;
+}
+
+static void add(const sum *to, double value, double slope, double grown)
+{
+    *to->value += value;
+    *to->slope += slope;
+    if (to->grown)
+        *to->grown += grown;
+}
+
+/* Add a conductance of so much width per length at a thickness. */
+static void conduct(const rf_cells *cells, rf_factor way, double H, double share, const sum *to)
+{
+    const rf_mobility *mobility = &cells->ring->mobility;
+    double flow = H * H * H, by = 3.0 * H * H, eased = 0.0;
+    if (mobility->cells > 0) {
+        const double factor = rf_ease(mobility, way, cells->growth * H, &eased);
+        eased *= cells->growth * flow;
+        by = factor * by + eased;
+        flow *= factor;
     }
-    *conductance += share * flow;
-    *slope += share * by;
+    add(to, share * flow, share * by, share * eased * H);
 }
 
 /* Add what walls drag over so much width of a depth beyond the smooth H. */
-static void drag(const rf_ring *ring, double H, double depth, double width, double *flux, double *slope)
+static void drag(const rf_cells *cells, double H, double depth, double width, const sum *to)
 {
-    double factor[3] = {0.0, 1.0, 0.0}, slopes[3] = {0.0, 0.0, 0.0};
+    const rf_mobility *mobility = &cells->ring->mobility;
     const double thick = H + depth;
-    if (ring->mobility)
-        ring->mobility(ring->mobile, thick, factor, slopes);
-    *flux += width * (depth + (factor[1] - 1.0) * thick);
-    *slope += width * (factor[1] - 1.0 + slopes[1] * thick);
+    double factor = 1.0, eased = 0.0;
+    if (mobility->drags)
+        factor = rf_ease(mobility, RF_OF_DRAG, cells->growth * thick, &eased);
+    eased *= cells->growth * thick;
+    add(to, width * (depth + (factor - 1.0) * thick), width * (factor - 1.0 + eased), width * eased * thick);
+}
+
+/* The same of all nodes of an even face, per width. */
+typedef struct once {
+    double of[3];
+} once;
+
+static sum sum_of(once *all)
+{
+    const sum found = {all->of, all->of + 1, all->of + 2};
+    return found;
+}
+
+static void share_out(const once *all, double width, const sum *to)
+{
+    *to->value = all->of[0] * width;
+    *to->slope = all->of[1] * width;
+    if (to->grown)
+        *to->grown = all->of[2] * width;
 }
 
 /* The conductances to the next line, and what is dragged there. */
 static void set_around(rf_cells *cells, size_t i, const strip *face, double step)
 {
-    const rf_ring *ring = cells->ring;
     const rf_grid *grid = cells->grid;
     const size_t nodes = grid->nodes, first = i * nodes;
     const double per = step > 0.0 ? 1.0 / step : 0.0; /* two openings may touch */
-    double *c = cells->around + first, *slope = cells->around_slope + first;
     const int even = !grid->place && face->depth == 0.0;
-    double once[2] = {0.0, 0.0};
+    once all = {{0.0, 0.0, 0.0}};
+    const sum whole = sum_of(&all);
     if (even)
-        conduct(ring, thickness(face, 0), per, &once[0], &once[1]);
+        conduct(cells, RF_AROUND, thickness(face, 0), per, &whole);
     for (size_t j = 0; j < nodes; ++j) {
         const double deep = even ? 0.0 : cells->deep[j];
-        c[j] = once[0] * grid->width[j];
-        slope[j] = once[1] * grid->width[j];
+        const sum to = sum_at(cells->around, cells->around_slope, cells->around_grown, first + j);
+        share_out(&all, grid->width[j], &to);
         if (!even) {
             const double H = thickness(face, 2 * j + 2);
-            conduct(ring, H, per * (grid->width[j] - deep), c + j, slope + j);
-            conduct(ring, H + face->depth, per * deep, c + j, slope + j);
+            conduct(cells, RF_AROUND, H, per * (grid->width[j] - deep), &to);
+            conduct(cells, RF_AROUND, H + face->depth, per * deep, &to);
         }
     }
     for (size_t j = 0; cells->dragged && j < nodes; ++j) {
         const double H = thickness(face, 2 * j + 2), deep = face->depth > 0.0 ? cells->deep[j] : 0.0;
-        cells->dragged[first + j] = cells->dragged_slope[first + j] = 0.0;
-        drag(ring, H, 0.0, grid->width[j] - deep, cells->dragged + first + j, cells->dragged_slope + first + j);
-        drag(ring, H, face->depth, deep, cells->dragged + first + j, cells->dragged_slope + first + j);
+        const sum to = sum_at(cells->dragged, cells->dragged_slope, cells->dragged_grown, first + j);
+        share_out(&all, 0.0, &to);
+        drag(cells, H, 0.0, grid->width[j] - deep, &to);
+        drag(cells, H, face->depth, deep, &to);
     }
 }
 
@@ -222,26 +274,26 @@ static void set_along(rf_cells *cells, size_t i, const strip half[2], const doub
     const rf_ring *ring = cells->ring;
     const rf_grid *grid = cells->grid;
     const size_t nodes = grid->nodes;
-    double *c = cells->along + i * nodes, *slope = cells->along_slope + i * nodes;
     const int even = !grid->place && half[0].depth == 0.0 && half[1].depth == 0.0;
-    double once[2] = {0.0, 0.0};
+    once all = {{0.0, 0.0, 0.0}};
+    const sum whole = sum_of(&all), entry = {cells->entry + i, cells->entry_slope + i, cells->entry_grown + i};
     if (even)
-        conduct(ring, thickness(half, 0), wide[0] + wide[1], &once[0], &once[1]);
+        conduct(cells, RF_ALONG, thickness(half, 0), wide[0] + wide[1], &whole);
     for (size_t j = 0; j < nodes; ++j) {
-        c[j] = once[0] * grid->conductance[j];
-        slope[j] = once[1] * grid->conductance[j];
+        const sum to = sum_at(cells->along, cells->along_slope, cells->along_grown, i * nodes + j);
+        share_out(&all, grid->conductance[j], &to);
         for (int k = 0; k < 2 && !even; ++k) {
             const double depth = is_inside(cells, j) ? half[k].depth : 0.0;
-            conduct(ring, thickness(half, 2 * j + 3) + depth, wide[k] * grid->conductance[j], c + j, slope + j);
+            conduct(cells, RF_ALONG, thickness(half, 2 * j + 3) + depth, wide[k] * grid->conductance[j], &to);
         }
     }
-    cells->entry[i] = cells->entry_slope[i] = 0.0;
+    *entry.value = *entry.slope = *entry.grown = 0.0;
     for (int k = 0; k < 2 && ring->whole; ++k)
-        conduct(ring, thickness(half, 1) + (grid->within > nodes / 2 ? half[k].depth : 0.0),
-                wide[k] * grid->conductance[nodes - 1], cells->entry + i, cells->entry_slope + i);
+        conduct(cells, RF_ALONG, thickness(half, 1) + (grid->within > nodes / 2 ? half[k].depth : 0.0),
+                wide[k] * grid->conductance[nodes - 1], &entry);
 }
 
-void rf_set_cells(rf_cells *cells, const double *q)
+void rf_set_cells(rf_cells *cells, const double *q, double rate)
 {
     const rf_ring *ring = cells->ring;
     const size_t n = cells->grid->lines;
@@ -249,6 +301,7 @@ void rf_set_cells(rf_cells *cells, const double *q)
     rf_least_film(ring, q, place);
     const double depth = 1.0 + pow(1.0 - place[0] * place[0] - place[1] * place[1], CROWDING);
     const double a[2] = {place[0] / depth, place[1] / depth}, across = 1.0 / (ring->slenderness * ring->slenderness);
+    cells->growth = rf_growth(&ring->mobility, rate);
     set_angles(cells, a, cells->grid->line, cells->theta);
     set_angles(cells, a, cells->grid->face, cells->face);
     for (size_t i = 0; i < n; ++i) {
@@ -322,12 +375,19 @@ static void add_bent(const double *const n[2], size_t i, double even, double lea
     }
 }
 
-void rf_bend(const rf_cells *cells, const double *x, const double *pressure, double rate, double bent[RF_FREEDOMS])
+/* What the growth of a mobility changes at a cell. */
+static double grown(const rf_cells *cells, size_t q, double fall, double drop, double beyond, double beside, double rate)
+{
+    const double flux = cells->dragged_grown ? rate * cells->dragged_grown[q] : 0.0;
+    return fall * (cells->around_grown[q] * drop + flux) + cells->along_grown[q] * beyond * beside;
+}
+
+void rf_bend(const rf_cells *cells, const double *x, const double *pressure, double rate, double bent[RF_FREEDOMS + 1])
 {
     const rf_grid *grid = cells->grid;
     const size_t lines = grid->lines, nodes = grid->nodes;
     const double *place = grid->place;
-    memset(bent, 0, RF_FREEDOMS * sizeof(double));
+    memset(bent, 0, (RF_FREEDOMS + 1) * sizeof(double));
     for (size_t i = 0; i < lines; ++i) {
         const double *X = x + i * nodes, *after = x + (i + 1 < lines ? i + 1 : 0) * nodes;
         const double *P = pressure + i * nodes, *beyond = pressure + (after - x);
@@ -338,6 +398,8 @@ void rf_bend(const rf_cells *cells, const double *x, const double *pressure, dou
             const double around = (X[j] - after[j]) * (cells->around_slope[q] * (P[j] - beyond[j]) + flux);
             const double fall = X[j] - (last ? 0.0 : X[j + 1]), drop = P[j] - (last ? 0.0 : P[j + 1]);
             const double along = cells->along_slope[q] * fall * drop;
+            if (cells->around_grown)
+                bent[RF_FREEDOMS] += grown(cells, q, X[j] - after[j], P[j] - beyond[j], fall, drop, rate);
             sums[0] += around;
             sums[1] += along;
             if (place) {
@@ -347,6 +409,7 @@ void rf_bend(const rf_cells *cells, const double *x, const double *pressure, dou
         }
         if (place) {
             const double entry = cells->entry_slope[i] * X[0] * P[0];
+            bent[RF_FREEDOMS] += cells->entry_grown[i] * X[0] * P[0];
             sums[1] += entry;
             sums[3] += entry * place[1];
         }

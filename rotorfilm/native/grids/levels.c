@@ -37,10 +37,10 @@ void rf_close_levels(rf_levels *levels)
     free(levels->memory);
 }
 
-void rf_place_journal(rf_levels *levels, const double *q)
+void rf_place_journal(rf_levels *levels, const double *q, double rate)
 {
     for (int level = 0; level < levels->ring->levels; ++level)
-        rf_set_cells(&levels->cells[level], q);
+        rf_set_cells(&levels->cells[level], q, rate);
 }
 
 static size_t middle_of(const rf_ring *ring, const rf_grid *grid)
@@ -154,7 +154,7 @@ void rf_take_derivatives(rf_levels *levels, double rate, double *by)
     memset(by, 0, RF_FREEDOMS * RF_COLUMNS * sizeof(double));
     for (int k = 0; k < parts; ++k, by += RF_COLUMNS) {
         const double unit[RF_DRIVES] = {k == 0, k == 1, k == 2, k == 3, 0.0};
-        double bent[RF_FREEDOMS], products[RF_DRIVES];
+        double bent[RF_FREEDOMS + 1], products[RF_DRIVES];
         rf_set_source(cells, unit, levels->answer);
         for (size_t q = 0; levels->ring->clipped && q < levels->film.lines * levels->film.nodes; ++q)
             levels->answer[q] = levels->pressure[q] > 0.0 ? levels->answer[q] : 0.0;
@@ -165,6 +165,8 @@ void rf_take_derivatives(rf_levels *levels, double rate, double *by)
             by[m] = 12.0 * bent[m];
         for (int m = 0; m < RF_DRIVES; ++m)
             by[RF_FREEDOMS + m] = -12.0 * products[m];
+        if (cells->around_grown && rate != 0.0)
+            by[RF_COLUMNS - 1] += 12.0 * bent[RF_FREEDOMS] / rate;
     }
 }
 

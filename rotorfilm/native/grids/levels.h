@@ -21,8 +21,8 @@ typedef struct rf_levels {
 int rf_open_levels(rf_levels *levels, const rf_ring *ring);
 void rf_close_levels(rf_levels *levels);
 
-/* Put the journal at q = (e, tau) on all grids. */
-void rf_place_journal(rf_levels *levels, const double *q);
+/* Put the journal at q = (e, tau), turning at a rate, on all grids. */
+void rf_place_journal(rf_levels *levels, const double *q, double rate);
 
 /* Set the pressure on one grid for drive[5]; RF_STUCK. Where the film is searched for, the next coarser grid is to be
    solved before. */

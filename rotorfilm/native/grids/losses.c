@@ -10,17 +10,16 @@
 #define UNIT 1e-9        /* distance that |e| keeps from 1 */
 #define PI 3.14159265358979323846
 
-/* The gap at an angle on land, the integrals of 1/H and 1/H^2 from the line of maximum film, and the factor of the
-   shear. */
+/* The gap at an angle on land, and the integrals of 1/H and 1/H^2 from the line of maximum film. */
 typedef struct section {
-    double thickness, film, square, sheared;
+    double thickness, film, square;
 } section;
 
-/* One half of a cell: the integrals over it on land, and the gap at its line, middle and face in each part, and the
-   integral of 1/H there. */
+/* One half of a cell: the integrals over it on land, and the gap at its line, middle and face in each part, the
+   integral of 1/H there, and the factor of the shear. */
 typedef struct half {
     section over;
-    double step, gap[2][3], whole[2];
+    double step, gap[2][3], whole[2], factor[2];
 } half;
 
 /* One state, seen in the direction in which the oil runs. A row of nodes has two parts where there is a recess: that
@@ -83,13 +82,12 @@ static section section_at(const double *e, double chi, double angle)
     const double root = sqrt(fabs((1.0 - chi) / (1.0 + chi)));
     const double bent = gap > 0.0 ? atan2(root * sin(0.5 * t), cos(0.5 * t)) : atanh(root * tan(0.5 * t));
     const double film = 2.0 * bent / sqrt(fabs(gap));
-    const section at = {h, film, (film - chi * sin(t) / h) / gap, 1.0};
+    const section at = {h, film, (film - chi * sin(t) / h) / gap};
     return at;
 }
 
 static void place_stream(stream *oil, const double *q, double rate)
 {
-    const rf_ring *ring = oil->film->ring;
     const double chi = off_unit(q), gap = (1.0 - chi) * (1.0 + chi);
     oil->q = q;
     oil->rate = fabs(rate);
@@ -99,12 +97,21 @@ static void place_stream(stream *oil, const double *q, double rate)
     for (size_t i = 0; i < oil->grid->lines; ++i) {
         oil->face[i] = section_at(q, chi, oil->cells->face[i]);
         oil->line[i] = section_at(q, chi, oil->cells->theta[i]);
-        if (ring->mobility) {
-            double factor[3] = {1.0, 1.0, 1.0}, slope[3];
-            ring->mobility(ring->mobile, oil->line[i].thickness, factor, slope);
-            oil->line[i].sheared = factor[2];
-        }
     }
+}
+
+/* A factor of the mobility where the gap is H. */
+static double factor_at(const stream *oil, rf_factor which, double H)
+{
+    const rf_mobility *mobility = &oil->film->ring->mobility;
+    double slope;
+    return mobility->cells > 0 ? rf_ease(mobility, which, oil->cells->growth * H, &slope) : 1.0;
+}
+
+/* The rate at which oil runs along a gap H. */
+static double run(const stream *oil, double H)
+{
+    return oil->film->ring->mobility.drags ? oil->rate * factor_at(oil, RF_OF_DRAG, H) : oil->rate;
 }
 
 static size_t before(const stream *oil, size_t i)
@@ -221,7 +228,7 @@ static double carry(stream *oil, const gaps *at, size_t i, size_t j)
 /* Integrals from one place on the ring to the next. */
 static section over(const stream *oil, const section *from, const section *to)
 {
-    section at = {0.0, to->film - from->film, to->square - from->square, 1.0};
+    section at = {0.0, to->film - from->film, to->square - from->square};
     if (at.film < 0.0) {
         at.film += oil->turn;
         at.square += oil->square_turn;
@@ -247,6 +254,8 @@ static half half_at(const stream *oil, size_t i, int after)
     const section *face = &oil->face[k], *line = &oil->line[i];
     const double from = oil->cells->theta[i], to = oil->cells->face[k];
     half at;
+    for (int part = 0; part < 2; ++part)
+        at.factor[part] = factor_at(oil, RF_OF_SHEAR, line_gap(oil, i, part, after));
     at.over = (after != 0) != oil->backward ? over(oil, line, face) : over(oil, face, line);
     at.whole[0] = at.over.film;
     if (!oil->stepped)
@@ -266,7 +275,7 @@ static half half_at(const stream *oil, size_t i, int after)
 static void add_half(const stream *oil, const half *at, size_t i, int part, double width, double full, double thin,
                      rf_pad_oil *sums)
 {
-    const double wide = width * oil->line[i].sheared, whole = wide * at->whole[part];
+    const double wide = width * at->factor[part], whole = wide * at->whole[part];
     sums->film += full * whole;
     sums->gap += whole;
     if (full < 1.0)
@@ -340,8 +349,8 @@ static int starves(const stream *oil, const gaps *at, size_t i, size_t j)
     double taken = drawn(oil, i, j, 0), come = 0.0;
     for (int part = 0; part < oil->parts; ++part) {
         const double width = oil->stepped ? oil->width[part][j] : oil->grid->width[j];
-        taken += oil->rate * width * at->in[part];
-        come += oil->rate * width * oil->brought[part][j];
+        taken += run(oil, at->in[part]) * width * at->in[part];
+        come += run(oil, at->in[part]) * width * oil->brought[part][j];
     }
     return taken > come * (1.0 + EXCESS);
 }
@@ -382,13 +391,13 @@ static void cross_edge(const stream *oil, size_t i, int after, double *out, doub
 {
     const size_t nodes = oil->grid->nodes, beside = next_line(oil, i, after);
     for (size_t j = held_on(oil, beside); j < held_on(oil, i); ++j) {
-        double run = 0.0;
+        double come = 0.0;
         for (int part = 0; part < oil->parts; ++part) {
             const double face = face_gap(oil, i, part, after);
             const double thin = after ? line_gap(oil, i, part, 1) : fmin(oil->brought[part][j], face);
-            run += oil->rate * oil->width[part][j] * (is_film(oil, beside * nodes + j) ? face : thin);
+            come += run(oil, face) * oil->width[part][j] * (is_film(oil, beside * nodes + j) ? face : thin);
         }
-        const double pressed = -drawn(oil, i, j, after), flow = after ? run + pressed : pressed - run;
+        const double pressed = -drawn(oil, i, j, after), flow = after ? come + pressed : pressed - come;
         *(flow > 0.0 ? out : in) += fabs(flow);
     }
 }
@@ -521,7 +530,7 @@ int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double 
         status = rf_judge_state(ring, q, drive);
         if (status != RF_OK)
             break;
-        rf_place_journal(&film, q);
+        rf_place_journal(&film, q, rate[i]);
         status = solve(&oil, q, drive);
         add_shear(&oil, &sums);
         losses[i] = sums.film;

@@ -53,6 +53,7 @@ static void place_pad(over_pad *at, const rf_recess *bearing, const rf_recess_pa
     ring->extent = at->extent;
     ring->slenderness = bearing->length / (2.0 * bearing->radius);
     ring->depth = pad->depth / own;
+    ring->mobility = bearing->mobility;
     ring->levels = PAD_LEVELS;
     ring->extrapolated = bearing->extrapolated;
     ring->pinned = ring->resting = ring->ruptured = ring->pad = 1;
@@ -114,7 +115,7 @@ static int open_pad(over_pad *at, const rf_recess *bearing, const rf_recess_pad 
         next = set_grid(at, level, next);
     const int status = rf_open_levels(&at->film, &at->ring);
     if (status == RF_OK)
-        rf_place_journal(&at->film, at->q);
+        rf_place_journal(&at->film, at->q, at->drive[4]);
     return status;
 }
 
@@ -128,7 +129,8 @@ static void close_pad(over_pad *at)
 static int pad_rests(const over_pad *at)
 {
     const int stepped = at->ring.depth > 0.0 && at->ring.recess >= 0 && at->ring.spans > 2;
-    return at->drive[0] == 0.0 && at->drive[1] == 0.0 && !(stepped && at->drive[4] != 0.0);
+    const int dragged = stepped || at->ring.mobility.drags;
+    return at->drive[0] == 0.0 && at->drive[1] == 0.0 && !(dragged && at->drive[4] != 0.0);
 }
 
 /* Add what a pad does to the force and, unless NULL, to its derivatives by the state. */

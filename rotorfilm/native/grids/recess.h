@@ -4,9 +4,9 @@
    that center, e = d/c_p, D the depth of the recess over c_p, w = velocity/c_p - (speed/2) z^ x e,
    H = 1 - e.n + D and n = (cos theta, sin theta), z from the middle, 0, to the end, 1, of the bearing,
 
-       (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,    p = 12 viscosity (R/c_p)^2 P,
+       (m H^3 P_theta)_theta + (L/D)^-2 m H^3 P_zz = -w.n + (speed/2) D_theta,    p = 12 viscosity (R/c_p)^2 P,
 
-   P = 0 at the ends of the pad and of the bearing, P >= 0 where the film ruptures. Cells are rectangles of one
+   m is the mobility of the oil at H, P = 0 at the ends of the pad and of the bearing, P >= 0 where the film ruptures. Cells are rectangles of one
    depth, the edges of the recess are on nodes, and on either side of a node conductance and Couette flux are those
    of the half cell there: what drives oil at a step is the difference of both (Rayleigh 1918). Lines rest while the
    journal moves, so the derivatives are those of the discrete film. */
@@ -18,6 +18,7 @@
 
 #include "../export.h"
 #include "../status.h"
+#include "mobility.h"
 
 typedef struct rf_recess_pad {
     double start, extent;   /* of the arc [rad] */
@@ -32,6 +33,7 @@ typedef struct rf_recess {
     const rf_recess_pad *pads;
     size_t count;
     double radius, length, clearance, viscosity; /* of the bearing; the clearance of a pad */
+    rf_mobility mobility;
     int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the grid and one with half its cells */
 } rf_recess;
 

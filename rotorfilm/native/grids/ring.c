@@ -20,7 +20,7 @@ static int is_supplied(const rf_ring *ring)
 static int is_at_rest(const rf_ring *ring, const double *drive)
 {
     for (int k = 0; k < RF_DRIVES; ++k)
-        if (drive[k] != 0.0)
+        if (drive[k] != 0.0 && (k + 1 < RF_DRIVES || ring->recess >= 0 || ring->mobility.drags))
             return 0;
     return (ring->ruptured || ring->clipped) && !is_supplied(ring);
 }
@@ -50,16 +50,31 @@ static void take_aligned(const rf_ring *ring, const double *e, const double *w, 
             jacobian[4 * k + m] = by[RF_COLUMNS * k + m];
             jacobian[4 * k + 2 + m] = by[RF_COLUMNS * k + RF_FREEDOMS + m];
         }
+        if (jacobian && rf_is_sped(ring))
+            jacobian[8 + k] = by[RF_COLUMNS * (k + 1) - 1];
     }
     if (jacobian)
         turn_lines(ring, e, w, f, jacobian);
 }
 
+int rf_is_sped(const rf_ring *ring)
+{
+    return ring->mobility.drags || ring->mobility.per_rate > 0.0;
+}
+
+/* The rate of a journal at rest, where the film knows it. */
+static double rest_rate(const rf_ring *ring, const double *e, const double *w)
+{
+    const double squared = e[0] * e[0] + e[1] * e[1];
+    return rf_is_sped(ring) && squared > 0.0 ? (e[1] * w[0] - e[0] * w[1]) / squared : 0.0;
+}
+
 static int film_of(rf_levels *levels, const double *e, const double *w, double *f, double *jacobian)
 {
-    const double q[RF_FREEDOMS] = {e[0], e[1], 0.0, 0.0}, drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, 0.0};
+    const double q[RF_FREEDOMS] = {e[0], e[1], 0.0, 0.0}, rate = rf_is_sped(levels->ring) ? w[2] : 0.0;
+    const double drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, rate};
     double wrench[RF_FREEDOMS], by[RF_FREEDOMS * RF_COLUMNS];
-    rf_place_journal(levels, q);
+    rf_place_journal(levels, q, drive[4]);
     const int status = rf_take_film(levels, drive, wrench, jacobian ? by : NULL);
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
@@ -68,13 +83,15 @@ static int film_of(rf_levels *levels, const double *e, const double *w, double *
 }
 
 /* A plain centered film is linear in w, so any direction gives its damping. */
-static int film_at_center(rf_levels *levels, const double *e, double *f, double *jacobian)
+static int film_at_center(rf_levels *levels, const double *e, double rate, double *f, double *jacobian)
 {
-    const double any[2] = {1.0, 0.0};
+    const double any[3] = {1.0, 0.0, rate};
     const int status = film_of(levels, e, any, f, jacobian);
     if (status != RF_OK)
         return status;
     f[0] = f[1] = jacobian[0] = jacobian[1] = jacobian[4] = jacobian[5] = 0.0;
+    for (int k = 8; k < 10 && rf_is_sped(levels->ring); ++k)
+        jacobian[k] = 0.0;
     return RF_OK;
 }
 
@@ -104,7 +121,7 @@ int rf_ring_wrench(const rf_ring *ring, const double *q, const double *drive, do
         return by ? RF_UNDEFINED : RF_OK;
     status = rf_open_levels(&levels, ring);
     if (status == RF_OK) {
-        rf_place_journal(&levels, q);
+        rf_place_journal(&levels, q, drive[4]);
         status = rf_take_film(&levels, drive, f, by);
     }
     rf_close_levels(&levels);
@@ -117,7 +134,7 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
     const int judged = judge(ring, e, w);
     if (judged != RF_OK)
         return rf_fail(judged, f, jacobian, 8);
-    const double drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, 0.0};
+    const double drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, rf_is_sped(ring) ? w[2] : 0.0};
     const int resting = is_at_rest(ring, drive);
     const int centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned && !ring->turning;
     if (resting && !(jacobian && centered))
@@ -125,7 +142,7 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
     rf_levels levels;
     int status = rf_open_levels(&levels, ring);
     if (status == RF_OK)
-        status = resting ? film_at_center(&levels, e, f, jacobian) : film_of(&levels, e, w, f, jacobian);
+        status = resting ? film_at_center(&levels, e, drive[4], f, jacobian) : film_of(&levels, e, w, f, jacobian);
     rf_close_levels(&levels);
     return status == RF_OK ? rf_judge(0.0, 1.0, f, jacobian) : rf_fail(status, f, jacobian, 8);
 }
@@ -137,18 +154,19 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
     int status = rf_open_levels(&levels, ring);
     *first = 0;
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
-        const double q[RF_FREEDOMS] = {e[i], e[n + i], 0.0, 0.0}, drive[RF_DRIVES] = {w[i], w[n + i], 0.0, 0.0, 0.0};
-        double f[RF_FREEDOMS] = {0.0}, by[RF_FREEDOMS * RF_COLUMNS], slopes[8];
+        const double q[RF_FREEDOMS] = {e[i], e[n + i], 0.0, 0.0}, source[2] = {w[i], w[n + i]};
+        const double drive[RF_DRIVES] = {w[i], w[n + i], 0.0, 0.0, rest_rate(ring, q, source)};
+        double f[RF_FREEDOMS] = {0.0}, by[RF_FREEDOMS * RF_COLUMNS], slopes[10];
         *first = i;
         status = rf_judge_state(ring, q, drive);
         if (status != RF_OK)
             break;
-        rf_place_journal(&levels, q);
+        rf_place_journal(&levels, q, drive[4]);
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
             double *answer = level == 1 ? coarse : fine;
             status = level == 1 ? rf_solve_down_to(&levels, 1, drive) : rf_solve_level(&levels, 0, drive);
             if (jacobian && level == 0 && status == RF_OK)
-                rf_take_derivatives(&levels, 0.0, by);
+                rf_take_derivatives(&levels, drive[4], by);
             rf_take_force(&levels, f);
             answer[i] = f[0];
             answer[n + i] = f[1];
@@ -165,7 +183,8 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
 int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double *theta, double *face,
                   double *pressure, double *side_flow)
 {
-    const double q[RF_FREEDOMS] = {e[0], e[1], 0.0, 0.0}, drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, 0.0};
+    const double q[RF_FREEDOMS] = {e[0], e[1], 0.0, 0.0};
+    const double drive[RF_DRIVES] = {w[0], w[1], 0.0, 0.0, rest_rate(ring, e, w)};
     const size_t lines = ring->grids[0].lines;
     rf_levels levels;
     double f[RF_FREEDOMS];
@@ -173,7 +192,7 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     if (status == RF_OK)
         status = rf_judge_state(ring, q, drive);
     if (status == RF_OK) {
-        rf_place_journal(&levels, q);
+        rf_place_journal(&levels, q, drive[4]);
         status = rf_solve_down_to(&levels, 0, drive);
         rf_take_force(&levels, f);
         memcpy(theta, levels.cells[0].theta, lines * sizeof(double));
@@ -191,7 +210,7 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
 static double potential_of(const rf_levels *levels, const double *w, size_t stride, double *slope)
 {
     const rf_cells *cells = &levels->cells[levels->level];
-    double bent[RF_FREEDOMS], products[RF_DRIVES];
+    double bent[RF_FREEDOMS + 1], products[RF_DRIVES];
     if (slope)
         rf_bend(cells, levels->pressure, levels->pressure, 0.0, bent);
     for (size_t m = 0; m < 2 && slope; ++m)
@@ -208,7 +227,7 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
     int status = rf_open_levels(&levels, ring);
     *first = 0;
     if (status == RF_OK && (status = judge(ring, e, e)) == RF_OK)
-        rf_place_journal(&levels, q);
+        rf_place_journal(&levels, q, 0.0);
     for (size_t d = 0; d < n && status == RF_OK; ++d) {
         const double drive[RF_DRIVES] = {w[d], w[n + d], 0.0, 0.0, 0.0};
         *first = d;

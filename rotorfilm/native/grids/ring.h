@@ -3,7 +3,7 @@
    The film is -(m H^3 P_theta)_theta - (L/D)^-2 (m H^3 P_z)_z = (w + z w').n - rate X_theta with
    p = 12 viscosity (R/c)^2 P and the gap H = A(z) - (e + z tau).n + D, n = (cos theta, sin theta). tau is what the
    end z = 1 of the journal lies beside its middle, per clearance, A the profile of the wall, D the depth of a recess;
-   w = de/dt + rate (e_y, -e_x) and w' the same of tau, rate is half the speed. m is the mobility of the oil, and X
+   w = de/dt + rate (e_y, -e_x) and w' the same of tau, rate is half the speed. m is the mobility of the oil at H, and X
    what the walls drag beyond the smooth H: the depth D, and what a mobility changes. Conductance and Couette flux on
    either side of a node are those of the half cell there: what drives oil at a step is the difference of both
    (Rayleigh 1918).
@@ -24,6 +24,7 @@
 
 #include "../export.h"
 #include "../status.h"
+#include "mobility.h"
 #include "search.h"
 
 /* N lines around the ring with M unknown nodes on each. */
@@ -45,17 +46,12 @@ typedef struct rf_grid {
 #define RF_DRIVES 5   /* w, w' and the rate */
 #define RF_COLUMNS 9  /* of the derivatives: by freedoms and drives */
 
-/* How easily oil flows where the film is H thick: factors of H^3 in the flow that pressure drives, of H in the
-   Couette flux and of 1/H in the shear, and their derivatives by H. */
-typedef void (*rf_mobility)(const void *of, double H, double factor[3], double slope[3]);
-
 typedef struct rf_ring {
     rf_grid grids[RF_LEVELS];     /* the finest first, each with half the cells of the one before */
     const double *start, *extent; /* of the spans [rad] */
     double slenderness;           /* length / diameter */
     double depth;                 /* of the recess, per clearance */
-    rf_mobility mobility;         /* NULL: all factors are 1 */
-    const void *mobile;           /* what the mobility reads */
+    rf_mobility mobility;
     int32_t spans;
     int32_t recess; /* the span that has a recess; -1: none */
     int32_t whole;  /* whether the nodes cover the whole length, and the journal may be tilted */
@@ -81,8 +77,11 @@ int rf_judge_state(const rf_ring *ring, const double *q, const double *drive);
    RF_MEMORY; RF_UNDEFINED for the derivative where nothing drives the film. */
 RF_EXPORT_LOOP int rf_ring_wrench(const rf_ring *ring, const double *q, const double *drive, double *f, double *by);
 
+/* Whether the film knows the rate by more than its source. */
+int rf_is_sped(const rf_ring *ring);
+
 /* The force, on the finest grid unless it is extrapolated, as any film's (films/film.h); RF_STUCK where the search
-   for the film does not end, RF_MEMORY. `data` is an rf_ring. */
+   for the film does not end, RF_MEMORY. `data` is an rf_ring; it reads the rate only if it is sped. */
 RF_EXPORT_LOOP int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
 /* Forces on the finest grid and the next, and d f/d(e, w) on the finest (8 rows) unless NULL, rows of n one stride

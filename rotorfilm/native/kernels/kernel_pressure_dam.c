@@ -1,7 +1,8 @@
 /* Kernel "pressure_dam": a bearing of fixed pads with recesses under the two-dimensional film on a grid.
 
    Parameters, inputs and outputs as in journal_model.h. Tables: pads (P x 13: the numbers of an rf_recess_pad of
-   recess.h, in its order), extrapolated (1: whether the force is that of two grids). */
+   recess.h, in its order), extrapolated (1: whether the force is that of two grids); with a mobility those of
+   mobility.h. */
 
 /* Documentation of the FMU
 
@@ -13,11 +14,12 @@
    (cos theta, sin theta) and the depth D of the recess over c_p:
 
    Equations:
-   (H^3 P_theta)_theta + (length/diameter)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  H = 1 - e.n + D
+   (m H^3 P_theta)_theta + (length/diameter)^-2 m H^3 P_zz = -w.n + (speed/2) D_theta,  H = 1 - e.n + D
    P = 0 at the ends of a pad, P >= 0 where the film ruptures, 0 < z < 1 over half the length
    F = sum over the pads of -12 viscosity length radius^3 / c_p^2  integral of P n over theta and z
 
-   Validity: Laminar, isothermal, aligned; no loss nor inertia at a step, no inlet pressure. Arcs, preloads and the
+   Validity: Isothermal, aligned; laminar, m = 1, unless there is a table mobility of m over H, or over the local
+   Reynolds number, at which the viscosity counts too; no loss nor inertia at a step, no inlet pressure. Arcs, preloads and the
    recesses with their depth in m are fixed. Where nothing drives the film of a pad the force has no derivative. */
 #include <math.h>
 #include <stdlib.h>
@@ -89,6 +91,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->bearing.pads = self->pads;
     self->bearing.count = count;
     self->bearing.extrapolated = extrapolated->numbers[0] != 0.0;
+    if (rf_take_mobility(&self->bearing.mobility, tables, why) != RF_OK)
+        return RF_INVALID;
     *sizes = RF_JOURNAL_SIZES;
     return RF_OK;
 }
@@ -115,6 +119,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     self->bearing.length = p[1];
     self->bearing.clearance = p[2];
     self->bearing.viscosity = p[3];
+    rf_scale_mobility(&self->bearing.mobility, p[0], p[2], p[3]);
     return RF_OK;
 }
 

@@ -3,7 +3,8 @@
    Parameters, inputs and outputs as in journal_model.h. Tables: ring (6: length/diameter, ruptured, clipped,
    pinned, turning, extrapolated), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
    lines<k> (5 x N: span, line, face, held, value) and nodes<k> (2 x M: width, conductance); ring.h says what
-   they are. With a supply pressure also pressure_unit (1: 12 viscosity (radius/clearance)^2 of the values). */
+   they are. With a supply pressure also pressure_unit (1: 12 viscosity (radius/clearance)^2 of the values), with a
+   mobility those of mobility.h. */
 
 /* Documentation of the FMU
 
@@ -13,14 +14,15 @@
    eccentricity e = (x, y)/clearance and the source w = (vx, vy)/clearance - (speed/2) z^ x e:
 
    Equations:
-   (H^3 P_theta)_theta + (length/diameter)^-2 H^3 P_zz = -w.n,  H = 1 - e.n,  n = (cos theta, sin theta)
+   (m H^3 P_theta)_theta + (length/diameter)^-2 m H^3 P_zz = -w.n,  H = 1 - e.n,  n = (cos theta, sin theta)
    P = 0 at the ends, P >= 0 where the film ruptures, 0 < z < 1 over half the length
    F = -12 viscosity length radius^3 / clearance^2  integral of P n over theta and z
 
    Validity: The lines of the grid crowd at the minimum film; where table ring says so, the force is extrapolated
    from two grids; the derivatives are those of the linearized
    equation on the same cells. Length / diameter must stay at most 4 or that of the grid; with openings radius
-   and length are fixed. Laminar, isothermal, aligned. Where w vanishes and there is no supply the force is zero
+   and length are fixed. Isothermal, aligned; laminar, m = 1, unless there is a table mobility of m over H, or over the
+   local Reynolds number, at which the viscosity counts too. Where w vanishes and there is no supply the force is zero
    and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
@@ -140,7 +142,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     for (int level = 0; level < RF_LEVELS; ++level)
         if (take_grid(self, tables, level, &whole, &value, why) != RF_OK)
             return RF_INVALID;
-    return take_unit(self, tables, why);
+    return rf_take_mobility(&self->ring.mobility, tables, why) == RF_OK ? take_unit(self, tables, why) : RF_INVALID;
 }
 
 static void destroy(void *kernel)
@@ -167,6 +169,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
                       grid, slenderness);
     self->journal = scaled;
     self->ring.slenderness = same ? grid : slenderness;
+    rf_scale_mobility(&self->ring.mobility, p[0], p[2], p[3]);
     const double unit = 12.0 * p[3] * (p[0] / p[2]) * (p[0] / p[2]);
     for (int level = 0; level < RF_LEVELS; ++level)
         for (size_t i = 0; i < self->ring.grids[level].lines; ++i)

@@ -6,7 +6,7 @@
 #include "../films/map_frame.h"
 
 /* What a pad is given: its place, what of its source is known, and how its pivot lies. */
-enum { XI, ETA, GIVEN_N, GIVEN_T, PIVOT, LOCALS };
+enum { XI, ETA, GIVEN_N, GIVEN_T, RATE, PIVOT, LOCALS };
 
 /* What a pad answers, with derivatives by what it is given: forces along n and t [N], and the rates of its
    coordinates or, with inertia, of their rates. */
@@ -22,14 +22,20 @@ size_t rf_tilting_states(const rf_tilting *bearing)
     return bearing->count * (bearing->spring > 0.0 ? 2 : 1) * (bearing->inertia > 0.0 ? 2 : 1);
 }
 
+/* d f/d(e, rate) out of a jacobian, the source held. */
+static double direct(const double *J, int i, int k)
+{
+    return k < GIVEN_N ? J[4 * i + k] : k == RATE ? J[8 + i] : 0.0;
+}
+
 /* Forces, and their derivatives by e and w; `by_w[2][LOCALS]` are those of the source. */
 static void take_force(const rf_tilting *b, const double *f, const double *J, double by_w[2][LOCALS], local *out)
 {
     for (int i = 0; i < 2; ++i) {
         out->value[i] = b->force_scale * f[i];
         for (int k = 0; k < LOCALS; ++k) {
-            const double direct = k < GIVEN_N ? J[4 * i + k] : 0.0;
-            out->by[i][k] = b->force_scale * (direct + J[4 * i + 2] * by_w[0][k] + J[4 * i + 3] * by_w[1][k]);
+            const double moved = direct(J, i, k);
+            out->by[i][k] = b->force_scale * (moved + J[4 * i + 2] * by_w[0][k] + J[4 * i + 3] * by_w[1][k]);
         }
     }
 }
@@ -37,7 +43,7 @@ static void take_force(const rf_tilting *b, const double *f, const double *J, do
 /* Pads with inertia: nothing is to be found. */
 static int with_inertia(const rf_tilting *b, const double *z, local *out)
 {
-    double f[2], J[8], by_w[2][LOCALS] = {{0.0}};
+    double f[2], J[10] = {0.0}, by_w[2][LOCALS] = {{0.0}};
     const int status = rf_pivoted_film(&b->pad, z, z + GIVEN_N, f, J);
     by_w[0][GIVEN_N] = by_w[1][GIVEN_T] = 1.0;
     take_force(b, f, J, by_w, out);
@@ -70,25 +76,27 @@ static int follow(const rf_tilting *b, const double *z, int sprung, double *w, d
     if (status > RF_OUTSIDE)
         return status;
     const double turn = w[1] / w[0], by_turn = -J[6] / J[7];
-    double by_T[2];
-    for (int k = 0; k < 2; ++k)
-        by_T[k] = -J[4 + k] / (J[7] * w[0]);
+    double by_T[LOCALS];
+    for (int k = 0; k < LOCALS; ++k)
+        by_T[k] = -direct(J, 1, k) / (J[7] * w[0]);
     if (sprung) {
         /* Force k s = scale w_n G(xi, eta), with G the force of a source 1 along n. */
         const double G = f[0], size = b->spring * z[PIVOT] / (b->force_scale * G);
-        for (int k = 0; k < 2; ++k)
-            by_w[0][k] = -size * (J[k] + J[3] * by_T[k]) / G;
+        for (int k = 0; k < LOCALS; ++k)
+            by_w[0][k] = -size * (direct(J, 0, k) + J[3] * by_T[k]) / G;
         by_w[0][PIVOT] = b->spring / (b->force_scale * G);
-        for (int k = 0; k < 2; ++k)
-            for (int i = 0; i < 2; ++i)
+        for (int i = 0; i < 2; ++i) {
+            for (int k = 0; k < 2; ++k)
                 J[4 * i + k] *= size;
+            J[8 + i] *= size;
+        }
         w[0] = size;
         w[1] = turn * size;
         f[0] *= size;
     } else
         by_w[0][GIVEN_N] = 1.0;
     for (int k = 0; k < LOCALS; ++k)
-        by_w[1][k] = by_turn * by_w[0][k] + (k < GIVEN_N ? w[0] * by_T[k] : 0.0);
+        by_w[1][k] = by_turn * by_w[0][k] + w[0] * by_T[k];
     return status;
 }
 
@@ -96,7 +104,7 @@ static int follow(const rf_tilting *b, const double *z, int sprung, double *w, d
 static int without_inertia(const rf_tilting *b, const double *z, local *out)
 {
     const int sprung = b->spring > 0.0;
-    double w[2], f[2] = {0.0, 0.0}, J[8] = {0.0}, by_w[2][LOCALS] = {{0.0}};
+    double w[3] = {0.0, 0.0, z[RATE]}, f[2] = {0.0, 0.0}, J[10] = {0.0}, by_w[2][LOCALS] = {{0.0}};
     int status = rf_pad_least(&b->pad, z) > 0.0 ? RF_OK : RF_AT_WALL;
     if (status != RF_OK)
         return status;
@@ -126,6 +134,7 @@ static void set_local(const rf_tilting *b, size_t k, const double *u, const doub
     z[ETA] = (t[0] * u[0] + t[1] * u[1] + own[0]) / c;
     z[GIVEN_N] = (n[0] * u[2] + n[1] * u[3] + own[3]) / c + half * z[ETA];
     z[GIVEN_T] = (t[0] * u[2] + t[1] * u[3] + own[2]) / c - half * z[XI];
+    z[RATE] = half;
     z[PIVOT] = own[1];
     for (int i = 0; i < 2; ++i) {
         by[XI][i] = by[GIVEN_N][2 + i] = n[i] / c;
@@ -139,6 +148,7 @@ static void set_local(const rf_tilting *b, size_t k, const double *u, const doub
     }
     by[GIVEN_N][4] = 0.5 * z[ETA];
     by[GIVEN_T][4] = -0.5 * z[XI];
+    by[RATE][4] = 0.5;
 }
 
 /* Places of a pad's coordinates q, s and their rates among the states; `none` for what it has not. */
@@ -243,8 +253,8 @@ int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, cons
             double one[2];
             const double e[2] = {(d[0] * u[i] + d[1] * u[n + i]) / c + bearing->preload,
                                  (d[0] * u[n + i] - d[1] * u[i] + q[k * n + i]) / c};
-            const double w[2] = {(d[0] * u[2 * n + i] + d[1] * u[3 * n + i]) / c + half * e[1],
-                                 (d[0] * u[3 * n + i] - d[1] * u[2 * n + i] + rate[k * n + i]) / c - half * e[0]};
+            const double w[3] = {(d[0] * u[2 * n + i] + d[1] * u[3 * n + i]) / c + half * e[1],
+                                 (d[0] * u[3 * n + i] - d[1] * u[2 * n + i] + rate[k * n + i]) / c - half * e[0], half};
             const int status = rf_pivoted_film(&bearing->pad, e, w, one, NULL);
             if (status > worst) {
                 worst = status;

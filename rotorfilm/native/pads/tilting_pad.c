@@ -52,7 +52,7 @@ static void turned(const double *turn, double sense, const double *from, double 
 
 int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian)
 {
-    double place[2], source[2], force[2], by[8];
+    double place[2], source[3] = {0.0, 0.0, w[2]}, force[2], by[10] = {0.0};
     if (rf_is_broken(e, 2) || rf_is_broken(w, 2))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
     if (!(rf_pad_least(pad, e) > 0.0))
@@ -61,7 +61,7 @@ int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w,
         return rf_rest(f, jacobian);
     if (is_idle(pad, w)) {
         f[0] = f[1] = 0.0;
-        for (int k = 0; jacobian && k < 8; ++k)
+        for (int k = 0; jacobian && k < 10; ++k)
             jacobian[k] = 0.0;
         return RF_OK;
     }
@@ -69,6 +69,8 @@ int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w,
     turned(pad->turn, 1.0, w, source);
     const int status = pad->film(pad->data, place, source, force, jacobian ? by : NULL);
     turned(pad->turn, -1.0, force, f);
+    if (jacobian)
+        turned(pad->turn, -1.0, by + 8, jacobian + 8);
     for (int block = 0; jacobian && block < 4; block += 2) {
         double rows[2][2];
         for (int i = 0; i < 2; ++i)
@@ -106,7 +108,7 @@ static double narrow_follow(const rf_tilting_pad *pad, const double *e, double w
 
 int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian)
 {
-    double low = -HUGE_VAL, high = HUGE_VAL, by[8];
+    double low = -HUGE_VAL, high = HUGE_VAL, by[10] = {0.0};
     if (!(rf_pad_least(pad, e) > 0.0))
         return rf_fail(RF_AT_WALL, f, jacobian, 8);
     w[1] = narrow_follow(pad, e, w[0]);
@@ -124,7 +126,7 @@ int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double 
         if (slow || !(next >= low && next <= high))
             next = bounded ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
         if (f[1] == 0.0 || fabs(next - w[1]) <= near) {
-            for (int k = 0; jacobian && k < 8; ++k)
+            for (int k = 0; jacobian && k < 10; ++k)
                 jacobian[k] = by[k];
             f[1] = 0.0;
             return status;
@@ -145,15 +147,17 @@ static double wall(const double *end, double xi)
     return xi > end[0] ? sqrt(1.0 - xi * xi) : (1.0 - xi * end[0]) / end[1];
 }
 
-/* Force and derivatives by (xi, eta) of a pad that stands still, by[2][2]. */
-static int standing(const rf_tilting_pad *pad, double xi, double eta, double sense, double *f, double *by)
+/* Force of a pad that stands still, over the speed, and derivatives by (xi, eta), by[2][2], and behind these by the
+   rate. */
+static int standing(const rf_tilting_pad *pad, double xi, double eta, double speed, double *f, double *by)
 {
-    const double half = 0.5 * sense, e[2] = {xi, eta}, w[2] = {half * eta, -half * xi};
-    double J[8];
+    const double half = speed < 0.0 ? -0.5 : 0.5, e[2] = {xi, eta}, w[3] = {half * eta, -half * xi, 0.5 * speed};
+    double J[10] = {0.0};
     const int status = rf_pivoted_film(pad, e, w, f, by ? J : NULL);
     for (int i = 0; by && i < 2; ++i) {
         by[2 * i] = J[4 * i] - half * J[4 * i + 3];
         by[2 * i + 1] = J[4 * i + 1] + half * J[4 * i + 2];
+        by[4 + i] = J[8 + i];
     }
     return status;
 }
@@ -161,11 +165,12 @@ static int standing(const rf_tilting_pad *pad, double xi, double eta, double sen
 /* The root of the moment between two tilts, along a = sense * eta, where it is positive at low and negative at high.
    Newton's method, halving where that leaves more than half of what was left: at the edge of a film the moment falls as
    a fifth power, and Newton's steps would end before the root. */
-static int refine(const rf_tilting_pad *pad, double xi, double sense, double low, double high, rf_pad_rest *rest)
+static int refine(const rf_tilting_pad *pad, double xi, double speed, double low, double high, rf_pad_rest *rest)
 {
-    double f[2], by[4], a = 0.5 * (low + high);
+    double f[2], by[6], a = 0.5 * (low + high);
+    const double sense = speed < 0.0 ? -1.0 : 1.0;
     for (int step = 0; step < HALVINGS; ++step) {
-        const int status = standing(pad, xi, sense * a, sense, f, by);
+        const int status = standing(pad, xi, sense * a, speed, f, by);
         if (status > RF_OUTSIDE)
             return status;
         const double moment = sense * f[1], width = high - low;
@@ -178,6 +183,7 @@ static int refine(const rf_tilting_pad *pad, double xi, double sense, double low
             rest->eta = sense * a;
             rest->force = f[0];
             rest->slope = by[0] - by[1] * by[2] / by[3];
+            rest->by_rate = by[4] - by[1] * by[5] / by[3];
             return status;
         }
         a = next;
@@ -187,13 +193,14 @@ static int refine(const rf_tilting_pad *pad, double xi, double sense, double low
 
 /* Scan down from *above to *below for the first positive moment: 1, and between both it turns its sign. Otherwise 0, and
    between both it is largest. */
-static int scan(const rf_tilting_pad *pad, double xi, double sense, double *below, double *above, int *status)
+static int scan(const rf_tilting_pad *pad, double xi, double speed, double *below, double *above, int *status)
 {
+    const double sense = speed < 0.0 ? -1.0 : 1.0;
     const double high = *above, step = (high - *below) / SCAN;
     double best = -HUGE_VAL, f[2];
     int at = 1, found = 0;
     for (int k = 0; k < SCAN && !found; ++k) {
-        *status = standing(pad, xi, sense * (high - k * step), sense, f, NULL);
+        *status = standing(pad, xi, sense * (high - k * step), speed, f, NULL);
         const double moment = sense * f[1];
         if (*status > RF_OUTSIDE || (k == 0 && moment > 0.0)) {
             *status = k == 0 && *status <= RF_OUTSIDE ? RF_AT_WALL : *status;
@@ -211,39 +218,40 @@ static int scan(const rf_tilting_pad *pad, double xi, double sense, double *belo
 }
 
 /* A pad whose pivot is not nearer than the center of its arc: it may be without film. */
-static int find_light(const rf_tilting_pad *pad, double xi, double sense, const double *trail, const double *lead,
+static int find_light(const rf_tilting_pad *pad, double xi, double speed, const double *trail, const double *lead,
                       rf_pad_rest *rest)
 {
     const double lowest = -TIP * wall(lead, xi), end = trail[0] > 0.0 ? xi * trail[1] / trail[0] : 2.0 * lowest;
     double below = fmax(end, lowest), above = TIP * wall(trail, xi);
     int status = RF_OK, found = 0;
     for (int round = 0; round < 2 && !found && status <= RF_OUTSIDE; ++round)
-        found = scan(pad, xi, sense, &below, &above, &status);
+        found = scan(pad, xi, speed, &below, &above, &status);
     if (found)
-        return refine(pad, xi, sense, below, above, rest);
+        return refine(pad, xi, speed, below, above, rest);
     rest->unloaded = 1;
-    rest->eta = sense * end;
+    rest->eta = speed < 0.0 ? -end : end;
     if (status > RF_OUTSIDE)
         return status;
     return end < lowest ? RF_AT_WALL : RF_OK; /* without film it is beyond no map */
 }
 
-int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double sense, rf_pad_rest *rest)
+int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double speed, rf_pad_rest *rest)
 {
-    const double *trail = sense > 0.0 ? pad->trail : pad->lead, *lead = sense > 0.0 ? pad->lead : pad->trail;
-    const rf_pad_rest none = {0.0, 0.0, 0.0, 0};
+    const int backward = speed < 0.0;
+    const double *trail = backward ? pad->lead : pad->trail, *lead = backward ? pad->trail : pad->lead;
+    const rf_pad_rest none = {0.0, 0.0, 0.0, 0.0, 0};
     *rest = none;
     if (!(xi < 1.0))
         return xi >= 1.0 ? RF_AT_WALL : RF_NOT_FINITE;
     if (xi <= 0.0)
-        return find_light(pad, xi, sense, trail, lead, rest);
+        return find_light(pad, xi, speed, trail, lead, rest);
     /* The source at the pivot presses the leading half: without tilt the moment is positive. */
     const double highest = TIP * wall(trail, xi);
     double below = 0.0, above = highest;
     int status;
-    if (!scan(pad, xi, sense, &below, &above, &status)) {
+    if (!scan(pad, xi, speed, &below, &above, &status)) {
         below = 0.0;
         above = highest / SCAN;
     }
-    return status <= RF_OUTSIDE ? refine(pad, xi, sense, below, above, rest) : status;
+    return status <= RF_OUTSIDE ? refine(pad, xi, speed, below, above, rest) : status;
 }

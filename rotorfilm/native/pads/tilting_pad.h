@@ -27,24 +27,25 @@ RF_EXPORT_LOOP void rf_set_tilting_pad(rf_tilting_pad *pad, rf_film film, const 
 /* The least H = 1 - e.n on the arc. */
 double rf_pad_least(const rf_tilting_pad *pad, const double *e);
 
-/* The force f[2] and, unless NULL, jacobian[2][4] = d f/d(e, w); zero where no film is. */
+/* The force f[2] at e[2] and w[3] and, unless NULL, jacobian[10], as an rf_film; zero where no film is. */
 int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian);
 
-/* The w_t of w[2] at which a pad without inertia has no moment, for w_n > 0, with force and jacobian there. */
+/* The w_t of w[3] at which a pad without inertia has no moment, for w_n > 0, with force and jacobian there. */
 int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian);
 
 /* The w_t, of all that leave no film for w_n <= 0, that is nearest to `wanted`. */
 double rf_pad_idle(const rf_tilting_pad *pad, double w_n, double wanted);
 
-/* A pad at rest at the speed 1 or -1 rad/s. */
+/* A pad at rest at a speed, its force over that. */
 typedef struct rf_pad_rest {
     double eta;
     double force, slope; /* along n, and d force/d xi with the pad free to tilt */
+    double by_rate;      /* and by the rate, of a film that knows it by more than its source */
     int unloaded;        /* whether it has no film: then eta is the end of its neutral tilts */
 } rf_pad_rest;
 
 /* The stable tilt at xi: the first root of the moment from trailing contact on. RF_AT_WALL where the pivot or, of an
    unloaded pad, the leading end touches. */
-int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double sense, rf_pad_rest *rest);
+int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double speed, rf_pad_rest *rest);
 
 #endif

@@ -10,10 +10,10 @@
 /* The place of a pivot on a spring that balances the film, xi <= `rigid`, where it would be rigid. */
 static int find_sprung(const rf_tilting *b, double rigid, double speed, double *xi, rf_pad_rest *rest)
 {
-    const double sense = speed < 0.0 ? -1.0 : 1.0, film = b->force_scale * fabs(speed), k = b->spring * b->clearance;
+    const double film = b->force_scale * fabs(speed), k = b->spring * b->clearance;
     double low = -HUGE_VAL, high = rigid < 1.0 ? rigid : 1.0, at = rigid < 1.0 ? rigid : fmin(0.9, rigid);
     for (int step = 0; step < MOST; ++step) {
-        const int status = rf_find_pad_rest(&b->pad, at, sense, rest);
+        const int status = rf_find_pad_rest(&b->pad, at, speed, rest);
         if (status > RF_OUTSIDE)
             return status;
         const double excess = film * rest->force - k * (at - rigid), width = high - low;
@@ -40,14 +40,14 @@ static int rest_one(const rf_tilting *b, const double *n, const double *position
     rf_pad_rest rest;
     double xi = rigid;
     const int status = sprung ? find_sprung(b, rigid, speed, &xi, &rest)
-                              : rf_find_pad_rest(&b->pad, xi, sense, &rest);
+                              : rf_find_pad_rest(&b->pad, xi, speed, &rest);
     const double e[2] = {xi, rest.eta}, own = -film * rest.slope / c;
     const double share = sprung ? b->spring / (b->spring + own) : 1.0;
     out->tilt = c * (rest.eta - across);
     out->pivot = c * (xi - rigid);
     out->load = 0.0 - film * rest.force;
     out->stiffness = own * share;
-    out->by_speed = -sense * b->force_scale * rest.force * share;
+    out->by_speed = -(sense * b->force_scale * rest.force + 0.5 * film * rest.by_rate) * share;
     out->least = c * rf_pad_least(&b->pad, e);
     out->unloaded = rest.unloaded;
     return status;

@@ -1,0 +1,109 @@
+"""The map of a turbulent film over the Reynolds number: its grid, differences, identities, bad input."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotorfilm as rf
+from rotorfilm import InputError, ValidityWarning
+from rotorfilm.bearings import MobileMapFilm, mobility_of
+from rotorfilm.bearings.journal import ExtrapolatedFilm, ReynoldsFilm
+from rotorfilm.bearings.journal.mobile_map import MobileMapTable
+
+SIZE = {"radius": 0.25, "length": 0.4, "clearance": 5e-4, "viscosity": 0.0163}
+PLACE, VELOCITY, SPEED = np.array([1.1e-4, -1.5e-4]), np.array([0.01, 0.02]), 250.0
+
+
+def ng_pan(X):
+    """Return the factors of the fit of Ng & Pan (1965), at the local Reynolds number."""
+    k = 0.0136 * X**0.9, 0.0043 * X**0.96
+    return *(12.0 / (12.0 + more) for more in k), 1.0, 1.0 + 0.0012 * X**0.94
+
+
+TURBULENT = replace(mobility_of(ng_pan, largest=2e4, scale=30.0), density=855.0)
+FILM = MobileMapFilm(
+    mobility=TURBULENT,
+    cells=(64, 8),
+    nodes=(10, 24, 12),
+    largest_eccentricity_ratio=0.8,
+    largest_reynolds_number=4000.0,
+)
+
+
+@pytest.fixture(scope="module")
+def bearing(tmp_path_factory):
+    """Return a large turbulent bearing with its map."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROTORFILM_CACHE", str(tmp_path_factory.mktemp("maps")))
+        yield rf.JournalBearing(**SIZE, film=FILM).portable()
+
+
+def grid():
+    """Return the bearing on a finer grid."""
+    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(192, 16), mobility=TURBULENT))
+    return rf.JournalBearing(**SIZE, film=film)
+
+
+def test_map_is_its_film_at_all_speeds(bearing):
+    fine = grid()
+    for speed in (SPEED, -SPEED, 40.0, 450.0):
+        wanted = fine.force(PLACE, VELOCITY, speed)
+        assert_allclose(bearing.force(PLACE, VELOCITY, speed), wanted, atol=3e-3 * np.hypot(*wanted))
+        by, exact = (each.jacobian(PLACE, VELOCITY, speed) for each in (bearing, fine))
+        for columns in ((0, 1), (2, 3), (4,)):
+            size = np.abs(exact[:, columns]).max()
+            assert_allclose(by[:, columns], exact[:, columns], atol=0.05 * size)
+
+
+def test_derivatives_are_those_of_differences_and_damping_is_symmetric(bearing):
+    by = bearing.jacobian(PLACE, VELOCITY, SPEED)
+    state, steps = np.array([*PLACE, *VELOCITY, SPEED]), [1e-8, 1e-8, 1e-6, 1e-6, 1e-2]
+    for k, step in enumerate(steps):
+        more, less = (state + sign * step * np.eye(5)[k] for sign in (1.0, -1.0))
+        differences = [bearing.force(each[:2], each[2:4], each[4]) for each in (more, less)]
+        assert_allclose((differences[0] - differences[1]) / (2.0 * step), by[:, k], rtol=1e-6, atol=1e-3)
+    assert_allclose(by[:, 2:4], by[:, 2:4].T, rtol=1e-12)
+
+
+def test_force_at_rest_is_damping_times_half_the_speed(bearing):
+    """F = C (speed/2) z x E, exactly, at any Reynolds number."""
+    damping = -bearing.jacobian(PLACE, np.zeros(2), SPEED)[:, 2:4]
+    found = damping @ (0.5 * SPEED * np.array([-PLACE[1], PLACE[0]]))
+    assert_allclose(bearing.force(PLACE, np.zeros(2), SPEED), found, rtol=1e-12)
+
+
+def test_losses_are_those_of_the_grid_and_above_laminar_ones(bearing):
+    found = bearing.losses(PLACE, np.zeros(2), SPEED)
+    wanted = grid().losses(PLACE, np.zeros(2), SPEED)
+    assert found.power_loss == pytest.approx(wanted.power_loss, rel=5e-3)
+    laminar = rf.JournalBearing(**SIZE, film=ReynoldsFilm()).losses(PLACE, np.zeros(2), SPEED)
+    assert found.power_loss > 1.5 * laminar.power_loss
+
+
+def test_the_table_knows_its_errors_and_its_mobility(bearing):
+    table = bearing.film.table
+    assert table.bound(0.4, slopes=False) < 5e-3
+    assert MobileMapTable.from_bytes(table.to_bytes()) == table
+    other = replace(TURBULENT, scale=31.0)
+    with pytest.raises(InputError, match="mobility must be that of the table"):
+        replace(bearing.film, mobility=other)
+
+
+def test_states_beyond_the_map_warn(bearing):
+    with pytest.warns(ValidityWarning, match="beyond the map"):
+        bearing.force([0.0, -4.5e-4], [0.0, 0.0], SPEED)
+    with pytest.warns(ValidityWarning, match="beyond the map"):
+        bearing.force(PLACE, VELOCITY, 2000.0)
+
+
+def test_impossible_films_are_refused():
+    with pytest.raises(InputError, match="must have a density"):
+        MobileMapFilm(mobility=mobility_of(ng_pan))
+    with pytest.raises(InputError, match="nodes must be three numbers"):
+        MobileMapFilm(mobility=TURBULENT, nodes=(4, 12, 6))
+    with pytest.raises(InputError, match="represent the bearing's geometry"):
+        rf.JournalBearing(**SIZE, film=FILM, grooves=(rf.Groove(center=0.0, width=0.3),))
+    with pytest.raises(InputError, match="must be that of a bearing"):
+        FILM.force(np.array([0.1, 0.2]), np.array([1.0, 0.0]), 0.8)
