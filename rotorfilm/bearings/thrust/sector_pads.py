@@ -33,6 +33,7 @@ from ...core.readable import Readable
 from ...core.signals import Signal, force_outputs, journal_inputs, signals_of
 from ...native.film_kernels import Status
 from ...native.library import loops
+from ...native.spec import NativeSpec, parameter
 from ...native.structs import structure
 from ..films.finite_volumes import COARSENING, LEVELS, are_counts
 from ..films.geometry import TURN
@@ -116,7 +117,7 @@ class ThrustKernel:
     ) -> None:
         self._arguments = grid, viscosity, rules, pads, place, tilts, held
         self.grid = SectorGrid(*map(np.ascontiguousarray, grid))
-        self.count, self.tilts, self.states = pads, tilts, pads * tilts
+        self.count, self.states, self.rules, self.place = pads, pads * tilts, tuple(rules), tuple(place)
         lines, nodes = grid.profile.shape[:2]
         ring, ruptured, extrapolated = rules
         pad = structure("rf_sector")(
@@ -400,8 +401,28 @@ class SectorPads(WarmBearing):
         rules = self.closed, not (self.closed and not self.deepest), self.extrapolated
         first = self.start + self.pad_arc * self.origin
         place = first, float(self.side), self.gap, self.pivot_radius
-        return ThrustKernel(
-            self.grid, viscosity, rules, 1 if self.closed else self.pads, place, self.tilts, held
+        pads = 1 if self.closed else self.pads
+        return ThrustKernel(self.grid, viscosity, rules, pads, place, self.tilts, held)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its temperature is not stated."""
+        if self.is_warming:
+            return None
+        grid, kernel = self.grid, self.kernel
+        numbers = [*kernel.rules[:2], LEVELS, kernel.rules[2], kernel.count]
+        first, side, _, pivot = kernel.place
+        return NativeSpec(
+            kernel="thrust",
+            parameters=(
+                parameter("gap", "m", self.gap, "film over the lands of the pads where z is 0"),
+                parameter("viscosity", "Pa.s", self.film_viscosity, "dynamic viscosity"),
+            ),
+            tables={
+                "angle": grid.angle,
+                "radius": grid.radius,
+                "profile": grid.profile.reshape(*grid.profile.shape[:2], 4),
+                "numbers": np.array([*numbers, first, side, pivot, self.tilts], dtype=float),
+            },
         )
 
     def states_at_rest(self, u: Array) -> Array:
