@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.answers import QuestionAnswer, RungReport
+from ..core.frames import write_csv
 from ..core.readable import Readable, without_round_off
-from ..core.results import CircularOrbit, to_plain, write_csv
+from ..core.results import CircularOrbit, to_plain
 from . import printing as console
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     rows += [
         (
             "critical speed",
-            f"{one.speed * RPM:.6g} rpm, {_sense(one.direction)}, log decrement {one.log_decrement:.4g}",
+            f"{one.speed * RPM:.6g} rpm, {one.whirl}, log decrement {one.log_decrement:.4g}",
         )
         for one in answer.critical_speeds
     ]
@@ -128,12 +129,6 @@ def _course(curve: StabilityCurve) -> str:
     return f"from {first:.4g} without to {last:.4g} at {curve.cross_coupling[-1]:.4g} N/m ({way})"
 
 
-def _sense(direction: float) -> str:
-    if abs(direction) <= 0.1:
-        return "to and fro"
-    return "forward" if direction > 0.0 else "backward"
-
-
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
     """Return an answer as plain lists and numbers; nothing where a mode is overdamped."""
     chart = answer.campbell
@@ -171,8 +166,7 @@ def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     save(plot_log_decrement(answer.campbell), folder / "log_decrement.png")
     write_csv(folder / "campbell.csv", campbell_columns(answer))
     if answer.response is not None:
-        above, _ = plot_unbalance_response(answer.response)
-        save(above, folder / "unbalance_response.png")
+        save(plot_unbalance_response(answer.response), folder / "unbalance_response.png")
         write_csv(folder / "unbalance_response.csv", response_columns(answer))
     if answer.level_one is not None:
         write_level_one(answer.level_one, folder)
@@ -187,7 +181,7 @@ def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
         columns[f"{curve.name} cross-coupling [N/m]"] = curve.cross_coupling.tolist()
         columns[f"{curve.name} log decrement [1]"] = curve.log_decrement.tolist()
         columns[f"{curve.name} frequency [rad/s]"] = curve.frequency.tolist()
-    save(plot_stability_level_one(found)[0], folder / "stability_level_one.png")
+    save(plot_stability_level_one(found), folder / "stability_level_one.png")
     write_csv(folder / "stability_level_one.csv", columns)
 
 
@@ -233,8 +227,8 @@ def write_damper(answer: DamperAnswer, folder: Path) -> None:
     """Write the picture of transmissibility over unbalance."""
     from ..charts import plot_transmissibility, save
 
-    axes = plot_transmissibility({"damper": answer.response}, unit=answer.unbalance_scale)
-    save(axes, folder / "transmissibility.png")
+    picture = plot_transmissibility({"damper": answer.response}, unit=answer.unbalance_scale)
+    save(picture, folder / "transmissibility.png")
 
 
 # The answer to a question: the value, and the ladder that led to it.

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..core.errors import InputError
+from ..core.frames import write_csv
 from ..core.progress import Report
-from ..core.results import write_csv
 from . import printing as console
 from .command import (
     Argument,
@@ -105,8 +105,6 @@ def contact_motion(found: ContactResponse) -> FollowedMotion:
 
 def damper_motion(run: DamperRun) -> FollowedMotion:
     """Return what a run on a damper says."""
-    from ..charts import plot_damper_run
-
     time, eps = run.trajectory.time, run.eccentricity_ratio
     failure = None
     if run.contact_time is not None:
@@ -131,8 +129,7 @@ def damper_motion(run: DamperRun) -> FollowedMotion:
         ("largest force on the housing", f"{run.peak_force:.5g} N"),
         *_ending(run.contact_time, run.trajectory),
     ]
-    draw = partial(plot_damper_run, time, eps, run.force)
-    return data, rows, _signals(run.trajectory), draw, failure
+    return data, rows, _signals(run.trajectory), run.plot, failure
 
 
 def rotor_motion(run: RotorRun) -> FollowedMotion:

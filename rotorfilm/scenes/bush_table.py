@@ -61,7 +61,7 @@ def _read_friction(where: str, value: Any) -> Friction:
 @fields_of(BushReaction, without=("bush", "wear_depth", "temperature"))
 @fields_of(BushGeometry, LinerMaterial, ShaftMaterial, MeltingBush, without=PARTS, optional=True)
 class BushTable(Taking):
-    """`[bush]`: a polymer bush; what is left out is that of its material.
+    """`[bush]`: a polymer bush; a value that the table lacks is that of its material.
 
     Parameters
     ----------

@@ -148,6 +148,7 @@ class MotorTable(UnbalanceTable):
     stall_torque : float [N m]
         Torque at rest; it falls in a line to nothing at the idle speed.
     idle_speed : float [rad/s]
+        At which the motor has no torque.
     resistance : float [N m s/rad]
         Torque per rad/s that resists.
     """
@@ -180,8 +181,8 @@ class GroundTable:
     displacement : tuple or None
         Columns time [s], x and maybe y [m]; the cubic spline through it, at rest at both ends.
     spectrum : tuple or None
-        Columns frequency [rad/s] and one-sided spectral density per rad/s of the acceleration [m2/s3], the
-        same along x and along y.
+        Columns `frequency [rad/s]` and `density [m2/s3]`, the one-sided spectral density of the acceleration,
+        the same along x and along y.
     scale : float [1]
         By which the motion is multiplied.
     seed : int

@@ -70,6 +70,7 @@ class LubricantTable(Taking):
     heat_capacity : float or None [J/(kg K)]
         Per mass.
     conductivity : float or None [W/(m K)]
+        Thermal conductivity of the oil.
     thinning : float or None [1/K]
         -d ln(viscosity)/d temperature; with `viscosity_40` alone the same at all temperatures.
     bulk_modulus : float [Pa]

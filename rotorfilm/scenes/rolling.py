@@ -84,6 +84,7 @@ class BallTable:
     balls : int
         Number of balls of a row.
     ball_diameter, pitch_diameter : float [m]
+        Of a ball, and of the circle on which the centers of the balls lie.
     internal_clearance : float or None [m]
         Radial internal clearance of a deep groove bearing; give this or the contact angle.
     contact_angle : float or None [rad]
@@ -91,7 +92,8 @@ class BallTable:
     inner_conformity, outer_conformity : float [1]
         Groove radius over ball diameter.
     ball_material, ring_material : RollingMaterial
-        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density.
+        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density. Steel unless
+        given.
     growth : float [m]
         Radial growth of the inner ring.
     axial_displacement : float [m]

@@ -74,7 +74,7 @@ QUANTITIES = {
     "wear": "how much farther a bush settles because it melts, at the end of its run [m]",
     "cosimulation_error": "largest distance of coupled and monolithic orbit / clearance",
 }
-"""What a scene may ask for; the families that answer are listed in docs/scenes.md."""
+"""What a scene may ask for; the families that answer are listed in docs/questions.md."""
 
 
 @takes(Quantity("1"))
@@ -94,7 +94,7 @@ class QuestionTable:
     Parameters
     ----------
     quantity : str
-        A key of `QUANTITIES`.
+        Its name, such as "stiffness"; docs/questions.md lists all.
     tolerance : float [1]
         Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
         co-simulation to the clearance, of an angle to 1 rad, of a temperature to its rise above the supply.

@@ -89,6 +89,7 @@ class PieceTable(Taking):
     length : float [m]
         Of the whole piece.
     pieces : int
+        Number of equally long elements.
     material : ElasticMaterial or None
         Another one than that of the shaft.
     """
@@ -127,7 +128,9 @@ class DiskTable(Taking):
     Parameters
     ----------
     mass : float or None [kg]
+        Of a disk of given mass and inertia.
     width, outer_diameter, inner_diameter : float [m]
+        Of a disk of given size; a width and an outer diameter take the place of a mass.
     density : float or None [kg/m3]
         Of a disk of given size; that of the shaft unless given.
     """
@@ -169,10 +172,13 @@ class BearingTable:
     name : str
         Prefix of its signals.
     node : int
+        Index of its node, from 0 at the first end of the shaft.
     journal : JournalTable or None
         A journal bearing at the node.
     stiffness : float [N/m] or 2 x 2 numbers, or None
+        Of a bearing given by constant coefficients.
     damping : float [N s/m] or 2 x 2 numbers
+        Beside that stiffness.
     seal : AnnularSeal or None
         With its added mass, which a run over time leaves out.
     support : Support or None
@@ -241,6 +247,7 @@ class CouplingShare:
     Parameters
     ----------
     node : int
+        Index of the node, from 0 at the first end of the shaft.
     share : float [1]
         Part of the cross-coupling; the parts are scaled to a sum of 1.
     """
@@ -368,13 +375,19 @@ class ShaftTable(Taking):
     Parameters
     ----------
     material : ElasticMaterial
+        Of the shaft.
     elements : tuple of PieceTable and Coupling
-        From the first node to the last.
+        Pieces of shaft and couplings, from the first node to the last.
     bearings : tuple of BearingTable
+        At least one: a journal bearing, an annular seal, or springs and dampers.
     speeds : SpeedRangeTable
-    disks, unbalances : tuple
-        Of DiskTable, UnbalanceTable.
+        Speeds at which modes are found, and the range of thresholds and critical speeds.
+    disks : tuple of DiskTable
+        Disks of given size, or of given mass and inertia.
+    unbalances : tuple of UnbalanceTable
+        That turn with the shaft.
     beam : Beam
+        Beam element; that of fourth order unless given.
     highest_frequency : float or None [rad/s]
         Of the modes shown; twice the last speed unless given.
     compressor : CompressorTable or None
