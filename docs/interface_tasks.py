@@ -12,6 +12,7 @@ TASKS = {
         "bearings.oil",
     ),
     "Bearings made of pads": ("bearings.pads",),
+    "Thrust bearings": ("bearings.thrust",),
     "Squeeze-film dampers": ("bearings.damper",),
     "Ball bearings": ("bearings.rolling",),
     "Lubricated rolling contacts": ("bearings.contact",),

@@ -38,14 +38,14 @@ PARTS = {
         ["films"],
         ["oil"],
         ["journal"],
-        ["damper", "contact", "bush", "pads", "rub", "seal"],
+        ["damper", "contact", "bush", "pads", "rub", "seal", "thrust"],
         ["rolling"],
     ],
     "fmu": [["python"], ["native"]],
 }
 """The same among the folders and files of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "rub", "seal"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "rub", "seal", "thrust"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),

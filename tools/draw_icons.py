@@ -107,6 +107,16 @@ def draw_damper(axes: Axes) -> None:
     axes.plot(x, -0.07 + 0.16 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0]), color=INK, lw=2)
 
 
+def draw_thrust(axes: Axes) -> None:
+    """Draw six sector pads around a shaft."""
+    for first in np.arange(6) * np.pi / 3.0:
+        angle = first + np.linspace(0.0, 0.8, 20)
+        x = np.append(0.93 * np.cos(angle), 0.42 * np.cos(angle[::-1]))
+        y = np.append(0.93 * np.sin(angle), 0.42 * np.sin(angle[::-1]))
+        axes.fill(x, y, facecolor=OIL, edgecolor=INK, lw=1.5)
+    axes.add_patch(Circle((0, 0), 0.3, facecolor="white", edgecolor=INK, lw=2))
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
@@ -134,7 +144,7 @@ def main() -> None:
     """Draw all of them, 96 pixels wide, each by the function of its name."""
     OUT.mkdir(exist_ok=True)
     mpl.rcParams["savefig.transparent"] = True
-    for name in sorted({row.picture for row in kernel_table().values()}):
+    for name in sorted({picture for _, picture in kernel_table().values()}):
         figure = Figure(figsize=(1, 1), dpi=96)
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal")

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
         stability_level_two as stability_level_two,
     )
     from .axial_torsional import (
+        AxialSpring as AxialSpring,
         AxialStatics as AxialStatics,
         AxialTorsionalModes as AxialTorsionalModes,
-        ThrustBearing as ThrustBearing,
         TorsionalSpring as TorsionalSpring,
         axial_modes as axial_modes,
         axial_response as axial_response,

@@ -51,7 +51,7 @@ class _Spring:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class ThrustBearing(_Spring):
+class AxialSpring(_Spring):
     """A spring and a damper along the shaft, from a node to the ground.
 
     Parameters
@@ -107,7 +107,7 @@ class AxialTorsionalModes(Readable):
 @one_blas_thread
 @arguments
 def axial_modes(
-    rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6
+    rotor: ShaftRotor, bearings: Sequence[AxialSpring] = (), count: int = 6
 ) -> AxialTorsionalModes:
     """Return the lowest modes of a rotor along its axis that swing; those overdamped are left out.
 
@@ -115,7 +115,7 @@ def axial_modes(
     ----------
     rotor : ShaftRotor
         Its disks move with their nodes; a coupling must have an `axial_stiffness`.
-    bearings : sequence of ThrustBearing
+    bearings : sequence of AxialSpring
         None for a free shaft.
     count : int
         Most modes.
@@ -160,14 +160,14 @@ def torsional_modes(
 @one_blas_thread
 @arguments
 def axial_response(
-    rotor: ShaftRotor, bearings: Sequence[ThrustBearing], frequencies: ArrayLike, node: int
+    rotor: ShaftRotor, bearings: Sequence[AxialSpring], frequencies: ArrayLike, node: int
 ) -> control.FrequencyResponseData:
     """Return the response of a rotor to a force along its axis, over frequency.
 
     Parameters
     ----------
     rotor : ShaftRotor
-    bearings : sequence of ThrustBearing
+    bearings : sequence of AxialSpring
     frequencies : array_like, shape (n,) [rad/s]
         Positive and rising.
     node : int
@@ -253,14 +253,14 @@ class AxialStatics(Readable):
 @one_blas_thread
 @arguments
 def axial_statics(
-    rotor: ShaftRotor, bearings: Sequence[ThrustBearing], forces: Mapping[int, float]
+    rotor: ShaftRotor, bearings: Sequence[AxialSpring], forces: Mapping[int, float]
 ) -> AxialStatics:
     """Return displacement, tension and thrust of a rotor under static forces along its axis.
 
     Parameters
     ----------
     rotor : ShaftRotor
-    bearings : sequence of ThrustBearing
+    bearings : sequence of AxialSpring
         With some stiffness.
     forces : mapping of int to float [N]
         By node, along +z.

@@ -46,5 +46,6 @@ if TYPE_CHECKING:
     from .rub import RubContact as RubContact, RubRing as RubRing
     from .seal import AnnularSeal as AnnularSeal, HirsFriction as HirsFriction, SealFlow as SealFlow
     from .series import Body as Body, Series as Series
+    from .thrust import *
 else:
     show(__name__)

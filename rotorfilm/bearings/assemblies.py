@@ -142,10 +142,6 @@ class PartAtRest(NamedTuple):
 class AssemblyAtRest(QuasiStatic):
     """An assembly with its states at rest, which tells the films of its parts."""
 
-    def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
-        """Return about where the shaft rests; see `core.port`."""
-        return cast("Array | None", rest_place(self.reaction, load, speed))
-
     def completed(self, found: Equilibrium) -> Equilibrium:
         """Return an equilibrium with the least film and the largest eccentricity ratio of all parts."""
         parts = [part.completed(found) for part in self.reaction.parts_at_rest(found.position, found.speed)]

@@ -714,6 +714,10 @@ class QuasiStatic:
         """Return what roundoff may leave of the force of the reaction [N]."""
         return force_noise(self.reaction, speed)
 
+    def rest_place(self, load: Sequence[float], speed: float) -> Any:
+        """Return where the reaction says that the shaft rests, shape (n,); None where it does not say."""
+        return rest_place(self.reaction, load, speed)
+
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return the force on a shaft at rest, shape (n,); the velocity is not used."""
         x = rest_state(self.reaction, position, speed)

@@ -22,7 +22,7 @@ RESULTS = {
     "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "FilmDamping", "FilmSystem",
     "HeatedJFOState", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
     "FrequencyDependentCoefficients", "MeshConvergence", "PadEquilibrium", "PadMatrices", "PeriodicOrbit",
-    "OrbitsOverSpeed", "RunAmplitudes", "RunOrbits", "RunSpectra",
+    "OrbitsOverSpeed", "RunAmplitudes", "RunOrbits", "RunSpectra", "ThrustLosses",
     "ReducedCoefficients", "Reduction", "ResonancePeak", "RingContacts", "RotorEquilibrium", "RotorModes",
     "RotorThreshold", "RuptureError", "SealFlow", "SeparationMargins", "ShaftStatics", "SqueezeImpedance",
     "SqueezeMatrices",

@@ -40,7 +40,7 @@ def test_rod_on_a_thrust_bearing_with_a_mass_at_the_end():
     """E A b (k - m w^2) / ... : tan of the rod between a spring and a mass."""
     k, m, ea = 3e8, 40.0, 2.1e11 * AREA
     rotor = shaft(16, disks=(rf.Disk(node=16, mass=m),))
-    found = rf.analysis.axial_modes(rotor, [rf.analysis.ThrustBearing(node=0, stiffness=k)], 3).frequency
+    found = rf.analysis.axial_modes(rotor, [rf.analysis.AxialSpring(node=0, stiffness=k)], 3).frequency
 
     def closed(w):
         # u = A cos bz + B sin bz: E A b B = k A at 0, E A u'(l) = m w^2 u(l)
@@ -60,7 +60,7 @@ def test_rod_on_a_thrust_bearing_with_a_mass_at_the_end():
 def test_a_stiff_shaft_is_a_mass_on_the_spring_and_damper_of_its_bearing():
     k, c = 1e6, 2e3
     rotor = shaft(2, disks=(rf.Disk(node=1, mass=500.0),))
-    bearing = rf.analysis.ThrustBearing(node=1, stiffness=k, damping=c)
+    bearing = rf.analysis.AxialSpring(node=1, stiffness=k, damping=c)
     found = rf.analysis.axial_modes(rotor, [bearing], 1)
     natural = math.sqrt(k / rotor.mass)
     assert np.abs(found.eigenvalues[0]) == pytest.approx(natural, rel=1e-4)
@@ -94,7 +94,7 @@ def test_frequencies_are_of_fourth_order():
 @pytest.mark.closed_form
 def test_static_thrust():
     """A force at the end goes through the shaft into the bearing at node 2."""
-    bearing = rf.analysis.ThrustBearing(node=2, stiffness=2e8)
+    bearing = rf.analysis.AxialSpring(node=2, stiffness=2e8)
     found = rf.analysis.axial_statics(shaft(8), [bearing], {8: 1e5, 0: -3e4})
     assert found.thrust == pytest.approx([7e4], rel=1e-9)
     np.testing.assert_allclose(found.tension, [3e4, 3e4, *[1e5] * 6], rtol=1e-8)
@@ -105,7 +105,7 @@ def test_static_thrust():
 
 def test_a_thrust_bearing_whose_load_is_roundoff_is_refused():
     with pytest.raises(rf.EquilibriumError, match="bearings must be stiff enough beside the shaft"):
-        rf.analysis.axial_statics(shaft(8), [rf.analysis.ThrustBearing(node=2, stiffness=1e-6)], {8: 1e5})
+        rf.analysis.axial_statics(shaft(8), [rf.analysis.AxialSpring(node=2, stiffness=1e-6)], {8: 1e5})
 
 
 @pytest.mark.closed_form
@@ -116,7 +116,7 @@ def test_tension_stiffens_the_bending():
     rotor = rf.ShaftRotor(
         elements=thin.split(8), stations=ends, speed=0.0, gravity=(0.0, 0.0), beam=rf.ClassicalBeam()
     )
-    pull = rf.analysis.axial_statics(rotor, [rf.analysis.ThrustBearing(node=0, stiffness=1e9)], {8: 500.0})
+    pull = rf.analysis.axial_statics(rotor, [rf.analysis.AxialSpring(node=0, stiffness=1e9)], {8: 500.0})
     stiff = dict.fromkeys("ab", rf.LinearBearing(stiffness=1e9))
     found = rf.rotor_modes(rf.analysis.stress_stiffened(rotor, pull), stiff, 0.0).frequency[0]
     area, b = math.pi * 0.01**2 / 4.0, math.pi / 2.0
@@ -129,7 +129,7 @@ def test_cones_and_layers_have_their_sections():
     """A cone under a force: elongation F l / (E A_0 r), r the ratio of the end diameters."""
     cone = replace(BAR, end_outer_diameter=0.05)
     rotor = rf.ShaftRotor(elements=cone.split(8), speed=0.0)
-    found = rf.analysis.axial_statics(rotor, [rf.analysis.ThrustBearing(node=0, stiffness=1e15)], {8: 1e5})
+    found = rf.analysis.axial_statics(rotor, [rf.analysis.AxialSpring(node=0, stiffness=1e15)], {8: 1e5})
     assert found.displacement[-1] == pytest.approx(1e5 * LENGTH / (2.1e11 * AREA * 0.05 / 0.08), rel=1e-5)
     sleeve = replace(BAR, inner_diameter=DIAMETER, outer_diameter=0.1)
     whole = rf.ShaftRotor(elements=(rf.rotors.LayeredElement(layers=(BAR, sleeve)),), speed=0.0)
@@ -175,7 +175,7 @@ def test_one_very_short_element_hides_no_mode(damping):
 
 
 def test_bad_thrust():
-    bearing = rf.analysis.ThrustBearing(node=9, stiffness=1e8)
+    bearing = rf.analysis.AxialSpring(node=9, stiffness=1e8)
     with pytest.raises(rf.InputError, match="node 0 to 8"):
         rf.analysis.axial_modes(shaft(), [bearing])
     with pytest.raises(rf.InputError, match="bearings must hold the shaft"):
@@ -183,4 +183,4 @@ def test_bad_thrust():
     with pytest.raises(rf.InputError, match="forces must be on a node"):
         rf.analysis.axial_statics(shaft(), [replace(bearing, node=0)], {11: 1.0})
     with pytest.raises(rf.InputError, match="stiffness must be finite and not negative"):
-        rf.analysis.ThrustBearing(node=0, stiffness=-1.0)
+        rf.analysis.AxialSpring(node=0, stiffness=-1.0)
