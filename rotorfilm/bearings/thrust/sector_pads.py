@@ -566,7 +566,7 @@ class SectorPads(WarmBearing):
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature [K] of the film at rest at a place, that of the inlet and half the rise.
 
-        The oil that enters a pad, `inflow`, is fresh but for the share `carry_over` of what leaves the pad
+        The oil that enters a pad, `inflow`, is fresh except the share `carry_over` of what leaves the pad
         before, which is hot by the whole rise; the housing takes its part. The velocity is not used.
         """
         oil, cooling = self.cooled

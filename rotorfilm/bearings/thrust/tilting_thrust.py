@@ -1,4 +1,4 @@
-"""Thrust bearings of pads on pivots: two tilts of each pad as states, or one on a line pivot."""
+"""Thrust bearings with pads on pivots: two tilts of each pad as states, or one on a line pivot."""
 
 from __future__ import annotations
 
