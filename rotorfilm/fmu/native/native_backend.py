@@ -28,7 +28,7 @@ from ..description import (
     terminal_files,
     to_xml,
 )
-from ..documentation import NATIVE, NATIVE_STEPPED, to_html
+from ..documentation import general_texts, to_html
 from ..reference import reference_table, to_csv
 from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
 
@@ -226,7 +226,7 @@ def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
 
 
 def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
-    general = NATIVE_STEPPED if isinstance(export.model, Stepped) else NATIVE
+    general = general_texts("native", stepped=isinstance(export.model, Stepped))
     texts = {**kernel_texts(export.spec.kernel), **general}
     rows = [f"{p.name} = {p.value!r} {p.unit}: {p.description}" for p in export.spec.parameters]
     tables = [f"{name}: table of shape {np.shape(table)}" for name, table in export.spec.tables.items()]

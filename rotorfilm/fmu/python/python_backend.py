@@ -16,7 +16,7 @@ from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, modul
 from ...native.library import FILMS, LOOPS, library_path
 from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
 from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
-from ..documentation import PYTHON, PYTHON_STEPPED, to_html
+from ..documentation import general_texts, to_html
 from .codec import class_modules, decode, encode, shortened
 from .usermodule import read_user_module, renamed_source
 
@@ -184,7 +184,8 @@ def _files(
     data = encode(model)
     bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    texts, base = (PYTHON, "ModelSlave") if isinstance(model, Model) else (PYTHON_STEPPED, "SteppedSlave")
+    stepped = isinstance(model, Stepped)
+    texts, base = general_texts("python", stepped=stepped), "SteppedSlave" if stepped else "ModelSlave"
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
         **_resources(data, component, prefix, start, bundle, base),
