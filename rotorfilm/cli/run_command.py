@@ -29,9 +29,9 @@ from .command import (
 if TYPE_CHECKING:
     from ..core.results import Trajectory
     from ..scenes import Scene
+    from ..scenes.contact import ContactResponse
     from ..scenes.cosimulate_scene import CosimAnswer
     from ..scenes.rotor_runs import RotorRun
-    from ..scenes.solve_contact import ContactResponse
     from ..scenes.solve_damper import DamperRun
 
 RPM = 30.0 / math.pi
@@ -73,9 +73,9 @@ def run(
 
 def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
     """Return the motion of what moves in a scene."""
-    from ..scenes.excitation_table import kind_of
+    from ..scenes.contact import run_contact
     from ..scenes.rotor_runs import run_rotor
-    from ..scenes.solve_contact import run_contact
+    from ..scenes.shared_tables import kind_of
     from ..scenes.solve_damper import couple_damper, run_damper
 
     on_contact = scene.contact is not None

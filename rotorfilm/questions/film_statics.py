@@ -36,7 +36,7 @@ from .walk import NoAnswerError
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
-    from ..scenes.schema import RigidRotorTable
+    from ..scenes.shared_tables import RigidRotorTable
 
 Films = Callable[["Scene"], Sequence[FilmCandidate]]
 """Takes a scene and returns the candidates for its bearing, the cheapest first."""

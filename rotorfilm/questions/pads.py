@@ -12,18 +12,7 @@ import numpy as np
 
 from ..analysis import coefficients, equilibrium
 from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
-from ..bearings.pads import (
-    LobedBearing,
-    PadFilm,
-    PadGridFilm,
-    PadMapFilm,
-    PadResolution,
-    PressureDamBearing,
-    TiltingPadBearing,
-    differenced_slopes,
-    is_pad_mappable,
-    lobe_share,
-)
+from ..bearings import pads as pad_bearings
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array
@@ -47,7 +36,7 @@ if TYPE_CHECKING:
 # The films that may answer for a bearing of fixed pads, the cheapest first, and what is richer.
 
 
-COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
+COARSE_MAP = pad_bearings.PadMapFilm(resolution=pad_bearings.PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
 """Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
 
 GRIDS = (((48, 4), 1e-4, 2e-3), ((96, 8), 1e-5, 1e-3), ((192, 16), 2e-6, 5e-4))
@@ -72,12 +61,14 @@ class PadCandidate(FilmCandidate):
         With the richer one.
     """
 
-    reaction: LobedBearing | PressureDamBearing
-    rich: LobedBearing | PressureDamBearing
+    reaction: pad_bearings.LobedBearing | pad_bearings.PressureDamBearing
+    rich: pad_bearings.LobedBearing | pad_bearings.PressureDamBearing
 
-    def on_grid(self, bearing: LobedBearing | PressureDamBearing) -> bool:
+    def on_grid(self, bearing: pad_bearings.LobedBearing | pad_bearings.PressureDamBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
-        return isinstance(bearing, PressureDamBearing) or isinstance(bearing.film, PadGridFilm)
+        return isinstance(bearing, pad_bearings.PressureDamBearing) or isinstance(
+            bearing.film, pad_bearings.PadGridFilm
+        )
 
     def curvature_distance(self, position: Array) -> float:
         """Return the distance [m] from the center of curvature of the pad that has the least film.
@@ -85,7 +76,7 @@ class PadCandidate(FilmCandidate):
         With recesses from the farthest one.
         """
         bearing, c = self.reaction, self.reaction.clearance
-        if isinstance(bearing, PressureDamBearing):
+        if isinstance(bearing, pad_bearings.PressureDamBearing):
             return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in bearing.pads))
         near = min(bearing.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
         return float(np.hypot(*(position - c * np.array(near.center))))
@@ -93,10 +84,12 @@ class PadCandidate(FilmCandidate):
     def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
         """Return the bounds of the maps of all pads together in an equilibrium; infinite without maps."""
         bearing = self.reaction
-        if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
+        if isinstance(bearing, pad_bearings.PressureDamBearing) or not isinstance(
+            bearing.film, pad_bearings.PadMapFilm
+        ):
             return math.inf
         place, film = (at.position, at.speed), bearing.film
-        shares = (lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
+        shares = (pad_bearings.lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
         force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
             return force / math.hypot(*at.load)
@@ -104,7 +97,7 @@ class PadCandidate(FilmCandidate):
         return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
-def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
+def lobed_candidates(bearing: pad_bearings.LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the films that can answer for a bearing of fixed pads: maps that are there, grids, other maps.
 
     Parameters
@@ -115,14 +108,14 @@ def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidat
     """
     if fixed:
         film = bearing.film
-        fine = isinstance(film, PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
+        fine = isinstance(film, pad_bearings.PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
         return (_lobed_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, 0.0, 0.0),)
     maps = _maps(bearing)
     ready = [film for film in maps if not film.makes_map]
     grids = [
         _lobed_candidate(
             bearing,
-            PadGridFilm(cells=cells),
+            pad_bearings.PadGridFilm(cells=cells),
             f"2-D {cells[0]} x {cells[1]} extr.",
             FINEST if cells == FINE else FINE,
             *priors,
@@ -139,41 +132,41 @@ def few_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadC
 
 def many_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the candidates for states all round a turn: the finest grid costs more than any map."""
-    kept = [PadGridFilm(cells=cells) for cells in TURN_GRIDS]
+    kept = [pad_bearings.PadGridFilm(cells=cells) for cells in TURN_GRIDS]
     return tuple(
         film
         for film in candidates
-        if fixed or isinstance(film.reaction.film, PadMapFilm) or film.reaction.film in kept
+        if fixed or isinstance(film.reaction.film, pad_bearings.PadMapFilm) or film.reaction.film in kept
     )
 
 
-def _maps(bearing: LobedBearing) -> list[PadCandidate]:
+def _maps(bearing: pad_bearings.LobedBearing) -> list[PadCandidate]:
     """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
     extents = {lobe.extent for lobe in bearing.lobes}
-    if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
+    if not all(pad_bearings.is_pad_mappable(extent, bearing.slenderness) for extent in extents):
         return []
     coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
-    fine = _lobed_candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
+    fine = _lobed_candidate(bearing, pad_bearings.PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
     return [coarse, fine] if fine.makes_map else [fine]
 
 
 def _lobed_candidate(
-    bearing: LobedBearing,
-    film: PadFilm,
+    bearing: pad_bearings.LobedBearing,
+    film: pad_bearings.PadFilm,
     name: str,
     rich: tuple[int, int],
     position_prior: float,
     prior: float,
 ) -> PadCandidate:
     making = 0.0
-    if isinstance(film, PadMapFilm):
+    if isinstance(film, pad_bearings.PadMapFilm):
         extents = {lobe.extent for lobe in bearing.lobes}
         making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
-    cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
+    cells = math.prod(film.cells) if isinstance(film, pad_bearings.PadGridFilm) else 0
     return PadCandidate(
         name=name,
         reaction=replace(bearing, film=film),
-        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich=replace(bearing, film=pad_bearings.PadGridFilm(cells=rich)),
         rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
         position_prior=position_prior,
         prior=prior,
@@ -193,7 +186,7 @@ DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
 
 
 def dam_candidates(
-    bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
+    bearing: pad_bearings.PressureDamBearing, *, fixed: bool, turns: bool = False
 ) -> tuple[PadCandidate, ...]:
     """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
 
@@ -215,7 +208,7 @@ def dam_candidates(
 
 
 def _dam_candidate(
-    bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
+    bearing: pad_bearings.PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
 ) -> PadCandidate:
     rich = replace(bearing, cells=cells)
     return PadCandidate(
@@ -254,8 +247,8 @@ class TiltingCandidate(FilmCandidate):
         With the richer one.
     """
 
-    reaction: TiltingPadBearing
-    rich: TiltingPadBearing
+    reaction: pad_bearings.TiltingPadBearing
+    rich: pad_bearings.TiltingPadBearing
 
     @property
     def tangents(self) -> WorkUnit:
@@ -300,7 +293,7 @@ class TiltingCandidate(FilmCandidate):
         moved = self.corrected(at, smooth=False)
         return float(self.rich.at_rest().modes(moved.position, at.speed, mass)[0].real), moved.doubt
 
-    def least_film(self, bearing: TiltingPadBearing, position: Array, speed: float) -> float:
+    def least_film(self, bearing: pad_bearings.TiltingPadBearing, position: Array, speed: float) -> float:
         """Return the least film [m] over all pads, each in its tilt."""
         return float(bearing.at_rest().pad_states(position, speed).film_thickness.min())
 
@@ -321,12 +314,14 @@ class TiltingCandidate(FilmCandidate):
         return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: pad_bearings.TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
-    return differenced_slopes(bearing, e, w, STEP)
+    return pad_bearings.differenced_slopes(bearing, e, w, STEP)
 
 
-def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
+def tilting_candidates(
+    bearing: pad_bearings.TiltingPadBearing, *, fixed: bool
+) -> tuple[TiltingCandidate, ...]:
     """Return the films that can answer for a bearing of tilting pads: the map if it is there, and grids.
 
     Parameters
@@ -339,28 +334,34 @@ def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[Tilt
     if fixed:
         return (_tilting_candidate(bearing, film, pad_film_name(film), 0.0, 0.0),)
     grids = [
-        _tilting_candidate(bearing, PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors)
+        _tilting_candidate(
+            bearing, pad_bearings.PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors
+        )
         for cells, *priors in TILTING_GRIDS
     ]
-    if not is_pad_mappable(bearing.extent, bearing.slenderness):
+    if not pad_bearings.is_pad_mappable(bearing.extent, bearing.slenderness):
         return tuple(grids)
-    fine = _tilting_candidate(bearing, PadMapFilm(), "pad map", 2e-5, 1e-3)
+    fine = _tilting_candidate(bearing, pad_bearings.PadMapFilm(), "pad map", 2e-5, 1e-3)
     return tuple(grids) if fine.makes_map else (fine, *grids)
 
 
 def _tilting_candidate(
-    bearing: TiltingPadBearing, film: PadFilm, name: str, position_prior: float, prior: float
+    bearing: pad_bearings.TiltingPadBearing,
+    film: pad_bearings.PadFilm,
+    name: str,
+    position_prior: float,
+    prior: float,
 ) -> TiltingCandidate:
     making, rich, call_time = 0.0, (96, 8), MAP_CALL
-    if isinstance(film, PadGridFilm):
+    if isinstance(film, pad_bearings.PadGridFilm):
         rich = 2 * film.cells[0], 2 * film.cells[1]
         call_time = LOOKS * len(bearing.pivots) * CELL_TIME * math.prod(film.cells)
-    elif isinstance(film, PadMapFilm):
+    elif isinstance(film, pad_bearings.PadMapFilm):
         making = film.making_time(bearing.extent, bearing.slenderness)
     return TiltingCandidate(
         name=name,
         reaction=replace(bearing, film=film),
-        rich=replace(bearing, film=PadGridFilm(cells=rich)),
+        rich=replace(bearing, film=pad_bearings.PadGridFilm(cells=rich)),
         rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
         position_prior=position_prior,
         prior=prior,
@@ -466,10 +467,10 @@ class StatefulOrbitRung(OrbitRung):
         """Return some Newton steps at these samples."""
         return {self.points: ORBIT_STEPS * self.samples if self.samples else FEW_SAMPLES}
 
-    def _equations(self, bearing: TiltingPadBearing, samples: int) -> TurnEquations:
+    def _equations(self, bearing: pad_bearings.TiltingPadBearing, samples: int) -> TurnEquations:
         return TurnEquations(self.rotor, bearing.evaluated, bearing.clearance, samples)
 
-    def _rest(self, bearing: TiltingPadBearing) -> Array:
+    def _rest(self, bearing: pad_bearings.TiltingPadBearing) -> Array:
         speed = self.rotor.profile.speeds[0]
         position = equilibrium(bearing, self.rotor.static_force, speed).position
         return np.concatenate([position, bearing.at_rest().state(position, speed)])

@@ -39,7 +39,7 @@ FILM = "scenes.export_scene.film_models"
 FAMILIES = {
     "journal": Family("scenes.journal_tables.JournalTable", FILM),
     "bush": Family("scenes.bush_table.BushTable", answer="scenes.bush_table.answer_bush"),
-    "contact": Family("scenes.contact_table.ContactTable", answer="scenes.solve_contact.answer_contact"),
+    "contact": Family("scenes.contact.ContactTable", answer="scenes.contact.answer_contact"),
     "shaft": Family("scenes.shaft_table.ShaftTable", answer="scenes.solve_shaft.solve_rotor"),
     "damper": Family(
         "scenes.damper_table.DamperTable",

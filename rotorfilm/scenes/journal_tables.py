@@ -10,17 +10,7 @@ from typing import Annotated, Any
 
 from ..analysis import equilibrium
 from ..bearings import journal
-from ..bearings.films.geometry import (
-    Complementarity,
-    FeedHole,
-    FixedOnset,
-    FreeOnset,
-    FullFilm,
-    Groove,
-    HalfSommerfeld,
-    MaximumGapOnset,
-    Pad,
-)
+from ..bearings.films import geometry
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
@@ -30,8 +20,8 @@ from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, messages
-from .lubricant_table import Lubricant, OiledTable
 from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
+from .shared_tables import Lubricant, OiledTable
 
 ORDER = Count(FUNCTIONS)
 
@@ -56,10 +46,14 @@ RUPTURES: dict[str, Callable[[], Keyed]] = {
 }
 """`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
 
-CAVITATIONS = {"complementarity": Complementarity, "half_sommerfeld": HalfSommerfeld, "full": FullFilm}
+CAVITATIONS = {
+    "complementarity": geometry.Complementarity,
+    "half_sommerfeld": geometry.HalfSommerfeld,
+    "full": geometry.FullFilm,
+}
 """What the two-dimensional film does in tension, by name."""
 
-STARTS = {"free": FreeOnset, "widest_gap": MaximumGapOnset, "line": FixedOnset}
+STARTS = {"free": geometry.FreeOnset, "widest_gap": geometry.MaximumGapOnset, "line": geometry.FixedOnset}
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
 
@@ -127,9 +121,9 @@ class JournalTable(OiledTable):
     """
 
     film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
-    pads: tuple[Pad, ...] = ()
-    grooves: tuple[Groove, ...] = ()
-    feed_holes: tuple[FeedHole, ...] = ()
+    pads: tuple[geometry.Pad, ...] = ()
+    grooves: tuple[geometry.Groove, ...] = ()
+    feed_holes: tuple[geometry.FeedHole, ...] = ()
 
     def __post_init__(self) -> None:
         # Without a viscosity there is no bearing before `on` has given the oil.
@@ -465,8 +459,8 @@ class BearingData(Readable):
     slenderness: float
     clearance: float
     viscosity: float
-    pads: tuple[Pad, ...]
-    grooves: tuple[Groove | FeedHole, ...]
+    pads: tuple[geometry.Pad, ...]
+    grooves: tuple[geometry.Groove | geometry.FeedHole, ...]
     supply_pressure: float
     circumferential_groove: float | None = None
 

@@ -13,23 +13,9 @@ from typing import Any
 
 from ..core.readable import explained
 from ..core.sources import offered
+from . import reading
 from .families import FAMILIES, table_of
-from .reading import (
-    Beside,
-    Count,
-    Quantity,
-    Reader,
-    Table,
-    TableList,
-    TableType,
-    Variant,
-    choose,
-    flag,
-    keyed,
-    text,
-    twice_of,
-)
-from .schema import SCHEMA, OperationTable, RigidRotorTable
+from .shared_tables import SCHEMA, OperationTable, RigidRotorTable
 
 WIDTH = 110
 """Longest line of a scene, where a value leaves room for its comment."""
@@ -53,7 +39,7 @@ def new_scene(name: str) -> str:
     SceneError
         If there is no such element.
     """
-    _ = choose("NAME", name, FAMILIES)
+    _ = reading.choose("NAME", name, FAMILIES)
     title = name.replace("_", " ")
     parts = [
         "# Keys behind a # may be left out. Their defaults stand there, or dots where there is none.",
@@ -78,58 +64,62 @@ def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
     wording = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
     yield from _wrapped(wording[:1].upper() + wording[1:])
     yield f"[{name}]"
-    readers = keyed(table).readers
+    readers = reading.keyed(table).readers
     defaults = {field.name: field for field in dataclasses.fields(table)}
     for key, value in values.items():
-        field = key if key in readers else next(one for one, read in readers.items() if twice_of(read) == key)
+        field = (
+            key
+            if key in readers
+            else next(one for one, read in readers.items() if reading.twice_of(read) == key)
+        )
         yield from _line(f"{key} = {toml(value)}", comment(table, field, twice=field != key))
     for field, reader in readers.items():
-        if field in values or twice_of(reader) in values or isinstance(reader, Beside):
+        if field in values or reading.twice_of(reader) in values or isinstance(reader, reading.Beside):
             continue
         yield from _line(f"# {field} = {_placeholder(reader, defaults[field])}", comment(table, field))
 
 
 def comment(table: type, field: str, *, twice: bool = False) -> str:
     """Return the unit and the meaning of a key, and what may stand in it."""
-    wording, reader = explained(table, field), keyed(table).readers[field]
+    wording, reader = explained(table, field), reading.keyed(table).readers[field]
     meaning = " ".join(wording.meaning.split()).replace("`", "")
     parts = [f"twice the {field}" if twice else "", meaning.rstrip("."), _inside(reader)]
     unit = f"[{wording.unit}] " if wording.unit and wording.unit != "1" else ""
     return f"{unit}{'; '.join(part for part in parts if part)}".strip()
 
 
-def _inside(reader: Reader) -> str:
+def _inside(reader: reading.Reader) -> str:
     """Return the keys, or the names, that a value may have."""
-    if isinstance(reader, Table | TableList):
-        each = "keys" if isinstance(reader, Table) else "keys of each"
+    if isinstance(reader, reading.Table | reading.TableList):
+        each = "keys" if isinstance(reader, reading.Table) else "keys of each"
         return f"{each}: {', '.join(_keys(reader.table))}"
-    if isinstance(reader, Variant):
+    if isinstance(reader, reading.Variant):
         return f"{reader.tag}: {', '.join(reader.variants)}"
     names = _names(reader)
     return f"one of {', '.join(names)}" if names else ""
 
 
-def _names(reader: Reader) -> Mapping[str, Any]:
+def _names(reader: reading.Reader) -> Mapping[str, Any]:
     """Return the names that a reader says it takes, if it takes nothing else."""
     shapes: tuple[Any, ...] = getattr(reader, "takes", ())
     return shapes[0] if len(shapes) == 1 and isinstance(shapes[0], Mapping) else {}
 
 
-def _keys(table: TableType[Any]) -> Iterator[str]:
-    for name, reader in keyed(table).readers.items():
-        unit = reader.unit if isinstance(reader, Quantity) and reader.unit != "1" else ""
+def _keys(table: reading.TableType[Any]) -> Iterator[str]:
+    for name, reader in reading.keyed(table).readers.items():
+        unit = reader.unit if isinstance(reader, reading.Quantity) and reader.unit != "1" else ""
         yield f"{name} [{unit}]" if unit else name
 
 
-def _placeholder(reader: Reader, field: dataclasses.Field[Any]) -> str:
+def _placeholder(reader: reading.Reader, field: dataclasses.Field[Any]) -> str:
     """Return the default of a key as TOML, or dots for what has none that a file may state."""
     default = field.default
-    if isinstance(reader, Quantity):
+    if isinstance(reader, reading.Quantity):
         known = isinstance(default, float) and math.isfinite(default)
         number = f"{default:.6g}" if known else "..."
         return f'"{number} {reader.unit}"' if reader.unit != "1" else number
-    written: tuple[Callable[..., Any] | type, ...] = (text, flag)
-    plain = isinstance(reader, Count) or reader in written
+    written: tuple[Callable[..., Any] | type, ...] = (reading.text, reading.flag)
+    plain = isinstance(reader, reading.Count) or reader in written
     return toml(default) if plain and isinstance(default, int | str) else "..."
 
 

@@ -11,55 +11,50 @@ from typing import Annotated, Any, NamedTuple, Self
 import numpy as np
 
 from ..analysis import equilibrium
-from ..bearings.rolling import (
-    BallBearing,
-    BallLoads,
-    BearingPair,
-    RaceControl,
-    RollingMaterial,
-    RunningBalls,
-    StaticBalls,
-    back_to_back,
-    ball_films,
-    face_to_face,
-    film_parameter,
-)
+from ..bearings import rolling
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief, require_positive
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import Remark, messages
-from .lubricant_table import Lubricant, LubricantTable
 from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
+from .shared_tables import Lubricant, LubricantTable
 
 MOST_BALLS = 200
 """Balls of a row: thin slewing rings have about so many."""
 
-ARRANGEMENTS: dict[str, Callable[..., BearingPair]] = {
-    "back_to_back": back_to_back,
-    "face_to_face": face_to_face,
-    "tandem": lambda bearing, distance, **_: BearingPair(
+ARRANGEMENTS: dict[str, Callable[..., rolling.BearingPair]] = {
+    "back_to_back": rolling.back_to_back,
+    "face_to_face": rolling.face_to_face,
+    "tandem": lambda bearing, distance, **_: rolling.BearingPair(
         bearing=bearing, distance=distance, directions=(1, 1)
     ),
 }
 """Pairs, by the name in scene files."""
 
-MATERIALS = {"steel": RollingMaterial.steel, "silicon_nitride": RollingMaterial.silicon_nitride}
+MATERIALS = {
+    "steel": rolling.RollingMaterial.steel,
+    "silicon_nitride": rolling.RollingMaterial.silicon_nitride,
+}
 OWN_MATERIAL = Keyed(
-    RollingMaterial,
+    rolling.RollingMaterial,
     {"young_modulus": Quantity("Pa"), "poisson_ratio": Quantity("1"), "density": Quantity("kg/m3")},
 )
-INERTIAS = {"static": StaticBalls, "running": RunningBalls, "race_control": RaceControl}
+INERTIAS = {
+    "static": rolling.StaticBalls,
+    "running": rolling.RunningBalls,
+    "race_control": rolling.RaceControl,
+}
 BALL_LAWS = {
-    "traction_coefficient": RunningBalls,
-    "slide_to_roll_ratio": RunningBalls,
-    "outer_control": RaceControl,
+    "traction_coefficient": rolling.RunningBalls,
+    "slide_to_roll_ratio": rolling.RunningBalls,
+    "outer_control": rolling.RaceControl,
 }
 """Which law a number of the table belongs to."""
 
 
 @takes(MATERIALS, Table(OWN_MATERIAL))
-def read_material(where: str, value: Any) -> RollingMaterial:
+def read_material(where: str, value: Any) -> rolling.RollingMaterial:
     """Read the name of a material, or its properties."""
     if isinstance(value, str):
         return named(MATERIALS)(where, value)
@@ -130,10 +125,14 @@ class BallTable:
     pitch_diameter: Annotated[float, Quantity("m")]
     internal_clearance: Annotated[float | None, Quantity("m")] = None
     contact_angle: Annotated[float | None, Quantity("rad")] = None
-    inner_conformity: Annotated[float, Quantity("1")] = BallBearing.inner_conformity
-    outer_conformity: Annotated[float, Quantity("1")] = BallBearing.outer_conformity
-    ball_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
-    ring_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
+    inner_conformity: Annotated[float, Quantity("1")] = rolling.BallBearing.inner_conformity
+    outer_conformity: Annotated[float, Quantity("1")] = rolling.BallBearing.outer_conformity
+    ball_material: Annotated[rolling.RollingMaterial, read_material] = field(
+        default_factory=rolling.RollingMaterial.steel
+    )
+    ring_material: Annotated[rolling.RollingMaterial, read_material] = field(
+        default_factory=rolling.RollingMaterial.steel
+    )
     growth: Annotated[float, Quantity("m")] = 0.0
     axial_displacement: Annotated[float, Quantity("m")] = 0.0
     axial_load: Annotated[float | None, Quantity("N")] = None
@@ -143,7 +142,9 @@ class BallTable:
     arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
     distance: Annotated[float | None, Quantity("m")] = None
     preload: Annotated[float | None, Quantity("N")] = None
-    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, named(INERTIAS)] = None
+    inertia: Annotated[
+        rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl | None, named(INERTIAS)
+    ] = None
     traction_coefficient: Annotated[float | None, Quantity("1")] = None
     slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
     outer_control: Annotated[bool | None, flag] = None
@@ -193,9 +194,9 @@ class BallTable:
         fresh = lubricant.cooling.supply_temperature
         return replace(self, viscosity=float(lubricant.oil.viscosity(fresh)))
 
-    def _law(self) -> StaticBalls | RunningBalls | RaceControl:
+    def _law(self) -> rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl:
         """Return the law of the balls with the numbers that the file gives."""
-        law = self.inertia or RunningBalls()
+        law = self.inertia or rolling.RunningBalls()
         given = {name: getattr(self, name) for name in BALL_LAWS if getattr(self, name) is not None}
         for name, value in given.items():
             if not isinstance(law, BALL_LAWS[name]):
@@ -210,9 +211,9 @@ class BallTable:
             name: getattr(self, name) for name in ("axial_displacement", "axial_load", "tilt", "damping")
         }
         if self.arrangement is None:
-            return made_from(BallBearing, self, law=law)
+            return made_from(rolling.BallBearing, self, law=law)
         alone = {"axial_displacement": 0.0, "axial_load": None, "tilt": (0.0, 0.0), "damping": 0.0}
-        one = made_from(BallBearing, self, law=law, **alone)
+        one = made_from(rolling.BallBearing, self, law=law, **alone)
         if self.arrangement == "tandem" and self.preload is not None:
             raise InputError(f"preload must not be given in tandem, got {self.preload!r}")
         pair = ARRANGEMENTS[self.arrangement](one, distance=self.distance, preload=self.preload)
@@ -221,7 +222,7 @@ class BallTable:
     def repeated_inputs(self, bearing: Balls) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing, and the name of the law of its balls."""
         name = law_name(bearing)
-        if isinstance(bearing, BearingPair):
+        if isinstance(bearing, rolling.BearingPair):
             return made_from(PairData, self, arrangement=self.arrangement or "", preload=self.preload), name
         return made_from(BallData, self), name
 
@@ -240,9 +241,9 @@ class BallTable:
 
 
 LAW_NAMES = {
-    StaticBalls: "static balls",
-    RunningBalls: "running balls",
-    RaceControl: "running balls under race control",
+    rolling.StaticBalls: "static balls",
+    rolling.RunningBalls: "running balls",
+    rolling.RaceControl: "running balls under race control",
 }
 
 
@@ -305,7 +306,7 @@ class PairData(BallData):
 # A shaft at rest in ball bearings: where it is, what each ball carries, and what follows from that.
 
 
-Balls = BallBearing | BearingPair
+Balls = rolling.BallBearing | rolling.BearingPair
 
 STEPS, EXACT = 3, 1e-9
 """Newton steps by which a richer law moves a rest, and the share of the load that may be left of it."""
@@ -352,7 +353,7 @@ class BallEquilibriumCase:
     force: Array
     stiffness: Array
     axial_stiffness: float
-    balls: BallLoads
+    balls: rolling.BallLoads
 
     @property
     def most_loaded(self) -> int:
@@ -382,23 +383,23 @@ class BallEquilibriumCase:
         """Return lambda [1], the smallest film over the roughness [m]; nan where one is not known."""
         if oil is None or roughness is None or self.speed == 0.0:
             return math.nan
-        return film_parameter(
+        return rolling.film_parameter(
             single_of(self.bearing), self.balls, speed=self.speed, **oil._asdict(), roughness=roughness
         )
 
 
-def single_of(bearing: Balls) -> BallBearing:
+def single_of(bearing: Balls) -> rolling.BallBearing:
     """Return a bearing itself, or one of a pair."""
-    return bearing.bearing if isinstance(bearing, BearingPair) else bearing
+    return bearing.bearing if isinstance(bearing, rolling.BearingPair) else bearing
 
 
 def with_single(bearing: Balls, **changes: Any) -> Balls:
     """Return a bearing, or a pair, whose single bearing is changed."""
     single = replace(single_of(bearing), **changes)
-    return replace(bearing, bearing=single) if isinstance(bearing, BearingPair) else single
+    return replace(bearing, bearing=single) if isinstance(bearing, rolling.BearingPair) else single
 
 
-def with_law(bearing: Balls, law: StaticBalls | RunningBalls | RaceControl) -> Balls:
+def with_law(bearing: Balls, law: rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl) -> Balls:
     """Return a bearing with another law of its balls."""
     return with_single(bearing, law=law)
 
@@ -431,7 +432,7 @@ def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> BallE
     """
     free = not any(load)
     try:
-        still = with_law(bearing, StaticBalls())
+        still = with_law(bearing, rolling.StaticBalls())
         place = np.zeros(2) if free else equilibrium(still, load, speed).position
         near = rest_at(still, place, speed)
         found, left = moved_to(bearing, near, load)
@@ -468,7 +469,7 @@ def rest_near(bearing: Balls, near: BallEquilibriumCase, load: tuple[float, floa
 def on_films(near: BallEquilibriumCase, oil: RaceOil) -> Balls:
     """Return the bearing of a rest with the oil films of its most loaded ball in all contacts."""
     load = float(near.balls.inner_load.max())
-    films = ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
+    films = rolling.ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
     return with_single(near.bearing, films=films)
 
 
@@ -531,7 +532,7 @@ def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: floa
         film_parameter : lambda, nan without oil and roughness.
     """
     balls, bearing = rest.balls, rest.bearing
-    idle, is_pair = _idle(rest), isinstance(bearing, BearingPair)
+    idle, is_pair = _idle(rest), isinstance(bearing, rolling.BearingPair)
     traction, most = float(balls.traction.max()), bearing.running[0].most_traction
     return {
         "traction": traction,
@@ -560,17 +561,17 @@ def ball_remarks(
 def _idle(rest: BallEquilibriumCase) -> Array:
     """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
     bearing = rest.bearing
-    preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
+    preloaded = isinstance(bearing, rolling.BearingPair) and bearing.approach > 0.0
     if not (preloaded or (single_of(bearing).separates and bearing.axial_load is not None)):
         return np.zeros(rest.balls.inner_load.size, dtype=bool)
-    pressed = with_law(bearing, StaticBalls()).loads(rest.displacement).inner_load
+    pressed = with_law(bearing, rolling.StaticBalls()).loads(rest.displacement).inner_load
     return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
 
 
 def _neglected(bearing: Balls, rest: BallEquilibriumCase) -> float:
     """Return the centrifugal force that static balls do not have, over the largest contact load."""
-    if not isinstance(single_of(bearing).law, StaticBalls):
+    if not isinstance(single_of(bearing).law, rolling.StaticBalls):
         return 0.0
-    running = with_law(bearing, RunningBalls())
+    running = with_law(bearing, rolling.RunningBalls())
     centrifugal = running.loads(rest.displacement, rest.speed).centrifugal_force.max()
     return float(centrifugal / rest.contact_load)

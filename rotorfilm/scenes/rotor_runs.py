@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from .. import rotors
 from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
@@ -18,14 +19,8 @@ from ..core.port import Reaction, from_rest
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from ..rotors import (
-    BaseExcitedRotor,
-    MotorDrivenRotor,
-    RigidRotor,
-    ShaftRotor,
-    mount,
-)
-from .excitation_table import (
+from .export_scene import from_shaft_rest
+from .shared_tables import (
     BladeLossTable,
     GroundTable,
     MotorTable,
@@ -33,7 +28,6 @@ from .excitation_table import (
     UnbalanceTable,
     require_kind,
 )
-from .export_scene import from_shaft_rest
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -87,7 +81,7 @@ class RotorRun(Readable):
 class _Parts(NamedTuple):
     """A rotor at rest in its bearings, by station, and how long it runs [s]."""
 
-    rotor: RigidRotor | ShaftRotor
+    rotor: rotors.RigidRotor | rotors.ShaftRotor
     bearings: dict[str, Reaction]
     duration: float
     fastest: float
@@ -214,7 +208,7 @@ def _parts(scene: Scene) -> _Parts:
     return _Parts(rotor, bearings, duration, fastest)
 
 
-def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
+def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
     assert scene.shaft is not None
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
@@ -233,7 +227,7 @@ def _massless(name: str, bearing: Reaction) -> Reaction:
     return replace(bearing, added_mass=False)
 
 
-def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
+def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
     """Return the rigid rotor of a scene, and its bearing."""
     rotor, bearing = _rigid_parts(scene)
     if isinstance(scene.excitation, UnbalanceTable):
@@ -247,7 +241,7 @@ def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
     return rotor, {"": bearing}
 
 
-def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
+def _rigid_parts(scene: Scene) -> tuple[rotors.RigidRotor, Any]:
     """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
     if scene.damper is not None and scene.rigid_rotor is not None:
         return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
@@ -264,23 +258,25 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
     if isinstance(scene.excitation, MotorTable):
         return _on_motor(scene.excitation, parts, times)
     if isinstance(scene.excitation, GroundTable):
-        rotor = BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
-    if isinstance(parts.rotor, RigidRotor):
+        rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
+    if isinstance(parts.rotor, rotors.RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
     if any(getattr(bearing, "states", ()) for bearing in parts.bearings.values()):
         return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
-    return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
+    return simulate_rotor(
+        rotors.mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL
+    )
 
 
 def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
     """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
     rotor, last = parts.rotor, next(reversed(parts.bearings))
-    if isinstance(rotor, ShaftRotor):
+    if isinstance(rotor, rotors.ShaftRotor):
         own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
         rotor = replace(rotor, stations=own)
-    driven = MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
+    driven = rotors.MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
     others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
-    mounted: Any = mount(driven, others) if others else driven
+    mounted: Any = rotors.mount(driven, others) if others else driven
     found = simulate(mounted, parts.bearings[last], duration=parts.duration, times=times, rtol=RTOL)
     plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if last else set()
     return replace(

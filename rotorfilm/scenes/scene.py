@@ -23,19 +23,22 @@ from ..core.progress import Report, silent
 from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
-from .excitation_table import (
+from .families import FAMILIES, brought, table_of
+from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
+from .shared_tables import (
     EXCITATIONS,
+    SCHEMA,
+    CosimulationTable,
     ExcitationTable,
     FilmTable,
+    LubricantTable,
+    OperationTable,
+    RigidRotorTable,
     UnbalanceTable,
     film_table,
     film_tables,
     oil_remarks,
 )
-from .families import FAMILIES, brought, table_of
-from .lubricant_table import LubricantTable
-from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
-from .schema import SCHEMA, CosimulationTable, OperationTable, RigidRotorTable
 
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing

@@ -10,19 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..analysis import (
-    Campbell,
-    CriticalSpeed,
-    RotorThreshold,
-    StabilityLevelOne,
-    campbell,
-    critical_speeds,
-    resonant_speeds,
-    rotor_equilibrium,
-    rotor_modes,
-    rotor_threshold,
-    stability_level_one,
-)
+from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
@@ -34,10 +22,9 @@ from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
-from .excitation_table import GroundTable, UnbalanceTable, oil_remarks, require_kind
 from .families import Remark, messages, prefixed
 from .journal_tables import film_remarks
-from .lubricant_table import Lubricant
+from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
 
 if TYPE_CHECKING:
     import control
@@ -83,13 +70,13 @@ class RotorAnswer(Drawable):
     states: int
     loads: Mapping[str, Array]
     residual: float
-    critical_speeds: tuple[CriticalSpeed, ...]
-    threshold: RotorThreshold
-    campbell: Campbell
+    critical_speeds: tuple[analysis.CriticalSpeed, ...]
+    threshold: analysis.RotorThreshold
+    campbell: analysis.Campbell
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
     remarks: tuple[str, ...] = ()
-    level_one: StabilityLevelOne | None = None
+    level_one: analysis.StabilityLevelOne | None = None
 
     def _own_units(self) -> dict[str, str]:
         return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
@@ -118,15 +105,15 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     speeds = scene.shaft.speeds.build()
     highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
     report(0.0, "equilibrium")
-    at = rotor_equilibrium(rotor, bearings, float(speeds[0]))
+    at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[0]))
     report(0.05, "modes over speed")
-    chart = campbell(rotor, bearings, speeds, highest)
+    chart = analysis.campbell(rotor, bearings, speeds, highest)
     report(0.35, "critical speeds")
-    critical = critical_speeds(rotor, bearings, speeds)
+    critical = analysis.critical_speeds(rotor, bearings, speeds)
     report(0.65, "threshold of stability")
-    threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
+    threshold = analysis.rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
     report(0.85, "unbalance response")
-    turned = resonant_speeds(speeds, critical)
+    turned = analysis.resonant_speeds(speeds, critical)
     response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
     found, remarks = None, level_one_remarks(scene) if scene.shaft.compressor is not None else ()
     if scene.shaft.compressor is not None:
@@ -208,7 +195,7 @@ def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
 # What a scene with a compressor is asked: stability by API 617.
 
 
-def solve_level_one(scene: Scene) -> StabilityLevelOne:
+def solve_level_one(scene: Scene) -> analysis.StabilityLevelOne:
     """Return the stability analysis of level I of the compressor of a scene.
 
     Parameters
@@ -226,7 +213,7 @@ def solve_level_one(scene: Scene) -> StabilityLevelOne:
         If it has no forward whirl with a resonance.
     """
     shaft, table = _compressor(scene)
-    return stability_level_one(
+    return analysis.stability_level_one(
         shaft.build(),
         table.cases(shaft.bearings),
         table.speed,
@@ -318,7 +305,7 @@ def shaft_remarks(
     """Return what is left out and should not be, one line each, of a shaft in its bearings at a speed."""
     seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
     stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
-    loads = rotor_equilibrium(rotor, stiff, speed).loads
+    loads = analysis.rotor_equilibrium(rotor, stiff, speed).loads
     lines = list(beam_remarks(rotor))
     for name, bearing in bearings.items():
         if isinstance(bearing, JournalBearing):
@@ -346,7 +333,7 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
 def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float) -> tuple[str, ...]:
     """Return that a rotor whirls by itself, if the model of the file does: no orbit is steady then."""
     try:
-        modes = rotor_modes(rotor, bearings, speed)
+        modes = analysis.rotor_modes(rotor, bearings, speed)
     except RotorfilmError:
         return ()  # the rungs say what is wrong
     growth = modes.eigenvalues.real / np.abs(modes.eigenvalues)

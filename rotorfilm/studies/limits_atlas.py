@@ -17,43 +17,19 @@ from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
 from ..analysis import coefficients, equilibrium
+from ..bearings import journal as journals
 from ..bearings.bush import BushReaction, f4k20_bush
 from ..bearings.contact import ContactScheme, PointContact, StaggeredScheme, UpwindScheme
 from ..bearings.damper import FiniteSqueeze, PorousDamper
 from ..bearings.films.geometry import Groove, HalfSommerfeld
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import (
-    FixedArc,
-    HeatNumbers,
-    JFOFilm,
-    JournalBearing,
-    MapFilm,
-    ReynoldsFilm,
-    RotatingArc,
-    ShortFilm,
-    SplittingFilm,
-    fitted_bearing,
-    heat_numbers,
-)
 from ..bearings.oil import Cooling, Oil
 from ..core.errors import InputError, ValidityWarning
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.units import CELSIUS
 from ..cosim import critical_macro_step
-from .bush_tiers import (
-    COOLINGS,
-    DURATION,
-    HEAT,
-    LOADS as BUSH_LOADS,
-    SAMPLES,
-    STUBBINESSES,
-    TIGHT,
-    published_run,
-    shaft_flux_errors,
-    two_moments,
-    worn_run,
-)
+from . import bush_wear
 from .contact_precision import natural_motions, published_contact
 from .coupling_cost import resting_rotor
 from .damper_accuracy import compared_damper
@@ -205,18 +181,18 @@ JOURNAL_CELLS = ((24, 4), (48, 4), (96, 8), (192, 16))
 ECCENTRICITY_RATIOS = (0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95)
 
 
-def journal(film: FilmLaw, slenderness: float = 0.5) -> JournalBearing:
+def journal(film: FilmLaw, slenderness: float = 0.5) -> journals.JournalBearing:
     """Return the bearing of the atlas with a film."""
-    return fitted_bearing(comparison_bearing(slenderness), film)
+    return journals.fitted_bearing(comparison_bearing(slenderness), film)
 
 
-def _static(model: JournalBearing, ratios: Array) -> Array:
+def _static(model: journals.JournalBearing, ratios: Array) -> Array:
     position = np.array([ratios * model.clearance, np.zeros_like(ratios)])
     return model.force(position, np.zeros_like(position), SPEED)
 
 
 def _whirling(
-    model: JournalBearing | PorousDamper, radius: Array, rate: Array | float, speed: ArrayLike
+    model: journals.JournalBearing | PorousDamper, radius: Array, rate: Array | float, speed: ArrayLike
 ) -> Array:
     """Return the forces (2, n) on circles of radii [m] at rates and speeds [rad/s]."""
     still = np.zeros_like(radius)
@@ -233,11 +209,14 @@ def journal_extent() -> Iterator[Curve]:
     """Yield what arcs err by in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
     whirl = whirl[np.abs(whirl - 0.5) > 0.02]  # no source of pressure there
-    exact = journal(MapFilm())
+    exact = journal(journals.MapFilm())
     radius = np.full_like(whirl, 0.5 * exact.clearance)
     right = _whirling(exact, radius, whirl * SPEED, SPEED)
-    for name, rupture in (("arc fixed in small motion", FixedArc()), ("arc that turns", RotatingArc())):
-        model = journal(SplittingFilm(order=(5, None), rupture=rupture))
+    for name, rupture in (
+        ("arc fixed in small motion", journals.FixedArc()),
+        ("arc that turns", journals.RotatingArc()),
+    ):
+        model = journal(journals.SplittingFilm(order=(5, None), rupture=rupture))
         yield name, whirl, relative_error(_whirling(model, radius, whirl * SPEED, SPEED), right)
 
 
@@ -247,7 +226,7 @@ def journal_order() -> Iterator[Curve]:
     ratios = np.linspace(0.05, 0.95, 19)
 
     def force(n: int, m: int | None) -> Array:
-        return _static(journal(SplittingFilm(order=(n, m), rupture=RotatingArc())), ratios)
+        return _static(journal(journals.SplittingFilm(order=(n, m), rupture=journals.RotatingArc())), ratios)
 
     right = force(10, None)
     for n, m in ORDERS:
@@ -260,7 +239,10 @@ def journal_length() -> Iterator[Curve]:
     slenderness = np.geomspace(0.1, 2.0, 14)
     for ratio in (0.2, 0.6, 0.9):
         pairs = [
-            [_static(journal(film, ld), np.array([ratio])) for film in (ShortFilm(), MapFilm())]
+            [
+                _static(journal(film, ld), np.array([ratio]))
+                for film in (journals.ShortFilm(), journals.MapFilm())
+            ]
             for ld in slenderness.tolist()
         ]
         yield f"eccentricity ratio {ratio:g}", slenderness, [relative_error(*pair)[0] for pair in pairs]
@@ -269,15 +251,15 @@ def journal_length() -> Iterator[Curve]:
 @panel("journal", "grid of the Reynolds film", "eccentricity ratio", "error of K")
 def journal_grid() -> Iterator[Curve]:
     """Yield what coarse grids err by."""
-    exact = journal(MapFilm())
+    exact = journal(journals.MapFilm())
 
-    def stiffness(model: JournalBearing) -> list[Array]:
+    def stiffness(model: journals.JournalBearing) -> list[Array]:
         positions = [np.array([ratio * exact.clearance, 0.0]) for ratio in ECCENTRICITY_RATIOS]
         return [coefficients(model, position, SPEED).stiffness for position in positions]
 
     right = stiffness(exact)
     for cells in JOURNAL_CELLS:
-        pairs = zip(stiffness(replace(exact, film=ReynoldsFilm(cells=cells))), right, strict=True)
+        pairs = zip(stiffness(replace(exact, film=journals.ReynoldsFilm(cells=cells))), right, strict=True)
         errors = [np.linalg.norm(own - K) / np.linalg.norm(K) for own, K in pairs]
         yield f"{cells[0]} x {cells[1]} cells", ECCENTRICITY_RATIOS, errors
 
@@ -285,7 +267,7 @@ def journal_grid() -> Iterator[Curve]:
 @panel("journal", "linearization", "displacement / gap to the wall", "error of the change of force")
 def journal_linearization() -> Iterator[Curve]:
     """Yield what stiffness errs by in large displacements, in the worst direction."""
-    model, parts = journal(MapFilm()), np.geomspace(0.01, 0.8, 20)
+    model, parts = journal(journals.MapFilm()), np.geomspace(0.01, 0.8, 20)
     angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
     around = np.array([np.cos(angles), np.sin(angles)])
     for ratio in (0.2, 0.5, 0.8):
@@ -354,28 +336,28 @@ def _supply_curves(abscissa: Sequence[float], errors: Callable[[float], Sequence
         yield quantity, abscissa, values
 
 
-def _supplied(pressure: float) -> JournalBearing:
+def _supplied(pressure: float) -> journals.JournalBearing:
     """Return the bearing at a supply pressure over 12 viscosity R^2 speed/c^2."""
     top = Groove(center=0.5 * math.pi, width=math.radians(20.0), length=0.8 * RADIUS)
-    bearing = JournalBearing(
+    bearing = journals.JournalBearing(
         radius=RADIUS,
         length=RADIUS,
         clearance=CLEARANCE,
         viscosity=VISCOSITY,
         grooves=(top,),
-        film=ReynoldsFilm(cells=SUPPLY_CELLS),
+        film=journals.ReynoldsFilm(cells=SUPPLY_CELLS),
     )
     return replace(bearing, supply_pressure=pressure * SUPPLY_SPEED * bearing.pressure_scale)
 
 
-def _supply_load(bearing: JournalBearing, sommerfeld: float) -> list[float]:
+def _supply_load(bearing: journals.JournalBearing, sommerfeld: float) -> list[float]:
     return [0.0, -2.0 * sommerfeld * SUPPLY_SPEED * bearing.force_scale]
 
 
 @cache
 def _full_flow() -> float:
     """Return what the groove takes at `AT_LOAD` and ambient pressure [m3/s]."""
-    film: Any = JFOFilm(bearing=_supplied(0.0), cells=SUPPLY_CELLS)
+    film: Any = journals.JFOFilm(bearing=_supplied(0.0), cells=SUPPLY_CELLS)
     at = equilibrium(film, _supply_load(film.bearing, AT_LOAD), SUPPLY_SPEED)
     return float(film.solve(at.position, SUPPLY_SPEED).side_flow)
 
@@ -384,7 +366,7 @@ def _supply_errors(sommerfeld: float, pressure: float, share: float | None = Non
     """Return the errors of `QUANTITIES`."""
     bearing = _supplied(pressure)
     flow = None if share is None else share * _full_flow()
-    film: Any = JFOFilm(bearing=bearing, cells=SUPPLY_CELLS, supply_flow=flow)
+    film: Any = journals.JFOFilm(bearing=bearing, cells=SUPPLY_CELLS, supply_flow=flow)
     load = _supply_load(bearing, sommerfeld)
     own, better = equilibrium(bearing, load, SUPPLY_SPEED), equilibrium(film, load, SUPPLY_SPEED)
     assert own.losses is not None
@@ -452,14 +434,14 @@ def heat_case(thinning_rise: float, peclet: float) -> HeatCase:
     return _heat_case(thinning_rise / numbers.thinning_rise, numbers.peclet / peclet)
 
 
-def _cold_numbers(case: HeatCase) -> HeatNumbers:
+def _cold_numbers(case: HeatCase) -> journals.HeatNumbers:
     """Return the numbers of a case where its film is as cold as its supply."""
     at = equilibrium(case.bearing.at_temperature(SUPPLY), case.load, case.speed)
-    return heat_numbers(case.bearing, at.position, case.speed)
+    return journals.heat_numbers(case.bearing, at.position, case.speed)
 
 
 def _heat_case(thinning: float, conductivity: float) -> HeatCase:
-    bearing = JournalBearing(
+    bearing = journals.JournalBearing(
         radius=0.05,
         length=0.05,
         clearance=75e-6,
@@ -534,7 +516,7 @@ def rotor_time_step() -> Iterator[Curve]:
 @panel("rotor", "macro step, force held", "eccentricity ratio", "longest stable macro step [deg]", level=None)
 def rotor_macro_step() -> Iterator[Curve]:
     """Yield the longest macro steps of rotors of several masses; not-a-number where one whirls anyway."""
-    model = journal(MapFilm())
+    model = journal(journals.MapFilm())
     for mass_ratio in MASS_RATIOS:
         steps = []
         for ratio in ECCENTRICITY_RATIOS:
@@ -546,7 +528,7 @@ def rotor_macro_step() -> Iterator[Curve]:
 
 def _rotor_matrix(ratio: float, mass_ratio: float) -> Array:
     """Return A of d/dt (x, y, vx, vy) = A (x, y, vx, vy) about an equilibrium [1/s]; lengths / clearance."""
-    model = journal(MapFilm())
+    model = journal(journals.MapFilm())
     rotor = resting_rotor(model, ratio, speed=SPEED, mass_ratio=mass_ratio)
     found = coefficients(model, rotor.position, SPEED)
     blocks = [[np.zeros((2, 2)), np.eye(2)], [-found.stiffness / rotor.mass, -found.damping / rotor.mass]]
@@ -712,7 +694,7 @@ def contact_step() -> Iterator[Curve]:
 # Limits of the polymer bush that melts, under a load that grows by half.
 #
 # References: the mixed problem of the shaft for the closed form of its heat; for the contact angle the two
-# moments of the wear, `bush_tiers.two_moments`, which are exact whatever the shape of the pressure.
+# moments of the wear, `bush_wear.two_moments`, which are exact whatever the shape of the pressure.
 
 
 STEPS = (20, 200, 2000)
@@ -724,18 +706,18 @@ EXTENT = 1.5
 @panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
 def bush_flux() -> Iterator[Curve]:
     """Yield what the closed form errs by."""
-    for stubbiness in STUBBINESSES:
-        *_, errors = shaft_flux_errors(stubbinesses=(stubbiness,)).values()
-        yield f"shaft radius / half length {stubbiness:g}", COOLINGS, np.abs(errors)
+    for stubbiness in bush_wear.STUBBINESSES:
+        *_, errors = bush_wear.shaft_flux_errors(stubbinesses=(stubbiness,)).values()
+        yield f"shaft radius / half length {stubbiness:g}", bush_wear.COOLINGS, np.abs(errors)
 
 
 @panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
 def bush_published() -> Iterator[Curve]:
     """Yield what the published stage errs by under a growing load."""
     times, exact = _exact()
-    grown = 1.0 + (BUSH_LOADS[1] / BUSH_LOADS[0] - 1.0) * times / DURATION
+    grown = 1.0 + (bush_wear.LOADS[1] / bush_wear.LOADS[0] - 1.0) * times / bush_wear.DURATION
     for steps in STEPS:
-        error = np.abs(published_run(f4k20_bush(), times, steps) / exact - 1.0)
+        error = np.abs(bush_wear.published_run(f4k20_bush(), times, steps) / exact - 1.0)
         yield f"{steps} steps", grown[1:], error[1:]
 
 
@@ -751,16 +733,16 @@ def bush_nodes() -> Iterator[Curve]:
     times, exact = _exact()
     errors = []
     for nodes in NODES:
-        worn = BushReaction(bush=f4k20_bush(), melting_heat=HEAT, extent=EXTENT, nodes=nodes)
-        errors.append(np.abs(worn_run(times, worn) / exact - 1.0))
+        worn = BushReaction(bush=f4k20_bush(), melting_heat=bush_wear.HEAT, extent=EXTENT, nodes=nodes)
+        errors.append(np.abs(bush_wear.worn_run(times, worn) / exact - 1.0))
     between = np.degrees(EXTENT) / (np.array(NODES) - 1.0)
     yield "largest", between, [error.max() for error in errors]
     yield "at the end", between, [error[-1] for error in errors]
 
 
 def _exact() -> tuple[Array, Array]:
-    times = np.linspace(0.0, DURATION, SAMPLES)
-    return times, two_moments(f4k20_bush(), times, **TIGHT)
+    times = np.linspace(0.0, bush_wear.DURATION, bush_wear.SAMPLES)
+    return times, bush_wear.two_moments(f4k20_bush(), times, **bush_wear.TIGHT)
 
 
 PANELS: tuple[Panel, ...] = (

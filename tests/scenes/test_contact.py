@@ -7,7 +7,7 @@ import pytest
 from rotorfilm import ContactGrid, PointContact, SceneError, ValidityWarning, reduce_contact
 from rotorfilm.bearings import StepLoad, ball_transient
 from rotorfilm.scenes import parse_scene, solve_contact
-from rotorfilm.scenes.solve_contact import ContactCase, respond
+from rotorfilm.scenes.contact import ContactCase, respond
 
 TEXT = """
 schema = 1

@@ -1,22 +1,283 @@
-"""`[excitation]`: what shakes the scene besides its steady load, and what drives it."""
+"""Tables that scenes of all families share: speed and load, oil, rotor, excitation, co-simulation."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Protocol, Self, runtime_checkable
 
-from ..core.errors import InputError, require_count, require_non_negative, require_number, require_positive
-from ..core.limits import SEEDS
+from ..bearings.oil import Cooling, Oil
+from ..bearings.oil.oil import BULK_MODULUS, grade_number
+from ..core.errors import (
+    InputError,
+    SceneError,
+    brief,
+    require_count,
+    require_finite,
+    require_non_negative,
+    require_number,
+    require_positive,
+)
+from ..core.limits import SEEDS, STEPS
 from ..core.progress import Report
 from ..core.readable import Readable
+from ..core.units import CELSIUS
 from ..rotors.profile import SpeedProfile
-from .lubricant_table import Lubricant, LubricantTable
-from .reading import Count, Record, made_from, read_load, record_of
+from ..rotors.rigid import RigidRotor
+from . import reading
 
 if TYPE_CHECKING:
     from ..rotors import BaseMotion, LinearMotor
+
+
+SCHEMA = 1
+"""The version that a scene file states as `schema = 1`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OperationTable:
+    """`[operation]`: the working point.
+
+    Parameters
+    ----------
+    speed : float [rad/s]
+        Angular speed about +z.
+    load : (float, float) or None [N]
+        Whole static force on the journal, weight included; in a file one magnitude, along -y, or
+        `[x, y]`. None: the weight of the rotor.
+    duration : float or None [s]
+        Length of a run. None: `cosimulation.revolutions` turns of the shaft.
+    """
+
+    speed: float
+    load: Annotated[tuple[float, float] | None, reading.read_static_load] = None
+    duration: float | None = None
+
+    def __post_init__(self) -> None:
+        require_finite("speed", self.speed)
+        if self.duration is not None:
+            require_positive("duration", self.duration)
+        if self.load is not None:
+            require_finite("load", self.load)
+
+
+@dataclass(frozen=True, kw_only=True)
+@reading.fields_of(RigidRotor, without=("speed", "gravity", "static_force", "position", "velocity"))
+class RigidRotorTable(reading.Taking):
+    """`[rigid_rotor]`: a rigid rotor in translation, as much of it as one bearing carries."""
+
+    def __post_init__(self) -> None:
+        self.build(speed=0.0, load=(0.0, 0.0))
+
+    def build(self, speed: float, load: tuple[float, float]) -> RigidRotor:
+        """Return the rotor under the whole static load [N], at a constant speed [rad/s]."""
+        return reading.made_from(RigidRotor, self, speed=speed, gravity=(0.0, 0.0), static_force=load)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosimulationTable:
+    """`[cosimulation]`: how the rotor and the film are coupled as separate simulators.
+
+    Parameters
+    ----------
+    macro_angle : float [rad]
+        Shaft rotation between two exchanges of signals.
+    revolutions : float [1]
+        Length of a run in turns of the shaft.
+    """
+
+    macro_angle: float = math.radians(1.0)
+    revolutions: float = 10.0
+
+    def __post_init__(self) -> None:
+        require_positive("macro_angle", self.macro_angle)
+        require_positive("revolutions", self.revolutions)
+        require_steps("revolutions / macro_angle", 2.0 * math.pi * self.revolutions, self)
+
+
+def require_steps(name: str, angle: float, of: CosimulationTable) -> None:
+    """Raise InputError where a run over an angle [rad] of the shaft has more exchanges than can be kept."""
+    steps = angle / of.macro_angle
+    if steps > STEPS:
+        raise InputError(f"{name} must make at most {STEPS} steps of {of.macro_angle:g} rad, got {steps:.3g}")
+
+
+# `[lubricant]`: the oil of a scene, what cools it, and properties for the checks of what films leave out.
+
+
+WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
+"""Temperatures of `viscosity_40` and `viscosity_100` [K]."""
+
+
+@reading.takes(reading.Count(9999), reading.text)
+def read_grade(where: str, value: Any) -> int:
+    """Read an ISO viscosity grade, as "ISO VG 46" or 46."""
+    number = grade_number(value)
+    if number is None or isinstance(value, float):
+        raise SceneError(f"{where} must be an ISO viscosity grade such as 'ISO VG 46', got {brief(value)}")
+    return number
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lubricant:
+    """Properties of an oil at one temperature.
+
+    Parameters
+    ----------
+    density : float [kg/m3]
+    heat_capacity : float [J/(kg K)]
+        Per mass.
+    conductivity : float [W/(m K)]
+    thinning : float [1/K]
+        -d ln(viscosity)/d temperature.
+    bulk_modulus : float [Pa]
+        Pressure per relative change of volume.
+    """
+
+    density: float = 900.0
+    heat_capacity: float = 2000.0
+    conductivity: float = 0.15
+    thinning: float = 0.04
+    bulk_modulus: float = BULK_MODULUS
+
+
+@dataclass(frozen=True, kw_only=True)
+@reading.fields_of(Cooling, without=("full_gap",))
+class LubricantTable(reading.Taking):
+    """`[lubricant]`: an oil by its viscosity over temperature, what cools it, and further properties.
+
+    Where it gives a viscosity and a bearing gives none, that bearing runs on this oil, in the balance of its
+    heat. Otherwise the properties serve the checks of what the films leave out; what is not given is assumed,
+    of the order of a mineral oil (`Lubricant`), and warnings that rest on it are no better.
+
+    Parameters
+    ----------
+    grade : int or None
+        ISO viscosity grade, as "ISO VG 46": the kinematic viscosity at 40 degC. That at 100 degC is assumed
+        unless it is given.
+    viscosity_40, viscosity_100 : float or None [m2/s]
+        Kinematic viscosity at 40 and 100 degC.
+    supply_temperature : float or None [K]
+        Of the fresh oil; required with a viscosity.
+    density : float or None [kg/m3]
+        At 15 degC, of an oil with a viscosity here.
+    heat_capacity : float or None [J/(kg K)]
+        Per mass.
+    conductivity : float or None [W/(m K)]
+    thinning : float or None [1/K]
+        -d ln(viscosity)/d temperature; with `viscosity_40` alone the same at all temperatures.
+    bulk_modulus : float [Pa]
+        Pressure per relative change of volume.
+    """
+
+    grade: Annotated[int | None, read_grade] = None
+    viscosity_40: float | None = None
+    viscosity_100: float | None = None
+    supply_temperature: float | None = None
+    density: float | None = None
+    heat_capacity: float | None = None
+    conductivity: float | None = None
+    thinning: float | None = None
+    bulk_modulus: float = Lubricant.bulk_modulus
+
+    def __post_init__(self) -> None:
+        for name in ("density", "heat_capacity", "conductivity", "thinning", "bulk_modulus"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
+        require_non_negative("housing_conductance", self.housing_conductance)
+        if not self.has_viscosity:
+            return
+        if self.grade is not None and self.viscosity_40 is not None:
+            raise InputError(
+                f"grade must not be given beside viscosity_40, which it is, got VG {self.grade} and "
+                f"{self.viscosity_40!r}"
+            )
+        _ = self.oil, self.cooling
+
+    @property
+    def has_viscosity(self) -> bool:
+        """Whether the table says how viscous the oil is."""
+        return self.grade is not None or self.viscosity_40 is not None or self.viscosity_100 is not None
+
+    @property
+    def oil(self) -> Oil:
+        """The oil; InputError where its viscosity over temperature is not given."""
+        given: dict[str, Any] = {
+            "reference_density": self.density,
+            "fixed_heat_capacity": self.heat_capacity,
+            "conductivity": self.conductivity,
+        }
+        further = {name: value for name, value in given.items() if value is not None}
+        warm = self.viscosity_40 if self.grade is None else 1e-6 * self.grade
+        if warm is not None and self.viscosity_100 is not None:
+            return Oil.two_points((WARM, warm), (HOT, self.viscosity_100), **further)
+        if self.grade is not None:
+            return Oil.iso_vg(self.grade, **further)
+        if warm is None or self.thinning is None:
+            raise InputError(
+                "viscosity_40 and viscosity_100 must be given, or viscosity_40 and thinning, or a grade, "
+                f"got {self.viscosity_40!r}, {self.viscosity_100!r} and {self.thinning!r}"
+            )
+        density = float(Oil.constant(1.0, **further).density(WARM))
+        return Oil.thinning_at(warm * density, WARM, self.thinning, **further)
+
+    @property
+    def cooling(self) -> Cooling:
+        """What cools the oil; InputError where the supply temperature is not given."""
+        if self.supply_temperature is None:
+            raise InputError("supply_temperature must be given where the oil has a viscosity, got None")
+        return reading.made_from(Cooling, self)
+
+    @property
+    def properties(self) -> Lubricant:
+        """What the checks of left-out physics need: as given, of the fresh oil, or assumed."""
+        known: dict[str, float] = {"bulk_modulus": self.bulk_modulus}
+        if self.has_viscosity:
+            oil, fresh = self.oil, self.cooling.supply_temperature
+            known |= {
+                "density": float(oil.density(fresh)),
+                "heat_capacity": float(oil.heat_capacity(fresh)),
+                "conductivity": oil.conductivity,
+                "thinning": float(oil.thinning(fresh)),
+            }
+        names = ("density", "heat_capacity", "conductivity", "thinning")
+        given = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        return Lubricant(**{**known, **given})
+
+
+class OiledTable(reading.Taking):
+    """The table of a bearing, a dataclass with `viscosity`, `oil` and `cooling`, on the oil of a scene."""
+
+    not_keys = ("oil", "cooling", "temperature")
+
+    @property
+    def has_lubricant(self) -> bool:
+        """Whether there is a viscosity, or the oil of the scene."""
+        return self.viscosity is not None or self.oil is not None
+
+    def on(self, where: str, lubricant: LubricantTable) -> Self:
+        """Return this table with the oil of the scene, unless it has a viscosity or an oil.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+
+        Raises
+        ------
+        InputError
+            If neither gives a viscosity.
+        """
+        if self.has_lubricant:
+            return self
+        if not lubricant.has_viscosity:
+            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
+        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)  # type: ignore[type-var]
+
+
+# `[excitation]`: what shakes the scene besides its steady load, and what drives it.
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +367,7 @@ class StepLoadTable:
         When it jumps up and down; the end is never where a file gives none.
     """
 
-    load: Annotated[tuple[float, float], read_load]
+    load: Annotated[tuple[float, float], reading.read_load]
     start: float = 0.0
     end: float = math.inf
 
@@ -128,7 +389,7 @@ class SineLoadTable:
         Angular; a file may say Hz.
     """
 
-    load: Annotated[tuple[float, float], read_load]
+    load: Annotated[tuple[float, float], reading.read_load]
     frequency: float
 
     def __post_init__(self) -> None:
@@ -166,7 +427,7 @@ class MotorTable(UnbalanceTable):
         """Return the motor."""
         from ..rotors import LinearMotor
 
-        return made_from(LinearMotor, self)
+        return reading.made_from(LinearMotor, self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,11 +449,15 @@ class GroundTable:
         Of the random phases of a spectrum.
     """
 
-    acceleration: Annotated[Record | None, record_of("time [s]", "x [m/s2]", "y [m/s2]")] = None
-    displacement: Annotated[Record | None, record_of("time [s]", "x [m]", "y [m]")] = None
-    spectrum: Annotated[Record | None, record_of("frequency [rad/s]", "density [m2/s3]")] = None
+    acceleration: Annotated[reading.Record | None, reading.record_of("time [s]", "x [m/s2]", "y [m/s2]")] = (
+        None
+    )
+    displacement: Annotated[reading.Record | None, reading.record_of("time [s]", "x [m]", "y [m]")] = None
+    spectrum: Annotated[reading.Record | None, reading.record_of("frequency [rad/s]", "density [m2/s3]")] = (
+        None
+    )
     scale: float = 1.0
-    seed: Annotated[int, Count(SEEDS, 0)] = 0
+    seed: Annotated[int, reading.Count(SEEDS, 0)] = 0
 
     def __post_init__(self) -> None:
         require_number("scale", self.scale)
