@@ -29,7 +29,7 @@ from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.units import CELSIUS
 from ..cosim import critical_macro_step
-from . import bush_wear
+from . import bush_accuracy
 from .contact_precision import natural_motions, published_contact
 from .coupling_cost import resting_rotor
 from .damper_accuracy import compared_damper
@@ -694,7 +694,7 @@ def contact_step() -> Iterator[Curve]:
 # Limits of the polymer bush that melts, under a load that grows by half.
 #
 # References: the mixed problem of the shaft for the closed form of its heat; for the contact angle the two
-# moments of the wear, `bush_wear.two_moments`, which are exact whatever the shape of the pressure.
+# moments of the wear, `bush_accuracy.two_moments`, which are exact whatever the shape of the pressure.
 
 
 STEPS = (20, 200, 2000)
@@ -706,18 +706,18 @@ EXTENT = 1.5
 @panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
 def bush_flux() -> Iterator[Curve]:
     """Yield what the closed form errs by."""
-    for stubbiness in bush_wear.STUBBINESSES:
-        *_, errors = bush_wear.shaft_flux_errors(stubbinesses=(stubbiness,)).values()
-        yield f"shaft radius / half length {stubbiness:g}", bush_wear.COOLINGS, np.abs(errors)
+    for stubbiness in bush_accuracy.STUBBINESSES:
+        *_, errors = bush_accuracy.shaft_flux_errors(stubbinesses=(stubbiness,)).values()
+        yield f"shaft radius / half length {stubbiness:g}", bush_accuracy.COOLINGS, np.abs(errors)
 
 
 @panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
 def bush_published() -> Iterator[Curve]:
     """Yield what the published stage errs by under a growing load."""
     times, exact = _exact()
-    grown = 1.0 + (bush_wear.LOADS[1] / bush_wear.LOADS[0] - 1.0) * times / bush_wear.DURATION
+    grown = 1.0 + (bush_accuracy.LOADS[1] / bush_accuracy.LOADS[0] - 1.0) * times / bush_accuracy.DURATION
     for steps in STEPS:
-        error = np.abs(bush_wear.published_run(f4k20_bush(), times, steps) / exact - 1.0)
+        error = np.abs(bush_accuracy.published_run(f4k20_bush(), times, steps) / exact - 1.0)
         yield f"{steps} steps", grown[1:], error[1:]
 
 
@@ -733,16 +733,16 @@ def bush_nodes() -> Iterator[Curve]:
     times, exact = _exact()
     errors = []
     for nodes in NODES:
-        worn = BushReaction(bush=f4k20_bush(), melting_heat=bush_wear.HEAT, extent=EXTENT, nodes=nodes)
-        errors.append(np.abs(bush_wear.worn_run(times, worn) / exact - 1.0))
+        worn = BushReaction(bush=f4k20_bush(), melting_heat=bush_accuracy.HEAT, extent=EXTENT, nodes=nodes)
+        errors.append(np.abs(bush_accuracy.worn_run(times, worn) / exact - 1.0))
     between = np.degrees(EXTENT) / (np.array(NODES) - 1.0)
     yield "largest", between, [error.max() for error in errors]
     yield "at the end", between, [error[-1] for error in errors]
 
 
 def _exact() -> tuple[Array, Array]:
-    times = np.linspace(0.0, bush_wear.DURATION, bush_wear.SAMPLES)
-    return times, bush_wear.two_moments(f4k20_bush(), times, **bush_wear.TIGHT)
+    times = np.linspace(0.0, bush_accuracy.DURATION, bush_accuracy.SAMPLES)
+    return times, bush_accuracy.two_moments(f4k20_bush(), times, **bush_accuracy.TIGHT)
 
 
 PANELS: tuple[Panel, ...] = (
