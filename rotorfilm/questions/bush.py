@@ -15,7 +15,7 @@ from ..bearings import bush as bushes
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.families import Remark, messages
+from ..scenes.families import messages, remarks_of
 from ..scenes.shared_tables import StepLoadTable
 from .variants import FunctionRung
 
@@ -491,61 +491,6 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
 # What every model of a polymer bush leaves out, judged by dimensionless numbers.
 
 
-SPREAD_SPEED = 5.0
-"""Speed [rad/s] from which the heat into the shaft is spread evenly around it: docs/bush.md."""
-
-STRAIN = 0.1
-"""Compression of the liner, and share of it that melts, up to which it is thin and linear."""
-
-LEAN = 0.02
-"""Share of the load that friction may carry without a word."""
-
-NEAR = 0.05
-"""Speed over the critical one, less one, within which small causes decide whether a bush melts."""
-
-
-COLD = 5.0
-"""Kelvin by which a worn contact may be off the melting point without a word."""
-
-
-REMARKS = (
-    Remark(
-        "off",
-        NEAR,
-        "brink: the speed is {margin:+.1%} off that at which the liner melts, which is not known so well; "
-        "friction carries {lean:.1%} of the load, which no model counts",
-        below=True,
-    ),
-    Remark("lean", LEAN, "friction: it carries {lean:.1%} of the load, so that the pressure is less"),
-    Remark("slenderness", 1.0, "thick liner: {slenderness:.2g} of half the width of the contact"),
-    Remark("strain", STRAIN, "strain: the liner is compressed by {strain:.1%} of its thickness"),
-    Remark(
-        "melted",
-        STRAIN,
-        "thickness: up to {melted:.0%} of the liner melts, but it is taken to conduct and to yield as before",
-    ),
-    Remark(
-        "speed",
-        SPREAD_SPEED,
-        f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
-        "{speed:.3g} rad/s",
-        below=True,
-    ),
-    Remark(
-        "cooled",
-        COLD,
-        "cold: in the end the worn contact cools by some {cooled:.0f} K, which widens its clearance by "
-        "{widened:.2g} m; wear is told at the melting point",
-    ),
-    Remark(
-        "states",
-        1.0,
-        "two states: friction rises so steeply with temperature that a contact may also stay cold",
-    ),
-)
-"""What every model of a polymer bush leaves out, by the numbers of `bush_numbers`."""
-
-
 def bush_numbers(run: BushRun) -> dict[str, float]:
     """Return the dimensionless numbers of a run, unworn; where its load changes those of the largest one.
 
@@ -603,7 +548,7 @@ def _cooled(run: BushRun) -> float:
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for the run of a bush."""
-    return messages(REMARKS, bush_numbers(run))
+    return messages(remarks_of("bush"), bush_numbers(run))
 
 
 LADDERS = {

@@ -19,8 +19,7 @@ from ..core.model import Array, breakpoints
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from .families import Remark, messages
-from .journal_tables import NOTABLE
+from .families import messages, remarks_of
 from .reading import Count, Taking, fields_of, made_from
 from .shared_tables import Lubricant, SineLoadTable, StepLoadTable
 
@@ -327,42 +326,6 @@ def unknowns(cells: int) -> WorkUnit:
 FORMED = 2.0
 """Pressure times pressure coefficient at which a film is formed: flow by pressure is down to exp(-2)."""
 
-DENSER = 0.1
-"""Growth of the density under the contact that is worth a word."""
-
-FLAT = 0.1
-"""Contact radius / ball radius from which the ball is no paraboloid; the gap errs by its square / 4."""
-
-
-REMARKS = (
-    Remark(
-        "inlet_thinning",
-        NOTABLE,
-        "heat: the oil that flows back before the contact warms by about {inlet_warming:.2g} K, which takes "
-        "{inlet_thinning:.0%} of its viscosity",
-        moves="heat",
-    ),
-    Remark(
-        "piezoviscosity",
-        NOTABLE,
-        "viscosity: where the film is formed the exponential law gives {exaggeration:.2g} times that of "
-        "Roelands; `roelands = true` takes that",
-    ),
-    Remark(
-        "densification",
-        DENSER,
-        "compressibility: {densification:.0%} under the contact, which thins its film about as much; "
-        "`compressible = true` takes it into account",
-        moves="compressibility",
-    ),
-    Remark(
-        "flatness",
-        FLAT,
-        "shape: the contact is {flatness:.2g} of the ball's radius, too wide for a paraboloid",
-    ),
-)
-"""What the physics of a rolling contact leaves out, by the numbers of `contact_numbers`."""
-
 
 def contact_numbers(
     ball: contacts.RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
@@ -422,7 +385,9 @@ def contact_remarks(
     ball: contacts.RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
-    return messages(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))
+    return messages(
+        remarks_of("contact"), contact_numbers(ball, oil, roelands=roelands, compressible=compressible)
+    )
 
 
 # The answer to one lubricated contact: film, approach, stiffness, and its response to a load over time.

@@ -22,9 +22,9 @@ from ..core.port import PlanarReaction
 from ..core.results import CircularOrbit
 from ..rotors import RigidRotor
 from .damper_table import DamperTable
-from .families import Remark, SceneModels, messages
+from .families import SceneModels, messages, remarks_of
 from .film_rungs import MAP_MADE
-from .journal_tables import ATMOSPHERE, NOTABLE
+from .journal_tables import ATMOSPHERE
 from .shared_tables import BladeLossTable, Lubricant, RunUpTable, UnbalanceTable, require_kind, require_steps
 
 if TYPE_CHECKING:
@@ -362,76 +362,6 @@ def _richest(table: DamperTable, own: dampers.SqueezeLaw) -> dampers.SqueezeLaw:
 # What every squeeze film of a damper leaves out, judged by dimensionless numbers.
 
 
-NOTABLE_MASS = 0.05
-"""Mass of the moving film / mass of the rotor that is worth a word."""
-
-
-NOTABLE_INERTIA = 0.1
-"""Pressure of the inertia / viscous pressure that is worth a word."""
-
-ON_ORBIT = "cavitation: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the "
-
-INERTIA = (
-    Remark(
-        "inertia",
-        NOTABLE_INERTIA,
-        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g});"
-        " [damper] density takes it in",
-    ),
-    Remark(
-        "added_mass",
-        NOTABLE_MASS,
-        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass; [damper] density takes "
-        "it in",
-    ),
-)
-"""What a film without inertia leaves out, by the numbers of `damper_numbers`."""
-
-REMARKS = (
-    Remark(
-        "thinning",
-        NOTABLE,
-        "heat: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the oil warms by about "
-        "{warming:.2g} K (Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
-        moves="heat",
-    ),
-    Remark(
-        "compression",
-        0.01,
-        "compressibility: {compression:.2%} by the largest pressure",
-        moves="compressibility",
-    ),
-)
-"""What the physics of a squeeze film leaves out, by the numbers of `damper_numbers`."""
-
-FULL = (
-    Remark(
-        "pressure",
-        1.0,
-        ON_ORBIT
-        + "full film carries a tension of {pressure:.2g} times the ambient pressure, where oil ruptures",
-    ),
-)
-"""The same of one that never ruptures."""
-
-RUPTURED = (
-    Remark(
-        "pressure",
-        NOTABLE,
-        ON_ORBIT + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture "
-        "where this film does",
-        below=True,
-    ),
-    Remark(
-        "pressure",
-        1.0 / NOTABLE,
-        ON_ORBIT + "pressure is {pressure:.2g} times the ambient one, which does not fill the cavity again "
-        "within a turn: [damper] supply takes a film that conserves its oil",
-    ),
-)
-"""The same of one that does."""
-
-
 def damper_numbers(
     damper: dampers.PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> dict[str, float]:
@@ -508,8 +438,9 @@ def damper_remarks(
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
-    ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
-    return messages((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)
+    subjects = ("damper", "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured")
+    subjects = subjects if damper.has_inertia else ("damper_inertia", *subjects)
+    return messages(remarks_of(*subjects), numbers)
 
 
 # What a question about a damper leaves open: which of several orbits, and what the films leave out.
@@ -519,37 +450,6 @@ MIDDLING = 0.5
 """Eccentricity ratio of an orbit for the checks of a question that names no unbalance."""
 
 
-AIR = (
-    Remark(
-        "feed_squeeze",
-        1.0,
-        "air: {feed_squeeze:.2g} of what the ends suck is fed (feed-squeeze number), so that air is drawn in "
-        "and the damping falls, by how much only a measured [damper] air_fraction says",
-        below=True,
-    ),
-    Remark(
-        "air_fraction",
-        0.0,
-        "air: the oil of the answer has {air_fraction:.0%} less viscosity and density, the most that so much "
-        "air takes; the truth lies between it and that without air_fraction",
-    ),
-)
-"""Air in the oil, by the numbers of `built_remarks`."""
-
-SEALED = Remark(
-    "sealing",
-    0.0,
-    "seals: damping and added mass in small motion are {sealing:.3g} times those of open ends, so that the "
-    "leakage of the seals sets them",
-)
-FAST = Remark(
-    "beyond",
-    1.0,
-    "inertia of the film: squeeze Reynolds number {reynolds:.3g}, above {limit:g}, to which its model is "
-    "good",
-)
-
-
 def built_remarks(
     table: DamperTable, damper: dampers.PorousDamper, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
@@ -557,18 +457,18 @@ def built_remarks(
     limit = (dampers.FULL_LIMITS if isinstance(damper.extent, FullFilm) else dampers.RUPTURED_LIMITS)[0]
     reynolds = damper.reynolds_number(speed)
     numbers = {"reynolds": reynolds, "limit": limit, "beyond": reynolds / limit}
-    told = [FAST] if damper.has_inertia else []
+    told = ["damper_fast"] if damper.has_inertia else []
     if table.seals is not None:
         share = dampers.land_share(damper.slenderness, damper.squeeze_case.end_leak).real
         numbers["sealing"] = share / dampers.land_share(damper.slenderness, math.inf).real
-        told.append(SEALED)
+        told.append("damper_seals")
     numbers["air_fraction"], numbers["feed_squeeze"] = table.air_fraction, math.inf
     if table.feed_flow is not None and speed and eccentricity_ratio:
         amplitude = eccentricity_ratio * table.clearance
         numbers["feed_squeeze"] = dampers.feed_squeeze_number(
             damper, flow=table.feed_flow, amplitude=amplitude, frequency=abs(speed)
         )
-    return messages((*told, *AIR), numbers)
+    return messages(remarks_of(*told, "damper_air"), numbers)
 
 
 def rotor_remarks(

@@ -45,7 +45,7 @@ def new_scene(name: str) -> str:
         "# Keys behind a # may be left out. Their defaults stand there, or dots where there is none.",
         f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n',
     ]
-    document = resources.files(__package__).joinpath("data", "new_scenes.toml").read_text(encoding="utf-8")
+    document = resources.files(__package__).joinpath("new_scenes.toml").read_text(encoding="utf-8")
     for key, values in tomllib.loads(document).get(name, {name: {}}).items():
         table = SHARED.get(key) or table_of(name)
         parts.append("\n".join(table_lines(key, table, values)) + "\n")

@@ -12,9 +12,9 @@ from ..bearings import pads as pad_bearings
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, messages
+from .families import isothermal, messages, remarks_of
 from .film_rungs import minimum_radial_clearance
-from .journal_tables import NOTABLE, REMARKS, film_numbers, warmed
+from .journal_tables import film_numbers, warmed
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
 from .shared_tables import Lubricant, OiledTable
 
@@ -210,18 +210,6 @@ def echo_of_pads(kind: type[PadData], bearing: AnyPads) -> PadData:
 # What the physics of films on pads leaves out, judged by dimensionless numbers.
 
 
-PAD_REMARKS = (
-    Remark(
-        "thinning",
-        NOTABLE,
-        "heat: along one pad the oil warms by about {warming:.2g} K if it keeps its heat, which takes "
-        "{thinning:.0%} of its viscosity; nor does hot oil go on from pad to pad",
-        moves="heat",
-    ),
-    *(remark for remark in REMARKS if remark.number not in ("thinning", "unknown")),
-)
-"""What the physics of films on pads leaves out, by the numbers of `pad_numbers`."""
-
 REMARK_CELLS, DAM_CELLS = (48, 4), (32, 8)
 """Of films whose temperature is wanted in no time."""
 
@@ -258,11 +246,11 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
 
     Of films on an oil it is said at their temperature, and that they warm is not left out.
     """
-    remarks: tuple[Remark, ...] = PAD_REMARKS
+    common, own = isothermal(remarks_of("journal")), remarks_of("pads")
     if bearing.oil is not None:
-        remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
+        own = isothermal(own)
         bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
-    return messages(remarks, pad_numbers(bearing, oil, speed, load))
+    return messages((*own, *common), pad_numbers(bearing, oil, speed, load))
 
 
 def quick_pads(bearing: AnyPads) -> AnyPads:

@@ -16,7 +16,7 @@ from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarnin
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, messages
+from .families import messages, remarks_of
 from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
 from .shared_tables import Lubricant, LubricantTable
 
@@ -479,38 +479,6 @@ def on_films(near: BallEquilibriumCase, oil: RaceOil) -> Balls:
 APART, TOUCHING = 3.0, 1.0
 """Film parameters above which the surfaces are apart, and below which they touch."""
 
-HEAVY = 0.06
-"""Centrifugal force over the contact load beyond which balls are not to be taken as static."""
-
-REMARKS = (
-    Remark(
-        "sliding",
-        1.0,
-        "sliding: the gyroscopic moment asks for a traction coefficient of {traction:.3g}, and balls slide "
-        "beyond about {most_traction:.3g}",
-    ),
-    Remark(
-        "lifted",
-        0.0,
-        "lift-off: {lifted:.0f} of {all:.0f} balls have left the inner race, or inertia only holds them, in "
-        "spite of thrust or preload",
-    ),
-    Remark("idle_rows", 0.0, "loss of contact: {idle_rows:.0f} of 2 rows carry nothing"),
-    Remark(
-        "neglected_inertia",
-        HEAVY,
-        "inertia: the centrifugal force of a ball would be {neglected_inertia:.2g} of the largest contact "
-        "load, and static balls have none",
-    ),
-    Remark(
-        "film_parameter",
-        TOUCHING,
-        "mixed lubrication: the film parameter is {film_parameter:.2g}, below 1 the surfaces touch",
-        below=True,
-    ),
-)
-"""What the physics of a ball bearing leaves out, by the numbers of `ball_numbers`."""
-
 
 def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: float | None) -> dict[str, float]:
     """Return the numbers of a rest that decide on remarks.
@@ -555,7 +523,7 @@ def ball_remarks(
             rest = rest_under(bearing, load, speed)
         except RotorfilmError as error:
             return (f"rest: none found, {error}",)
-        return messages(REMARKS, ball_numbers(rest, oil, roughness))
+        return messages(remarks_of("ball_bearing"), ball_numbers(rest, oil, roughness))
 
 
 def _idle(rest: BallEquilibriumCase) -> Array:

@@ -22,7 +22,7 @@ from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
-from .families import Remark, messages, prefixed
+from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
 from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
 
@@ -266,38 +266,6 @@ def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
 STIFF = 1e10
 """Stiffness of bearings [N/m] by which the weight is shared out."""
 
-SLENDER = 4.0
-"""Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
-
-GROWTH = 1e-6
-"""Growth rate / frequency from which a whirl counts as unstable."""
-
-STEPPED = 2.0
-"""Ratio of neighboring diameters from which the material in the corner of a step does not carry."""
-
-
-BEAM = (
-    Remark(
-        "slenderness",
-        SLENDER,
-        "beam theory: {slenderness:.2g} diameters long, cross sections may not stay plane",
-        below=True,
-    ),
-    Remark(
-        "step",
-        STEPPED,
-        "beam theory: diameters change by {step:.2g} in a step, whose corner does not carry",
-    ),
-)
-"""Where a shaft is no beam."""
-
-UNSTABLE = Remark(
-    "growth",
-    GROWTH,
-    "stability: the rotor whirls by itself at {whirl:.2f} of the speed; orbits that repeat with each turn do "
-    "not last",
-)
-
 
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
@@ -327,7 +295,7 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         return ()
     length, diameters = sum(piece.length for piece in pieces), [piece.outer_diameter for piece in pieces]
     largest = max((max(a, b) / min(a, b) for a, b in pairwise(diameters)), default=1.0)
-    return messages(BEAM, {"slenderness": length / max(diameters), "step": largest})
+    return messages(remarks_of("beam"), {"slenderness": length / max(diameters), "step": largest})
 
 
 def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float) -> tuple[str, ...]:
@@ -340,4 +308,4 @@ def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed:
     if not growth.size:
         return ()
     k = int(np.argmax(growth))
-    return messages([UNSTABLE], {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})
+    return messages(remarks_of("whirl"), {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})

@@ -356,7 +356,7 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
     module = import_module("rotorfilm.studies.damper_accuracy")  # its package shows a function of this name
     monkeypatch.setattr(module, "SERIES", (1, 3))
-    monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
+    monkeypatch.setattr(module.damper, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
     monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
     options = ("--ld", "0.2", "--permeability", "0.01", "--states", "5", "--out", tmp_path)
     code, out, _ = run("chart", "damper", *options, "--json")
