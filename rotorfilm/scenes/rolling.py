@@ -5,21 +5,34 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 
 from ..analysis import equilibrium
 from ..bearings import rolling
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief, require_positive
+from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_positive
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import messages, remarks_of
-from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
+from .reading import (
+    Count,
+    Keyed,
+    Quantity,
+    Several,
+    Table,
+    Taking,
+    fields_of,
+    made_from,
+    named,
+    one_of,
+    takes,
+)
 from .shared_tables import Lubricant, LubricantTable
 
+ANGLES = "two angles, about x and about y"
 MOST_BALLS = 200
 """Balls of a row: thin slewing rings have about so many."""
 
@@ -61,30 +74,20 @@ def read_material(where: str, value: Any) -> rolling.RollingMaterial:
     return Table(OWN_MATERIAL)(where, value)
 
 
-@takes([Quantity("rad"), Quantity("rad")])
-def read_tilt(where: str, value: Any) -> tuple[float, float]:
-    """Read two angles."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise SceneError(f"{where} must be two angles, about x and about y, got {brief(value)}")
-    about_x, about_y = (Quantity("rad")(f"{where}[{k}]", one) for k, one in enumerate(value))
-    return about_x, about_y
-
-
 @dataclass(frozen=True, kw_only=True)
-class BallTable:
+@fields_of(rolling.RunningBalls, rolling.RaceControl, optional=True)
+@fields_of(rolling.BallBearing, without=("films", "law", "waviness"))
+class BallTable(Taking):
     """`[ball_bearing]`: a deep groove or angular contact ball bearing, or a pair of angular contact bearings.
 
     Parameters
     ----------
     balls : int
         Number of balls of a row.
-    ball_diameter, pitch_diameter : float [m]
     internal_clearance : float or None [m]
         Radial internal clearance of a deep groove bearing; give this or the contact angle.
     contact_angle : float or None [rad]
         Of the unloaded balls of an angular contact bearing.
-    inner_conformity, outer_conformity : float [1]
-        Groove radius over ball diameter.
     ball_material, ring_material : RollingMaterial
         "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density.
     growth : float [m]
@@ -121,36 +124,18 @@ class BallTable:
     """
 
     balls: Annotated[int, Count(MOST_BALLS, 3)]
-    ball_diameter: Annotated[float, Quantity("m")]
-    pitch_diameter: Annotated[float, Quantity("m")]
-    internal_clearance: Annotated[float | None, Quantity("m")] = None
-    contact_angle: Annotated[float | None, Quantity("rad")] = None
-    inner_conformity: Annotated[float, Quantity("1")] = rolling.BallBearing.inner_conformity
-    outer_conformity: Annotated[float, Quantity("1")] = rolling.BallBearing.outer_conformity
-    ball_material: Annotated[rolling.RollingMaterial, read_material] = field(
-        default_factory=rolling.RollingMaterial.steel
-    )
-    ring_material: Annotated[rolling.RollingMaterial, read_material] = field(
-        default_factory=rolling.RollingMaterial.steel
-    )
-    growth: Annotated[float, Quantity("m")] = 0.0
-    axial_displacement: Annotated[float, Quantity("m")] = 0.0
-    axial_load: Annotated[float | None, Quantity("N")] = None
-    tilt: Annotated[tuple[float, float], read_tilt] = (0.0, 0.0)
-    cage_angle: Annotated[float, Quantity("rad")] = 0.0
-    damping: Annotated[float, Quantity("N.s/m")] = 0.0
+    ball_material: Annotated[rolling.RollingMaterial, read_material]
+    ring_material: Annotated[rolling.RollingMaterial, read_material]
+    tilt: Annotated[tuple[float, float], Several(Quantity("rad"), 2, 2, ANGLES)]
     arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
-    distance: Annotated[float | None, Quantity("m")] = None
-    preload: Annotated[float | None, Quantity("N")] = None
+    distance: float | None = None
+    preload: float | None = None
     inertia: Annotated[
         rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl | None, named(INERTIAS)
     ] = None
-    traction_coefficient: Annotated[float | None, Quantity("1")] = None
-    slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
-    outer_control: Annotated[bool | None, flag] = None
-    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
-    pressure_coefficient: Annotated[float | None, Quantity("1/Pa")] = None
-    roughness: Annotated[float | None, Quantity("m")] = None
+    viscosity: float | None = None
+    pressure_coefficient: float | None = None
+    roughness: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("viscosity", "pressure_coefficient", "roughness"):
@@ -257,32 +242,13 @@ def law_name(bearing: Balls) -> str:
 # What answers repeat of ball bearings.
 
 
+NOT_REPEATED = ("ball_material", "ring_material", "axial_displacement", "tilt", "cage_angle", "damping")
+
+
 @dataclass(frozen=True, kw_only=True)
+@fields_of(rolling.BallBearing, without=("films", "law", "waviness", *NOT_REPEATED))
 class BallData(Readable):
-    """A ball bearing as it was understood.
-
-    Attributes
-    ----------
-    balls : int
-        Of a row.
-    ball_diameter, pitch_diameter : float [m]
-    internal_clearance : float or None [m]
-    contact_angle : float or None [rad]
-    inner_conformity, outer_conformity : float [1]
-    growth : float [m]
-        Of the inner ring.
-    axial_load : float or None [N]
-    """
-
-    balls: int
-    ball_diameter: float
-    pitch_diameter: float
-    internal_clearance: float | None
-    contact_angle: float | None
-    inner_conformity: float
-    outer_conformity: float
-    growth: float
-    axial_load: float | None
+    """A ball bearing as it was understood."""
 
 
 @dataclass(frozen=True, kw_only=True)
