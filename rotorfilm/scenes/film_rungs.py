@@ -105,7 +105,7 @@ def _with_coarser_check(film: FilmRung) -> FilmRung:
     """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
     if not film.bounded:
         return film
-    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
+    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name=grid_name(FINE))
 
 
 def extrapolated(bearing: journal.JournalBearing, cells: tuple[int, int]) -> journal.JournalBearing:
@@ -114,7 +114,7 @@ def extrapolated(bearing: journal.JournalBearing, cells: tuple[int, int]) -> jou
 
 
 def _map(bearing: journal.JournalBearing) -> FilmRung:
-    rung = _rung("map", bearing, journal.MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
+    rung = _rung("map", bearing, journal.MapFilm(), _rich(False, FINEST), (1e-6, 1e-4), bounded=True)
     return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)
 
 
@@ -123,20 +123,15 @@ def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:
     low, high = journal.GroovedMapFilm().slenderness_range
     if not (journal.is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
         return []
-    fine = _opened("map with grooves", bearing, journal.GroovedMapFilm(), 1e-5, 1e-3)
-    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, 3e-4, 5e-3)
+    fine = _opened("map with grooves", bearing, journal.GroovedMapFilm(), (1e-5, 1e-3))
+    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, (3e-4, 5e-3))
     return [coarse, fine] if fine.makes_map else [fine]
 
 
 def _opened(
-    name: str,
-    bearing: journal.JournalBearing,
-    film: journal.GroovedMapFilm,
-    position_prior: float,
-    slope_prior: float,
+    name: str, bearing: journal.JournalBearing, film: journal.GroovedMapFilm, priors: tuple[float, float]
 ) -> FilmRung:
-    rich = FINE, "2-D 384 x 16 extr."
-    rung = _rung(name, bearing, film, rich, position_prior, slope_prior)
+    rung = _rung(name, bearing, film, _rich(False, FINE), priors)
     return replace(rung, making=_making_time(rung.reaction))
 
 
@@ -149,70 +144,63 @@ def _making_time(bearing: journal.JournalBearing) -> float:
 def _plain_films(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     """Return films of closed form: they are for bearings without openings."""
     slim = min(bearing.slenderness**2, 1.0)
-    films: tuple[tuple[str, FilmLaw, float, float], ...] = (
-        ("short film", journal.ShortFilm(), 0.1 * slim, 0.1 * slim),
-        (
-            "splitting (2, all)",
-            journal.SplittingFilm(order=(2, None), rupture=journal.RotatingArc()),
-            2e-3,
-            5e-3,
+    arc, rich = journal.RotatingArc(), _rich(tabulated, FINE)
+    return [
+        _rung("short film", bearing, journal.ShortFilm(), rich, (0.1 * slim, 0.1 * slim)),
+        *(
+            _rung(
+                f"splitting ({n}, all)",
+                bearing,
+                journal.SplittingFilm(order=(n, None), rupture=arc),
+                rich,
+                priors,
+            )
+            for n, priors in ((2, (2e-3, 5e-3)), (6, (1e-3, 3e-3)))
         ),
-        (
-            "splitting (6, all)",
-            journal.SplittingFilm(order=(6, None), rupture=journal.RotatingArc()),
-            1e-3,
-            3e-3,
-        ),
-    )
-    rich = _rich(tabulated, FINE)
-    return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
+    ]
 
 
 def _grids(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     rich = _rich(tabulated, MEDIUM)
-    coarse = _rung("2-D 48 x 4", bearing, journal.ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
+    coarse = _rung("2-D 48 x 4", bearing, journal.ReynoldsFilm(cells=(48, 4)), rich, (1e-3, 1e-3))
     levels = (
-        ((48, 8), FINE, 3e-5, 1e-3),
-        ((96, 8), FINE, 5e-6, 3e-4),
-        ((192, 16), FINEST, 1e-6, 1e-4),
-        ((384, 16), FINEST, 5e-7, 5e-5),
+        ((48, 8), FINE, (3e-5, 1e-3)),
+        ((96, 8), FINE, (5e-6, 3e-4)),
+        ((192, 16), FINEST, (1e-6, 1e-4)),
+        ((384, 16), FINEST, (5e-7, 5e-5)),
     )
+    films = [journal.ExtrapolatedFilm(film=journal.ReynoldsFilm(cells=cells)) for cells, *_ in levels]
     finer = [
-        _rung(
-            f"2-D {cells[0]} x {cells[1]} extr.",
-            bearing,
-            journal.ExtrapolatedFilm(film=journal.ReynoldsFilm(cells=cells)),
-            _rich(tabulated, above),
-            *priors,
-        )
-        for cells, above, *priors in levels
+        _rung(grid_name(cells), bearing, film, _rich(tabulated, above), priors)
+        for film, (cells, above, priors) in zip(films, levels, strict=True)
     ]
     if not tabulated:  # the free arc is found for length / diameter .1 to 4
         return [coarse, *finer]
     free = journal.SplittingFilm(order=(6, None), constant=True, rupture=journal.ComplementarityArc())
-    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), 1e-5, 1e-4)
+    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), (1e-5, 1e-4))
     return [coarse, *finer[:2], arc, *finer[2:]]
 
 
 def _named(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     """Return the rung of a scene that names its film, after a coarser map of it where that is made sooner."""
-    film = bearing.fitted_film
-    fine = isinstance(film, journal.MapFilm) or (
-        isinstance(film, journal.ReynoldsFilm) and film.cells[0] > 96
-    )
-    rich = _rich(tabulated and not isinstance(film, journal.MapFilm), FINEST if fine else FINE)
-    rung = _rung(
-        journal.film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, journal.MapFilm)
-    )
+    film, mapped = bearing.fitted_film, isinstance(bearing.fitted_film, journal.MapFilm)
+    fine = mapped or (isinstance(film, journal.ReynoldsFilm) and film.cells[0] > 96)
+    rich = _rich(tabulated and not mapped, FINEST if fine else FINE)
+    rung = _rung(journal.film_name(film), bearing, film, rich, (0.0, 0.0), bounded=mapped)
     rung = replace(rung, making=_making_time(rung.reaction))
     if not (rung.makes_map and film == journal.GroovedMapFilm(geometry=bearing.geometry)):
         return [rung]
-    return [_opened(journal.film_name(COARSE_MAP), bearing, COARSE_MAP, 0.0, 0.0), rung]
+    return [_opened(journal.film_name(COARSE_MAP), bearing, COARSE_MAP, (0.0, 0.0)), rung]
 
 
 def _rich(tabulated: bool, cells: tuple[int, int]) -> tuple[tuple[int, int] | None, str]:
     """Return the cells of the richer film, None for the map where there is one, and its name."""
-    return (None, "map") if tabulated else (cells, f"2-D {cells[0]} x {cells[1]} extr.")
+    return (None, "map") if tabulated else (cells, grid_name(cells))
+
+
+def grid_name(cells: tuple[int, int]) -> str:
+    """Return the name of a film in two dimensions that is extrapolated from two grids."""
+    return f"2-D {cells[0]} x {cells[1]} extr."
 
 
 def _rung(
@@ -220,25 +208,15 @@ def _rung(
     bearing: journal.JournalBearing,
     film: FilmLaw,
     rich: tuple[tuple[int, int] | None, str],
-    position_prior: float,
-    slope_prior: float,
-    *,
+    priors: tuple[float, float],
     bounded: bool = False,
 ) -> FilmRung:
-    cells, rich_name = rich
-    grid = grid_of(film)
-    return FilmRung(
-        name=name,
-        reaction=journal.fitted_bearing(bearing, film),
-        rich=journal.fitted_bearing(bearing, journal.MapFilm())
-        if cells is None
-        else extrapolated(bearing, cells),
-        rich_name=rich_name,
-        position_prior=position_prior,
-        prior=slope_prior,
-        bounded=bounded,
-        call_time=CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells),
+    (cells, rich_name), grid, own = rich, grid_of(film), journal.fitted_bearing(bearing, film)
+    richer = (
+        journal.fitted_bearing(bearing, journal.MapFilm()) if cells is None else extrapolated(bearing, cells)
     )
+    time = CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells)
+    return FilmRung(name, own, richer, rich_name, *priors, bounded=bounded, call_time=time)
 
 
 def grid_of(film: FilmLaw) -> journal.ReynoldsFilm | None:
@@ -257,7 +235,7 @@ CELL_TIME, CALL_TIME = 4e-7, 1e-5
 """About what a force with derivatives takes for each cell of a grid, and in closed form or by a map [s]."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class FilmCandidate:
     """A film that may answer, and the richer one that its defect is sampled with.
 
@@ -442,7 +420,7 @@ class FilmCandidate:
 
 def any_candidate(film: Any) -> FilmCandidate:
     """Return a film as a candidate of which nothing is known beforehand."""
-    return FilmCandidate(name="", reaction=film, rich=film, rich_name="", position_prior=0.0, prior=0.0)
+    return FilmCandidate("", film, film, "", 0.0, 0.0)
 
 
 def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
@@ -630,7 +608,7 @@ LOSS_BOUNDS = ((0.95, 1e-3), (0.99, 3e-3))
 """Eccentricity ratio up to which, and largest error of power loss and side flow there: docs/accuracy.md."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class FilmRung(FilmCandidate):
     """A film that may answer for a journal bearing.
 
@@ -659,8 +637,7 @@ class FilmRung(FilmCandidate):
         grid = grid_of(self.reaction.film)
         fine = grid is not None and math.prod(grid.cells) >= math.prod(MEDIUM)
         cells = FINEST if fine else FINE
-        rich_name = f"2-D {cells[0]} x {cells[1]} extr."
-        return replace(self, rich=extrapolated(self.reaction, cells), rich_name=rich_name)
+        return replace(self, rich=extrapolated(self.reaction, cells), rich_name=grid_name(cells))
 
     def on_grid(self, bearing: journal.JournalBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
