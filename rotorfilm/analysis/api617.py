@@ -23,6 +23,7 @@ from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import dynamics, journal_rows, motion_near, second_order, whirl_near
 from .rotor_modes import RotorModes, log_decrement, motions_about, oscillates
 from .shaft_statics import chosen_stations, rigid_support_speed
+from .threads import one_blas_thread
 
 # Log decrement of the first forward whirl over applied cross-coupling, in one set of bearings.
 
@@ -174,6 +175,7 @@ class StabilityLevelOne(Drawable):
     curves: tuple[StabilityCurve, ...]
 
 
+@one_blas_thread
 @arguments
 def stability_level_one(
     rotor: ShaftRotor,
@@ -376,6 +378,7 @@ LEAST_FINAL = 0.1
 """Final log decrement above which API 617 accepts a rotor."""
 
 
+@one_blas_thread
 @arguments
 def stability_level_two(rotor: ShaftRotor, bearings: Bearings, speed: float) -> StabilityLevelTwo:
     """Return whether the final log decrement of the first forward whirl is what API 617 wants, above .1.

@@ -27,6 +27,7 @@ from ..rotors.rod_elements import Chain, axial_chain, torsional_chain
 from ..rotors.shaft_elements import ShaftPiece
 from ..rotors.structure import dense_matrix
 from .closed_loop import checked_speeds, frequency_response
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
@@ -103,6 +104,7 @@ class AxialTorsionalModes(Readable):
         return np.asarray(-self.eigenvalues.real / np.where(size > 0.0, size, 1.0))
 
 
+@one_blas_thread
 @arguments
 def axial_modes(
     rotor: ShaftRotor, bearings: Sequence[ThrustBearing] = (), count: int = 6
@@ -131,6 +133,7 @@ def axial_modes(
     return _modes(axial_chain(rotor.elements, rotor.disks), rotor, bearings, count)
 
 
+@one_blas_thread
 @arguments
 def torsional_modes(
     rotor: ShaftRotor, springs: Sequence[TorsionalSpring] = (), count: int = 6
@@ -154,6 +157,7 @@ def torsional_modes(
     return _modes(torsional_chain(rotor.elements, rotor.disks), rotor, springs, count)
 
 
+@one_blas_thread
 @arguments
 def axial_response(
     rotor: ShaftRotor, bearings: Sequence[ThrustBearing], frequencies: ArrayLike, node: int
@@ -246,6 +250,7 @@ class AxialStatics(Readable):
     thrust: Array
 
 
+@one_blas_thread
 @arguments
 def axial_statics(
     rotor: ShaftRotor, bearings: Sequence[ThrustBearing], forces: Mapping[int, float]
@@ -293,6 +298,7 @@ def axial_statics(
     return AxialStatics(displacement=moved[: len(outer)], tension=-np.cumsum(outer)[:-1], thrust=thrust)
 
 
+@one_blas_thread
 @arguments
 def stress_stiffened(rotor: ShaftRotor, at: AxialStatics) -> ShaftRotor:
     """Return a rotor whose elements have the tension of a static state, which stiffens their bending.

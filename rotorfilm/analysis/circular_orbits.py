@@ -33,6 +33,7 @@ from ..rotors import RigidRotor
 from ..rotors.structure import rotating_linearization
 from .coefficients import coefficients
 from .linearize import state_space
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
@@ -147,6 +148,7 @@ class SynchronousOrbits(Drawable):
         )
 
 
+@one_blas_thread
 @arguments
 def synchronous_orbits(
     rotor: RigidRotor, reaction: Reaction, unbalances: ArrayLike | None = None
@@ -197,6 +199,7 @@ def synchronous_orbits(
     )
 
 
+@one_blas_thread
 @arguments
 def orbits_over_speed(
     rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike
@@ -504,6 +507,7 @@ def polar_series(trajectory: Trajectory, rotor: RigidRotor, clearance: float) ->
     return np.hypot(x, y) / clearance, phase
 
 
+@one_blas_thread
 @arguments
 def transmitted_ratio(trajectory: Trajectory, rotor: RigidRotor) -> Array:
     """Return the force on the housing over time per centrifugal force of the unbalance, shape (n,) [1].
@@ -554,6 +558,7 @@ class BistableMap(Drawable):
     jump_down: Array
 
 
+@one_blas_thread
 @arguments
 def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
     """Return where the response to an unbalance folds.
@@ -586,6 +591,7 @@ def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: Ar
     )
 
 
+@one_blas_thread
 @arguments
 def bistability_limit(damper: Reaction, spring_ratio: float) -> float:
     """Return the squeeze number Bs/Omega above which the response to an unbalance has no fold."""
@@ -676,6 +682,7 @@ class OrbitCoefficients(Readable):
     speed: float
 
 
+@one_blas_thread
 @arguments
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
@@ -719,6 +726,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     )
 
 
+@one_blas_thread
 @arguments
 def small_motion_transmissibility(
     rotor: RigidRotor, reaction: Reaction, name: str | None = None
@@ -759,6 +767,7 @@ def small_motion_transmissibility(
     )
 
 
+@one_blas_thread
 @arguments
 def orbit_system(
     rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None

@@ -33,11 +33,13 @@ from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, models, tall
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import LeftOut, frequency_dependent_films, rest_near, second_order, small_motion
 from .rotor_modes import first_growing
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
 
 
+@one_blas_thread
 @arguments
 def closed_loop(
     rotor: Dynamic, reaction: Reaction, at: Equilibrium, name: str | None = None
@@ -119,6 +121,7 @@ CENTERED = "small_motion_transmissibility is that of a rotor which springs cente
 """What an error says where there is no equilibrium."""
 
 
+@one_blas_thread
 @arguments
 def transmissibility(
     rotor: Dynamic, reaction: Reaction, load: ArrayLike, speeds: ArrayLike
@@ -194,6 +197,7 @@ FORCES = tuple(f"{owner}_force_{axis}" for owner in ("housing", "ground") for ax
 """How the names of forces on housings and on the ground end."""
 
 
+@one_blas_thread
 @arguments
 def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
     """Return a rotor on its films, linearized about an equilibrium.
@@ -231,6 +235,7 @@ BASE = ("base_acceleration_x", "base_acceleration_y")
 """Names of what the ground does to a rotor."""
 
 
+@one_blas_thread
 @arguments
 def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
     """Return a rotor on its films, linearized about an equilibrium, on ground that shakes.
@@ -253,6 +258,7 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 
 
+@one_blas_thread
 @arguments
 def base_response(
     rotor: FlexibleRotor, at: RotorEquilibrium, frequencies: ArrayLike
@@ -287,6 +293,7 @@ def base_response(
     return with_work(frequency_response(responses, grid, list(BASE), labels, "base_response"), work)
 
 
+@one_blas_thread
 @arguments
 def unbalance_response(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
@@ -371,6 +378,7 @@ def synchronous_response(
     return with_work(frequency_response(responses, grid, [name], labels, f"{name}_response"), work)
 
 
+@one_blas_thread
 @arguments
 def rotor_transmissibility(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike

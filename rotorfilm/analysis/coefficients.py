@@ -43,6 +43,7 @@ from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients
 from ..core.sources import offered
 from .equilibrium import equilibrium
+from .threads import one_blas_thread
 
 
 @arguments
@@ -280,6 +281,7 @@ class VariableCompliance(Drawable):
     speed: float
 
 
+@one_blas_thread
 @arguments
 def variable_compliance(
     bearing: Reaction, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES

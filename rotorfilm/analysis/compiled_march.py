@@ -45,6 +45,7 @@ from .compiled_rotor import (
     take_apart,
     warn_beyond,
 )
+from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
@@ -53,6 +54,7 @@ COMPARED = 201
 """Times at which runs in fewer and more shapes are compared, at least."""
 
 
+@one_blas_thread
 @arguments
 def simulate_rotor(
     mounted: MountedRotor,

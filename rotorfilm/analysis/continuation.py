@@ -51,6 +51,7 @@ from .periodic_orbit import (
     rest_of,
     series_of,
 )
+from .threads import one_blas_thread
 
 FIRST_STEP = 0.02
 SHORTEST_STEP = 1e-6
@@ -121,6 +122,7 @@ class OrbitCurve(Drawable):
         return np.array([orbit.stable for orbit in self.orbits])
 
 
+@one_blas_thread
 @arguments
 def continue_orbits(
     family: Family,
@@ -537,6 +539,7 @@ class HopfPoint(Readable):
         return -self.growth_curvature / self.crossing
 
 
+@one_blas_thread
 @arguments
 def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, float]) -> HopfPoint:
     """Return where a rotor at rest loses stability to whirl, and the criticality of that.

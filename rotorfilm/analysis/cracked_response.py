@@ -15,6 +15,7 @@ from ..core.port import is_constant
 from ..core.readable import Readable
 from ..core.signals import names
 from ..rotors import CrackedRotor, MountedRotor
+from .threads import one_blas_thread
 
 STEPS = 128
 """Steps per turn, of fourth order."""
@@ -49,6 +50,7 @@ class CrackedResponse(Readable):
         return float(np.log(abs(self.multipliers[0])) * abs(self.speed) / (2.0 * np.pi))
 
 
+@one_blas_thread
 @arguments
 def cracked_response(mounted: MountedRotor, *, harmonics: int = 5, steps: int = STEPS) -> CrackedResponse:
     """Return the periodic response of a cracked rotor on linear bearings to weight and unbalance.

@@ -49,6 +49,7 @@ from .rotor_matrices import (
     small_motion,
     whirl_errors,
 )
+from .threads import one_blas_thread
 
 REACH = 1.5
 """Highest frequency to which shapes are kept / top speed."""
@@ -490,6 +491,7 @@ def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
 # Undamped critical speeds over the stiffness of the bearings.
 
 
+@one_blas_thread
 @arguments
 def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> ArrayWithOperations:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.

@@ -51,6 +51,7 @@ from ..core.port import (
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import PLANAR
+from .threads import one_blas_thread
 
 UNLOADED = (
     "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
@@ -599,6 +600,7 @@ class HeatedEquilibrium(Readable):
     rounds: int
 
 
+@one_blas_thread
 @arguments
 def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> HeatedEquilibrium:
     """Return the position at which a film with a temperature field balances a static load.

@@ -31,6 +31,7 @@ from ..core.port import (
 from ..core.readable import Readable
 from ..core.results import Equilibrium, FrequencyDependentCoefficients
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names, place_names
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
@@ -56,6 +57,7 @@ class OperatingPoint:
     u: ArrayLike = ()
 
 
+@one_blas_thread
 @arguments
 def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None = None) -> control.StateSpace:
     """Return the exact linearization of a model, in SI units and with the model's signal names.
@@ -199,6 +201,7 @@ class _Fit(NamedTuple):
         )
 
 
+@one_blas_thread
 @arguments
 def film_system(
     film: Reaction,

@@ -13,6 +13,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Model
 from ..core.signals import Signal, names
 from .linearize import checked_vector, control_system
+from .threads import one_blas_thread
 
 
 class ModelSystem(control.NonlinearIOSystem):
@@ -122,6 +123,7 @@ class ModelSystem(control.NonlinearIOSystem):
         return self.model.output(t, state, u * self.input_scale) / self.output_scale
 
 
+@one_blas_thread
 @arguments
 def to_nlsys(model: Model, scaled: bool = False, name: str | None = None) -> ModelSystem:
     """Return a model as a python-control system whose own `linearize` is exact.

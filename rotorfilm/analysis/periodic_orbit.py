@@ -66,6 +66,7 @@ from .harmonic_balance import (
 from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import second_order, with_hysteresis
+from .threads import one_blas_thread
 
 HARMONICS = 8
 """Harmonics at first."""
@@ -165,6 +166,7 @@ class PeriodicOrbit(Drawable):
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
+@one_blas_thread
 @arguments
 def periodic_orbit(
     mounted: MountedRotor,
@@ -779,6 +781,7 @@ class BasinScan(Readable):
     work: dict[str, int]
 
 
+@one_blas_thread
 @arguments
 def basin_scan(
     mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6

@@ -51,6 +51,7 @@ from .modal_reduction import (
     tally,
     usual_frequency,
 )
+from .threads import one_blas_thread
 
 KELVIN = 1e-7
 """Change of temperatures [K] below which they are settled."""
@@ -91,6 +92,7 @@ class RotorEquilibrium(Readable):
     work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
+@one_blas_thread
 @arguments
 def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) -> RotorEquilibrium:
     """Return where a rotor rests in its bearings under its weight.

@@ -45,6 +45,7 @@ from .rotor_matrices import (
     value_error,
     whirl_errors,
 )
+from .threads import one_blas_thread
 
 _OSCILLATES = 1e-6
 
@@ -134,6 +135,7 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
     return np.asarray(-2.0 * np.pi * values.real / np.abs(values.imag))
 
 
+@one_blas_thread
 @arguments
 def rotor_modes(
     rotor: FlexibleRotor, bearings: Bearings, speed: float, highest_frequency: float = math.inf
@@ -413,6 +415,7 @@ class CriticalSpeed(Readable):
     direction: float
 
 
+@one_blas_thread
 @arguments
 def campbell(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, highest_frequency: float = math.inf
@@ -462,6 +465,7 @@ def campbell(
     )
 
 
+@one_blas_thread
 @arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
@@ -531,6 +535,7 @@ def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpe
     ]
 
 
+@one_blas_thread
 @arguments
 def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
     """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
@@ -657,6 +662,7 @@ class StabilityChange(Readable):
     speed_error: float = 0.0
 
 
+@one_blas_thread
 @arguments
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
@@ -709,6 +715,7 @@ def rotor_threshold(
     )
 
 
+@one_blas_thread
 @arguments
 def stability_changes(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent

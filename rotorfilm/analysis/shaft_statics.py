@@ -21,6 +21,7 @@ from ..rotors import ShaftRotor, Station
 from ..rotors.structure import dense_matrix, in_planes, mean_plane
 from .modal_reduction import BandedCholesky, modes_near
 from .rotor_equilibrium import rotor_equilibrium
+from .threads import one_blas_thread
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +53,7 @@ class ShaftStatics(Drawable):
     loads: dict[str, Array]
 
 
+@one_blas_thread
 @arguments
 def shaft_statics(
     rotor: ShaftRotor,
@@ -183,6 +185,7 @@ def chosen_stations(rotor: ShaftRotor, supports: Sequence[str] | None) -> tuple[
     return tuple(station for station in rotor.stations if station.name in supports)
 
 
+@one_blas_thread
 @arguments
 def rigid_support_speed(rotor: ShaftRotor, supports: Sequence[str] | None = None) -> float:
     """Return the first undamped critical speed of forward whirl with rigid bearings and housings [rad/s].

@@ -50,8 +50,10 @@ from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
 from .stepped_run import simulate_steps
+from .threads import one_blas_thread
 
 
+@one_blas_thread
 @arguments
 def simulate(
     rotor: Dynamic,

@@ -31,6 +31,7 @@ from .rotor_equilibrium import RotorEquilibrium
 from .rotor_matrices import journal_rows
 from .rotor_modes import rotor_modes
 from .shaft_statics import lowest_modes
+from .threads import one_blas_thread
 
 if TYPE_CHECKING:
     import control
@@ -106,6 +107,7 @@ class SeparationMargins(Drawable):
     amplitudes: dict[str, Array]
 
 
+@one_blas_thread
 @arguments
 def amplification_factor(speeds: ArrayLike, phasors: ArrayLike, peak: float) -> float:
     """Return the amplification factor of a peak by its half-power speeds [1].
@@ -152,6 +154,7 @@ def _crossing(size: Callable[[float], float], level: float, places: Sequence[flo
     return None
 
 
+@one_blas_thread
 @arguments
 def required_margin(amplification_factor: float, *, above: bool) -> float:
     """Return the separation margin that API 617 requires of a critical speed [1].
@@ -179,6 +182,7 @@ def required_margin(amplification_factor: float, *, above: bool) -> float:
     return min(0.10 + share, MOST_ABOVE) if above else min(share, MOST_BELOW)
 
 
+@one_blas_thread
 @arguments
 def separation_margins(
     response: control.FrequencyResponseData,
@@ -294,6 +298,7 @@ def _verdict(bad: Sequence[ResonancePeak]) -> str:
 # A shaft that is bent when nothing loads it, and turns.
 
 
+@one_blas_thread
 @arguments
 def bow_response(
     rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, bow: ArrayLike
@@ -363,6 +368,7 @@ LEAST_SAMPLES = 12
 """Samples a turn that are needed."""
 
 
+@one_blas_thread
 @arguments
 def tracked_response(
     run: Trajectory, speed: SpeedProfile, outputs: Sequence[str] | None = None, *, turns: int = 2
@@ -458,6 +464,7 @@ LOBE = 0.25
 """Deflection / the largest one, below which a part of a mode needs no unbalance of its own."""
 
 
+@one_blas_thread
 @arguments
 def residual_unbalance(mass: float, speed: float) -> float:
     """Return the largest residual unbalance of API 617 [kg m]: 6350 W / N [g mm], W in kg and N in rpm.
@@ -478,6 +485,7 @@ def residual_unbalance(mass: float, speed: float) -> float:
     return mass * max(RESIDUAL / abs(speed), LEAST_ECCENTRICITY)
 
 
+@one_blas_thread
 @arguments
 def mode_unbalances(
     rotor: ShaftRotor, at: RotorEquilibrium, mode: int, *, multiple: float = 2.0
@@ -606,6 +614,7 @@ class MeshConvergence(Readable):
     relative_error: float
 
 
+@one_blas_thread
 @arguments
 def mesh_convergence(
     rotor: ShaftRotor, bearings: Bearings, speed: float, mode: int, *, meshes: int = 3

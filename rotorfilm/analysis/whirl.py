@@ -50,6 +50,7 @@ from ..core.results import (
 from ..core.signals import PLANAR
 from .coefficients import film_coefficients
 from .equilibrium import checked_load, equilibrium
+from .threads import one_blas_thread
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
@@ -61,6 +62,7 @@ NO_THRESHOLD: Mapping[str, Any] = dict.fromkeys(
 """Fields of a `CriticalMass` and of a `WhirlThreshold` that do not exist; both say why."""
 
 
+@one_blas_thread
 @arguments
 def whirl_threshold(
     reaction: Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None

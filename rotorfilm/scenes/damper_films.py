@@ -438,12 +438,9 @@ def damper_remarks(
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
-    subjects: tuple[str, ...] = (
-        "damper",
-        "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured",
-    )
-    subjects = subjects if damper.has_inertia else ("damper_inertia", *subjects)
-    return messages(remarks_of(*subjects), numbers)
+    ruptures = "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured"
+    inertia = () if damper.has_inertia else ("damper_inertia",)
+    return messages(remarks_of(*inertia, "damper", ruptures), numbers)
 
 
 # What a question about a damper leaves open: which of several orbits, and what the films leave out.

@@ -14,6 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any
 
+from ..analysis.threads import one_blas_thread
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
 from ..core.inputs import nearest
@@ -238,6 +239,7 @@ class Scene:
         """
         return read_scene(varied(read_tables(path), changes), str(path))
 
+    @one_blas_thread
     def solve(self, report: Report = silent) -> Any:
         """Return the answer to the question, or where none is asked what the bearing of the scene answers.
 
@@ -261,6 +263,7 @@ class Scene:
         answer = next((FAMILIES[name].answer for name in self.tables if FAMILIES[name].answer), "")
         return brought(answer)(self, report) if answer else self.describe()
 
+    @one_blas_thread
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the first rung that meets its tolerance.
 

@@ -18,6 +18,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..analysis.threads import one_blas_thread
 from ..core.errors import FileWarning, InputError, require_count, warn_user
 from ..core.files import (
     failures_named,
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     import xarray
 
 
+@one_blas_thread
 @arguments
 def sweep(
     scene: str | os.PathLike[str] | Mapping[str, Any],
