@@ -161,8 +161,7 @@ def rotor_of(scene: Scene) -> RigidRotor:
     """
     rotor, excitation = scene.rotor, scene.excitation
     if type(excitation) is UnbalanceTable:  # a lost blade is one too
-        require_one_unbalance(rotor)
-        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=excitation.unbalance_angle)
+        rotor = excitation.given_to(rotor)
     elif excitation is not None:
         raise InputError(
             f'excitation must be of kind "unbalance" for a steady orbit, got {type(excitation).__name__}'
@@ -172,15 +171,6 @@ def rotor_of(scene: Scene) -> RigidRotor:
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     return rotor
-
-
-def require_one_unbalance(rotor: RigidRotor) -> None:
-    """Raise InputError if a rotor has an unbalance beside that of an excitation."""
-    if rotor.unbalance:
-        raise InputError(
-            "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-            f"got {rotor.unbalance!r} kg m"
-        )
 
 
 # Ladders of motions on the films of any bearing.
@@ -486,8 +476,8 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene loses no blade, has no rotor or one with an unbalance, or does not turn.
     """
-    excitation, rotor = lost_blade(scene), scene.rotor
-    require_one_unbalance(rotor)
+    excitation = lost_blade(scene)
+    mass = excitation.given_to(scene.rotor).mass
     calls = math.ceil(3 * COMMON_STEPS * excitation.revolutions)
     known = sorted(_turn_films(films, scene, quantity), key=lambda film: film.time(calls))
 
@@ -496,7 +486,7 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
             film=film,
             load=scene.static_load,
             speed=scene.speed,
-            mass=rotor.mass,
+            mass=mass,
             excitation=excitation,
             steps=steps,
         )

@@ -28,6 +28,7 @@ from ..core.port import Reaction
 from ..core.results import Coefficients, Trajectory
 from ..rotors import BaseExcitedRotor, BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
+from ..scenes.export_scene import at_rest
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
 from ..scenes.shared_tables import GroundTable, RunUpTable, UnbalanceTable, require_kind
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
@@ -320,8 +321,7 @@ class ShaftExcitation:
 
     def run(self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], rtol: float) -> Trajectory:
         """Return the motion of a rotor from its rest on."""
-        still = rotor_equilibrium(rotor, bearings, self.speed).displacement
-        started: Any = replace(rotor, initial=(*still, *0.0 * still))  # type: ignore[type-var]
+        started: Any = at_rest(rotor, bearings, self.speed)[0]
         if self.base is not None:
             started = BaseExcitedRotor(rotor=started, base=self.base)
         end = float(self.times[-1])

@@ -572,16 +572,10 @@ def damper_models(scene: Scene) -> DamperScene:
     rotor = replace(rotor, position=scene.damper.offset)
     require_kind(excitation, ("unbalance", "blade_loss", "run_up"))
     if isinstance(excitation, UnbalanceTable):
-        if rotor.unbalance:
-            raise InputError(
-                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-                f"got {rotor.unbalance:g} beside {excitation.unbalance:g} kg m"
-            )
-        turned = excitation.unbalance_angle
-        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
+        rotor = excitation.given_to(rotor)
     if isinstance(excitation, BladeLossTable):
         start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
-        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
+        rotor = replace(rotor, unbalance_angle=rotor.unbalance_angle + scene.speed * start)
     if isinstance(excitation, RunUpTable):
         profile = excitation.profile(scene.speed)
         rotor, duration = replace(rotor, speed=profile), profile.times[-1]

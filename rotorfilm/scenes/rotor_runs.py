@@ -11,15 +11,15 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import rotors
-from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
+from ..analysis import simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
 from ..core.model import Array
-from ..core.port import Reaction, from_rest
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from .export_scene import from_shaft_rest
+from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
 from .shared_tables import (
     BladeLossTable,
     GroundTable,
@@ -214,9 +214,8 @@ def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
     rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
-    at = rotor_equilibrium(rotor, bearings, scene.speed)
-    still = at.displacement
-    return replace(rotor, initial=(*still, *0.0 * still)), from_shaft_rest(bearings, at)
+    resting, at = at_rest(rotor, bearings, scene.speed)
+    return resting, from_shaft_rest(bearings, at)
 
 
 def _massless(name: str, bearing: Reaction) -> Reaction:
@@ -228,28 +227,14 @@ def _massless(name: str, bearing: Reaction) -> Reaction:
 
 
 def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
-    """Return the rigid rotor of a scene, and its bearing."""
-    rotor, bearing = _rigid_parts(scene)
-    if isinstance(scene.excitation, UnbalanceTable):
-        if rotor.unbalance:
-            raise InputError(
-                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-                f"got {rotor.unbalance:g} beside {scene.excitation.unbalance:g} kg m"
-            )
-        one = scene.excitation
-        rotor = replace(rotor, unbalance=one.unbalance, unbalance_angle=one.unbalance_angle)
-    return rotor, {"": bearing}
-
-
-def _rigid_parts(scene: Scene) -> tuple[rotors.RigidRotor, Any]:
-    """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
+    """Return the rigid rotor of a scene at rest on its film or in its damper, and its bearing."""
     if scene.damper is not None and scene.rigid_rotor is not None:
-        return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
-    rotor, bearing = scene.rotor, scene.bearing
-    at = equilibrium(bearing, scene.static_load, scene.speed)
-    return replace(rotor, position=tuple(at.position.tolist())), from_rest(
-        bearing, at.position, scene.speed, at.temperature
-    )
+        rotor, bearing = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
+    else:
+        rotor, bearing = at_rest_on_film(scene)
+    if isinstance(scene.excitation, UnbalanceTable):
+        rotor = scene.excitation.given_to(rotor)
+    return rotor, {"": bearing}
 
 
 def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:

@@ -303,6 +303,15 @@ class UnbalanceTable:
         require_number("unbalance_angle", self.unbalance_angle)
         require_count("node", self.node, 0)
 
+    def given_to(self, rotor: RigidRotor) -> RigidRotor:
+        """Return a rigid rotor with this unbalance; raise InputError if it has one already."""
+        if rotor.unbalance:
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {self.unbalance:g} kg m"
+            )
+        return replace(rotor, unbalance=self.unbalance, unbalance_angle=self.unbalance_angle)
+
 
 @dataclass(frozen=True, kw_only=True)
 class BladeLossTable(UnbalanceTable):
