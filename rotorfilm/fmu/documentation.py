@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from html import escape
 from importlib.resources import files
+from typing import Any
 
 from ..core.signals import Variable
 
@@ -20,10 +21,24 @@ PAGE = """<!DOCTYPE html>
 """
 
 
+def table_of(name: str) -> dict[str, Any]:
+    """Return one of the tables of data beside this module."""
+    return tomllib.loads(
+        files(__package__ or "").joinpath("data", f"{name}.toml").read_text(encoding="utf-8")
+    )
+
+
+def capabilities(backend: str, version: str) -> dict[str, dict[str, str]]:
+    """Return the attributes of the interfaces of a backend, as a version of FMI spells them."""
+    return {
+        interface: {name: str(value).lower() for name, value in attributes.items()}
+        for interface, attributes in table_of("interfaces")[backend][version].items()
+    }
+
+
 def general_texts(kind: str, *, stepped: bool) -> dict[str, str]:
     """Return what holds for all models of a kind, native or python, by headings; stepped ones integrate."""
-    document = files(__package__ or "").joinpath("data", "documentation.toml").read_text(encoding="utf-8")
-    texts = tomllib.loads(document)
+    texts = table_of("documentation")
     return {**texts[kind], **(texts[f"{kind}_stepped"] if stepped else {})}
 
 

@@ -20,7 +20,7 @@ from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, modul
 from ...native.library import FILMS, LOOPS, library_path
 from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
 from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
-from ..documentation import general_texts, to_html
+from ..documentation import capabilities, general_texts, table_of, to_html
 from .codec import class_modules, decode, encode, shortened
 
 INSTALLED = {"numpy", "scipy"}
@@ -228,25 +228,6 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
 # The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
 
 
-INTERFACES = {
-    "CoSimulation": {
-        # The binary is PythonFMU's: it runs the model in a Python interpreter that must be installed.
-        "needsExecutionTool": "true",
-        "canHandleVariableCommunicationStepSize": "true",
-        "canInterpolateInputs": "false",
-        "canBeInstantiatedOnlyOncePerProcess": "false",
-        "canNotUseMemoryManagementFunctions": "true",
-        "canGetAndSetFMUstate": "true",
-        "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "false",
-    }
-}
-
-CATEGORIES = {
-    "logStatusDiscard": "A step that could not be made, with its values.",
-    "logAll": "All messages.",
-}
-
 ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 
 import importlib
@@ -283,8 +264,8 @@ def python_contents(
     description = Description(
         **described,
         tool=f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})",
-        interfaces=INTERFACES,
-        categories=CATEGORIES,
+        interfaces=capabilities("python", "2.0"),
+        categories=table_of("interfaces")["python"]["categories"],
         variables=variables,
         dependencies=dependencies(model, inputs),
     )
