@@ -6,10 +6,12 @@ A panel is a record: which physics, how its axes read, and a function that yield
 from __future__ import annotations
 
 import math
+import tomllib
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -73,15 +75,6 @@ class Panel:
     level: float | None = FAILED
     logarithmic: bool = False
     curves: Callable[[], Iterator[Curve]]
-
-
-def panel(
-    physics: str, title: str, x_label: str, y_label: str, **reading: Any
-) -> Callable[[Callable[[], Iterator[Curve]]], Panel]:
-    """Make a panel of the function below; arguments as of `Panel`."""
-    return lambda curves: Panel(
-        physics=physics, title=title, x_label=x_label, y_label=y_label, curves=curves, **reading
-    )
 
 
 def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silent) -> StudyResult:
@@ -199,12 +192,6 @@ def _whirling(
     return model.force(np.array([radius, still]), np.array([still, rate * radius]), speed)
 
 
-@panel(
-    "journal",
-    "where the film ends",
-    "whirl speed / shaft speed at eccentricity ratio .5",
-    "error of the force",
-)
 def journal_extent() -> Iterator[Curve]:
     """Yield what arcs err by in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
@@ -220,7 +207,6 @@ def journal_extent() -> Iterator[Curve]:
         yield name, whirl, relative_error(_whirling(model, radius, whirl * SPEED, SPEED), right)
 
 
-@panel("journal", "order of the splitting film", "eccentricity ratio", "error of the force, same arc")
 def journal_order() -> Iterator[Curve]:
     """Yield what few functions err by."""
     ratios = np.linspace(0.05, 0.95, 19)
@@ -233,7 +219,6 @@ def journal_order() -> Iterator[Curve]:
         yield f"({n}, {'all' if m is None else m})", ratios, relative_error(force(n, m), right)
 
 
-@panel("journal", "short bearing", "length / diameter", "error of the static force", logarithmic=True)
 def journal_length() -> Iterator[Curve]:
     """Yield what the short film errs by."""
     slenderness = np.geomspace(0.1, 2.0, 14)
@@ -248,7 +233,6 @@ def journal_length() -> Iterator[Curve]:
         yield f"eccentricity ratio {ratio:g}", slenderness, [relative_error(*pair)[0] for pair in pairs]
 
 
-@panel("journal", "grid of the Reynolds film", "eccentricity ratio", "error of K")
 def journal_grid() -> Iterator[Curve]:
     """Yield what coarse grids err by."""
     exact = journal(journals.MapFilm())
@@ -264,7 +248,6 @@ def journal_grid() -> Iterator[Curve]:
         yield f"{cells[0]} x {cells[1]} cells", ECCENTRICITY_RATIOS, errors
 
 
-@panel("journal", "linearization", "displacement / gap to the wall", "error of the change of force")
 def journal_linearization() -> Iterator[Curve]:
     """Yield what stiffness errs by in large displacements, in the worst direction."""
     model, parts = journal(journals.MapFilm()), np.geomspace(0.01, 0.8, 20)
@@ -300,32 +283,16 @@ AT_LOAD, AT_PRESSURE = 0.3, 0.01
 QUANTITIES = ("place", "side flow", "friction torque", "stiffness")
 
 
-@panel(
-    "supply", f"Reynolds rupture, supply {AT_PRESSURE:g}", "Sommerfeld number So", "error", logarithmic=True
-)
 def supply_load() -> Iterator[Curve]:
     """Yield what Reynolds rupture errs by as the load rises, at one supply pressure."""
     yield from _supply_curves(LOADS, lambda load: _supply_errors(load, AT_PRESSURE))
 
 
-@panel(
-    "supply",
-    f"Reynolds rupture, So {AT_LOAD:g}",
-    "supply pressure c^2/(12 viscosity R^2 speed)",
-    "error",
-    logarithmic=True,
-)
 def supply_pressure() -> Iterator[Curve]:
     """Yield what Reynolds rupture errs by as the supply pressure rises, at one load."""
     yield from _supply_curves(PRESSURES, lambda pressure: _supply_errors(AT_LOAD, pressure))
 
 
-@panel(
-    "supply",
-    f"Reynolds rupture, given flow, So {AT_LOAD:g}",
-    "share missing of the flow at ambient pressure",
-    "error",
-)
 def supply_starvation() -> Iterator[Curve]:
     """Yield what Reynolds rupture errs by as the groove gets less oil than it would take, at one load."""
     yield from _supply_curves(MISSING, lambda missing: _supply_errors(AT_LOAD, 0.0, 1.0 - missing))
@@ -399,23 +366,18 @@ AT_PECLET, AT_RISE = 20.0, 1.0
 COMPARED = (HeatModel.SUPPLY, HeatModel.HOUSING, HeatModel.BUSH)
 
 
-@panel("heat", f"models, Pe = {AT_PECLET:g}", "thinning x rise E", "error of the position", logarithmic=True)
 def heat_rise() -> Iterator[Curve]:
     """Yield what the models err by as oil thins more."""
     for model in COMPARED:
         yield model.label, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
 
 
-@panel("heat", f"models, E = {AT_RISE:g}", "Peclet number Pe", "error of the position", logarithmic=True)
 def heat_peclet() -> Iterator[Curve]:
     """Yield what the models err by as oil conducts less."""
     for model in COMPARED:
         yield model.label, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
 
 
-@panel(
-    "heat", "no profile across the film (T2)", "Nahme number Na", "error of the position", logarithmic=True
-)
 def heat_profile() -> Iterator[Curve]:
     """Yield what a mean temperature across the film errs by."""
     case = heat_case(1.0, AT_PECLET)
@@ -494,13 +456,6 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
 """What a step does to the linearized state, by the step times its matrix."""
 
 
-@panel(
-    "rotor",
-    "time step, rigid rotor on the film",
-    "step / shortest time constant",
-    "error of the path / first displacement",
-    logarithmic=True,
-)
 def rotor_time_step() -> Iterator[Curve]:
     """Yield what steps of each scheme err by."""
     matrix = _rotor_matrix(STEP_AT, STEP_MASS)
@@ -513,7 +468,6 @@ def rotor_time_step() -> Iterator[Curve]:
         yield name, steps / shortest, errors
 
 
-@panel("rotor", "macro step, force held", "eccentricity ratio", "longest stable macro step [deg]", level=None)
 def rotor_macro_step() -> Iterator[Curve]:
     """Yield the longest macro steps of rotors of several masses; not-a-number where one whirls anyway."""
     model = journal(journals.MapFilm())
@@ -574,13 +528,6 @@ def _damper_errors(models: Sequence[PorousDamper], better: Sequence[PorousDamper
     return np.array([relative_error(*(_orbiting(one, RATIOS) for one in pair)) for pair in pairs]).T
 
 
-@panel(
-    "damper",
-    "short film of finite length",
-    "length / diameter",
-    "error of the force, full film",
-    logarithmic=True,
-)
 def damper_length() -> Iterator[Curve]:
     """Yield what the short film errs by, on a solid and on a porous cage."""
     slenderness = np.geomspace(0.05, 1.5, 12)
@@ -591,13 +538,6 @@ def damper_length() -> Iterator[Curve]:
             yield f"eccentricity ratio {ratio:g}, {cage}", slenderness, values
 
 
-@panel(
-    "damper",
-    "porous cage taken as solid, or as thin",
-    "permeability number Phi",
-    "error of the force, short film",
-    logarithmic=True,
-)
 def damper_cage() -> Iterator[Curve]:
     """Yield what a cage without depth, or without pores, errs by."""
     numbers = np.geomspace(1e-5, 10.0, 25)
@@ -609,7 +549,6 @@ def damper_cage() -> Iterator[Curve]:
             yield f"{name}, eccentricity ratio {ratio:g}", numbers, values
 
 
-@panel("damper", "linearization about the center", "radius of the orbit / clearance", "error of the force")
 def damper_linearization() -> Iterator[Curve]:
     """Yield what damping at the center errs by in large orbits."""
     ratios = np.linspace(0.02, 0.9, 30)
@@ -649,13 +588,6 @@ STEPPERS: dict[str, Callable[[complex], complex]] = {
 """Growth of exp(s t) over one implicit step, by z = s times the step."""
 
 
-@panel(
-    "contact",
-    "grid of a rolling ball",
-    "size of a cell / Hertzian radius",
-    "error of the film",
-    logarithmic=True,
-)
 def contact_grid() -> Iterator[Curve]:
     """Yield what coarse grids err by, upwind and staggered."""
     fine, coarse = (_films(published_contact(cells, UpwindScheme())) for cells in REFERENCE)
@@ -674,13 +606,6 @@ def _films(model: PointContact) -> Array:
     return np.array([state.central_film, state.minimum_film])
 
 
-@panel(
-    "contact",
-    "time step of a rolling ball",
-    "step / time scale of the contact",
-    "error of the decay time",
-    logarithmic=True,
-)
 def contact_step() -> Iterator[Curve]:
     """Yield what implicit steps make of the decay of small oscillations."""
     steps = np.geomspace(1e-3, 1.0, 25)
@@ -703,7 +628,6 @@ EXTENT = 1.5
 """Angle that the worn profile covers [rad]."""
 
 
-@panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
 def bush_flux() -> Iterator[Curve]:
     """Yield what the closed form errs by."""
     for stubbiness in bush_accuracy.STUBBINESSES:
@@ -711,7 +635,6 @@ def bush_flux() -> Iterator[Curve]:
         yield f"shaft radius / half length {stubbiness:g}", bush_accuracy.COOLINGS, np.abs(errors)
 
 
-@panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
 def bush_published() -> Iterator[Curve]:
     """Yield what the published stage errs by under a growing load."""
     times, exact = _exact()
@@ -721,13 +644,6 @@ def bush_published() -> Iterator[Curve]:
         yield f"{steps} steps", grown[1:], error[1:]
 
 
-@panel(
-    "bush",
-    "nodes of the worn profile",
-    "angle between nodes [deg]",
-    "error of the contact angle",
-    logarithmic=True,
-)
 def bush_nodes() -> Iterator[Curve]:
     """Yield what few nodes err by."""
     times, exact = _exact()
@@ -745,16 +661,17 @@ def _exact() -> tuple[Array, Array]:
     return times, bush_accuracy.two_moments(f4k20_bush(), times, **bush_accuracy.TIGHT)
 
 
-PANELS: tuple[Panel, ...] = (
-    *(journal_extent, journal_order, journal_length, journal_grid, journal_linearization),
-    *(supply_load, supply_pressure, supply_starvation),
-    *(heat_rise, heat_peclet, heat_profile),
-    *(rotor_time_step, rotor_macro_step),
-    *(damper_length, damper_cage, damper_linearization),
-    *(contact_grid, contact_step),
-    *(bush_flux, bush_published, bush_nodes),
-)
-"""All panels, in the order in which they are drawn."""
+def panels() -> Iterator[Panel]:
+    """Yield the panels that `limits.toml` lists; an infinite level is none."""
+    table = tomllib.loads(resources.files(__package__ or "").joinpath("limits.toml").read_text("utf-8"))
+    for name, row in table.items():
+        title = row.pop("title").format_map(globals())  # which names the constants of this module
+        own = Panel(**row, title=title, curves=globals()[name])
+        yield replace(own, level=None) if own.level == math.inf else own
+
+
+PANELS = tuple(panels())
+"""All panels, in the order of the physics and of the pictures."""
 
 PHYSICS = tuple(dict.fromkeys(each.physics for each in PANELS))
 """What the panels are about."""
