@@ -75,9 +75,7 @@ def bush_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no bush.
     """
-    if scene.bush is None:
-        raise InputError(f"bush is required for {quantity}, got no such table")
-    bush, load = scene.bush.build(), math.hypot(*scene.static_load)
+    bush, load = scene.required("bush", quantity).build(), math.hypot(*scene.static_load)
     shafts = (bushes.ApproximateShaft(), bushes.ExactShaft())
     rungs = tuple(speed_rung(replace(bush, shaft_heat=shaft), load) for shaft in shafts)
     return Ladder(rungs=rungs, unit="rad/s")
@@ -190,18 +188,17 @@ def bush_run(scene: Scene, quantity: str) -> BushRun:
     InputError
         If the scene has no bush, no load, does not turn, or its load does not keep its direction.
     """
-    if scene.bush is None:
-        raise InputError(f"bush is required for {quantity}, got no such table")
+    table = scene.required("bush", quantity)
     if scene.speed == 0.0:
         raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
     load = math.hypot(*scene.static_load)
     if load == 0.0:
         raise InputError(f"operation.load must not be zero for {quantity}, got 0.0")
-    bush = scene.bush.build()
+    bush = table.build()
     return BushRun(
         bush=bush,
-        rule=scene.bush.melting,
-        melting_heat=scene.bush.melting_heat,
+        rule=table.melting,
+        melting_heat=table.melting_heat,
         speed=scene.speed,
         stages=tuple(bushes.Stage(t, force / bush.force_unit) for t, force in _stages(scene, load, quantity)),
     )

@@ -208,10 +208,8 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no contact, or an excitation that is no step or sine of the load.
     """
-    if scene.contact is None:
-        raise InputError(f"contact is required for {quantity}, got no such table")
-    films = StaticContactFilms(table=scene.contact, quantity=quantity)
-    table = scene.contact
+    table = scene.required("contact", quantity)
+    films = StaticContactFilms(table=table, quantity=quantity)
     remarks = contact_remarks(
         films.ball, scene.lubricant.properties, roelands=table.roelands, compressible=table.compressible
     )

@@ -238,9 +238,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene has no rotor, no unbalance, no speed or no operation.
     """
     for table in ("damper", "rigid_rotor"):
-        if getattr(scene, table) is None:
-            raise errors.InputError(f"{table} is required for {quantity}, got no such table")
-    assert scene.damper is not None  # checked by the above
+        scene.required(table, quantity)
     rotor = damper_films.damper_models(scene).rotor
     if quantity in (UP, DOWN):
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
@@ -270,7 +268,6 @@ def _ladder(
 ) -> Ladder:
     """Return a ladder with the remarks on the rotor, on each of the films that lie side by side."""
     table = scene.damper
-    assert table is not None  # whose question it is
     count = damper_films.lands(table)
     shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
     remarks = damper_films.rotor_remarks(
@@ -481,7 +478,6 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         raise errors.InputError(
             f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}'
         )
-    assert scene.damper is not None  # or the ladder is another one
     if scene.damper.supply is not None:
         if scene.damper.film is not None:
             raise errors.InputError(
@@ -585,8 +581,6 @@ def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, 
     changes since steps twice as long and since half the cells: some thrice the error.
     """
     table, rotor = scene.damper, damper_films.damper_models(scene).rotor
-    assert table is not None  # whose question it is
-    assert table.supply is not None
     damper = table.conserved(table.supply)
 
     @cache

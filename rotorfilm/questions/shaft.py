@@ -19,7 +19,7 @@ from ..core.answers import (
     WorkUnit,
     beside_bound,
 )
-from ..core.errors import AbsentError, InputError
+from ..core.errors import AbsentError
 from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
@@ -264,10 +264,9 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no shaft.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity}, got no such table")
-    rotor, speeds = scene.shaft.build(), scene.shaft.speeds.build()
-    models, levels, event = shaft_models(rotor), shaft_films.film_levels(scene.shaft), EVENTS[quantity]
+    shaft = scene.required("shaft", quantity)
+    rotor, speeds = shaft.build(), shaft.speeds.build()
+    models, levels, event = shaft_models(rotor), shaft_films.film_levels(shaft), EVENTS[quantity]
 
     def rungs_on(levels: tuple[shaft_films.ShaftFilms, ...]) -> list[ShaftSpeedRung]:
         return [

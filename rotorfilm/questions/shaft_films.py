@@ -241,7 +241,6 @@ def shaft_ladder_on(
     heated : callable
         Returns the rungs on fresh oil (T0), and those on temperature fields (T2, T3).
     """
-    assert scene.shaft is not None
     bearings, on_oil, first = scene.shaft.build_bearings(), rungs[0].films.on_oil, rungs[0]
     ladder: tuple[Rung, ...] = tuple(rungs)
     if on_oil:

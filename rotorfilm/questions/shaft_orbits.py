@@ -209,7 +209,6 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         for without a place.
     """
     place, shaft = orbit_place(scene, quantity), scene.shaft
-    assert shaft is not None  # checked by the above
     rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), shaft_films.film_levels(shaft)
     models, films = shaft_models(rotor), levels[0]
     choices = _choices(models, nonlinear=bool(films.journals))
@@ -251,22 +250,21 @@ def orbit_place(scene: Scene, quantity: str) -> OrbitPlace:
     InputError
         As `shaft_orbit_ladder` says.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity} of a flexible rotor, got no such table")
+    shaft = scene.required("shaft", f"{quantity} of a flexible rotor")
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     if scene.operation is not None and scene.operation.load is not None:
         load = scene.operation.load
         raise InputError(f"operation.load must be left out for a [shaft], which has its weight, got {load!r}")
-    unbalances = (*scene.shaft.unbalances, *_extra(scene))
+    unbalances = (*shaft.unbalances, *_extra(scene))
     if not any(one.unbalance > 0.0 for one in unbalances):
         raise InputError("shaft.unbalances must have a positive one for an orbit, got none")
-    known = scene.shaft.places(forces=quantity == FORCE)
+    known = shaft.places(forces=quantity == FORCE)
     at = scene.question.at if scene.question is not None else ""
     if quantity == PHASE and not at and len(known) > 1:
         raise InputError(f"question.at is required for {quantity}: one of {', '.join(known)}, got nothing")
     places = (at,) if at else known
-    probes = {probe.name for probe in scene.shaft.probes}
+    probes = {probe.name for probe in shaft.probes}
     return OrbitPlace(
         quantity=quantity,
         places=places,
@@ -411,11 +409,9 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no shaft, an excitation that is no run, or films on an oil.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity}, got no such table")
+    given = scene.required("shaft", quantity)
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
-    given, scene = scene.shaft, after_loss(scene)
-    assert scene.shaft is not None
+    scene = after_loss(scene)
     excitation = scene.excitation
     rotor = scene.shaft.build(scene.speed, (excitation,) if isinstance(excitation, UnbalanceTable) else ())
     if isinstance(excitation, RunUpTable):

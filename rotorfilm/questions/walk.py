@@ -317,9 +317,7 @@ def ladder_of(scene: Scene) -> Ladder:
     InputError
         If the scene asks nothing, or no table of it has the quantity, or several have.
     """
-    if scene.question is None:
-        raise errors.InputError("question is required for a ladder, got no such table")
-    quantity = scene.question.quantity
+    quantity = scene.required("question", "a ladder").quantity
     present = {name: ladders_of(name) for name in scene.tables}
     given = sorted(name for name, ladders in present.items() if quantity in ladders)
     if len(given) > 1:
@@ -338,9 +336,8 @@ def ladder_of(scene: Scene) -> Ladder:
 
 def ask(scene: Scene) -> QuestionAnswer:
     """Return the answer to a scene's question; see `rotorfilm.questions.walk.walk`."""
-    ladder = ladder_of(scene)
-    assert scene.question is not None  # checked above
-    return walk(scene.question.quantity, ladder, scene.question.tolerance)
+    asked = scene.required("question", "a ladder")
+    return walk(asked.quantity, ladder_of(scene), asked.tolerance)
 
 
 # All rungs of a scene's ladder answered, also those that its tolerance does not need.
@@ -413,9 +410,8 @@ def all_models(scene: Scene) -> AllModels:
     RotorfilmError
         If no rung has an answer.
     """
-    ladder = ladder_of(scene)
-    assert scene.question is not None  # or there is no ladder
-    quantity, tolerance = scene.question.quantity, scene.question.tolerance
+    asked = scene.required("question", "a ladder")
+    ladder, quantity, tolerance = ladder_of(scene), asked.quantity, asked.tolerance
     answer = walk(quantity, ladder, tolerance)
     every = walk(quantity, ladder, NEVER_MET).rungs
     rows = [

@@ -138,15 +138,13 @@ def contact_motion(scene: Scene) -> DrivenBall:
     InputError
         If the scene has no contact, no step or sine, or a load that is not along y or pulls the ball off.
     """
-    if scene.contact is None:
-        raise InputError("contact is required for the motion of a ball, got no such table")
-    shaken = scene.excitation
+    table, shaken = scene.required("contact", "the motion of a ball"), scene.excitation
     if not isinstance(shaken, StepLoadTable | SineLoadTable):
         got = "no such table" if shaken is None else type(shaken).__name__
         raise InputError(
             f'excitation of kind "step" or "sine" is required for the motion of a ball, got {got}'
         )
-    ball = scene.contact.build()
+    ball = table.build()
     amplitude = _amplitude(shaken, ball)
     period = 2.0 * math.pi / natural_frequency(ball.W)
     if isinstance(shaken, SineLoadTable):
@@ -565,7 +563,6 @@ def _ridden(
 
 def answer_contact(scene: Scene, report: Report = silent) -> ContactAnswer:
     """Return the stationary contact of a scene."""
-    assert scene.contact is not None  # or it is not asked
     case = case_of(scene.contact.build(), scene.contact.contact())
     return solve_contact(case, scene.contact.order, report)[0]
 
@@ -590,7 +587,6 @@ def run_contact(scene: Scene, *, full: bool = False, report: Report = silent) ->
         If a step fails; its `partial` is the run up to there.
     """
     motion, table = contact_motion(scene), scene.contact
-    assert table is not None  # or there is no motion
     case, duration = case_of(table.build(), table.contact()), motion.duration
     if scene.operation is not None and scene.operation.duration is not None:
         duration = scene.operation.duration / case.time_scale

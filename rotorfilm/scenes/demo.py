@@ -16,7 +16,7 @@ from .. import studies
 from ..analysis import equilibrium, speed_parameter
 from ..bearings.journal import JournalBearing, fitted_bearing
 from ..bearings.oil import GRADES, Cooling, Oil
-from ..core.errors import InputError, PartialResultError
+from ..core.errors import PartialResultError
 from ..core.files import write_atomically
 from ..core.model import Array
 from ..core.port import clearance_of
@@ -377,8 +377,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     RotorfilmError
         What the steps raise; see `Scene.solve`, `export_scene` and `study_coupling`.
     """
-    if scene.rigid_rotor is None:
-        raise InputError("rigid_rotor is required for the demonstration, got no such table")
+    scene.required("rigid_rotor", "the demonstration")
     slenderness, rungs = scene.journal_bearing.slenderness, demo_rungs()
     plain = studies.comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)

@@ -210,7 +210,6 @@ def _parts(scene: Scene) -> _Parts:
 
 def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
-    assert scene.shaft is not None
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
     rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     bearings = {name: _massless(name, bearing) for name, bearing in given.items()}

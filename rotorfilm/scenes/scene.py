@@ -306,6 +306,13 @@ class Scene:
         """Return the table of a family by its name in the file; None if the scene has none."""
         return self.tables.get(name)
 
+    def required(self, name: str, what: str) -> Any:
+        """Return a table by its name; raise InputError, naming what it is for, if there is none."""
+        found = getattr(self, name)
+        if found is None:
+            raise InputError(f"{name} is required for {what}, got no such table")
+        return found
+
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the bearing's film leaves out and should not, one line each."""
@@ -352,16 +359,14 @@ class Scene:
     @property
     def journal_bearing(self) -> JournalBearing:
         """The bearing of `[journal]`; raises InputError if the scene has none."""
-        if self.journal is None:
-            raise InputError("journal is required, got no such table")
-        return self.journal.bearing()
+        found: JournalBearing = self.required("journal", "a journal bearing").bearing()
+        return found
 
     @property
     def rotor(self) -> RigidRotor:
         """The rotor under the static load; raises InputError if the scene has none."""
-        if self.rigid_rotor is None:
-            raise InputError("rigid_rotor is required for a transient and for a rotor FMU, got no such table")
-        return self.rigid_rotor.build(self.speed, self.static_load)
+        table: RigidRotorTable = self.required("rigid_rotor", "a transient and for a rotor FMU")
+        return table.build(self.speed, self.static_load)
 
     @property
     def macro_step(self) -> float:
@@ -383,9 +388,8 @@ class Scene:
 
     @property
     def _operation(self) -> OperationTable:
-        if self.operation is None:
-            raise InputError("operation is required for a speed and a load, got no such table")
-        return self.operation
+        found: OperationTable = self.required("operation", "a speed and a load")
+        return found
 
 
 def parse_scene(document: str, source: str) -> Scene:

@@ -99,11 +99,13 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    if scene.shaft is None:
-        raise InputError("shaft is required for the analyses of a flexible rotor, got no such table")
-    rotor, bearings = scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
-    speeds = scene.shaft.speeds.build()
-    highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
+    shaft: ShaftTable = scene.required("shaft", "the analyses of a flexible rotor")
+    rotor, bearings, speeds = (
+        shaft.build(extra=added_unbalance(scene)),
+        shaft.build_bearings(),
+        shaft.speeds.build(),
+    )
+    highest = shaft.highest_frequency or 2.0 * float(speeds[-1])
     report(0.0, "equilibrium")
     at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[0]))
     report(0.05, "modes over speed")
@@ -115,8 +117,8 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     report(0.85, "unbalance response")
     turned = analysis.resonant_speeds(speeds, critical)
     response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
-    found, remarks = None, level_one_remarks(scene) if scene.shaft.compressor is not None else ()
-    if scene.shaft.compressor is not None:
+    found, remarks = None, level_one_remarks(scene) if shaft.compressor is not None else ()
+    if shaft.compressor is not None:
         report(0.95, "stability by API 617")
         found = solve_level_one(scene)
     own = (
