@@ -473,11 +473,7 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene loses no blade and does not run up, has no rotor, or does not turn.
     """
-    if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
-        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise errors.InputError(
-            f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}'
-        )
+    scene.excited_by(quantity, BladeLossTable, RunUpTable)
     if scene.damper.supply is not None:
         if scene.damper.film is not None:
             raise errors.InputError(

@@ -502,12 +502,10 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
 
 def lost_blade(scene: Scene) -> BladeLossTable:
     """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
-    if not isinstance(scene.excitation, BladeLossTable):
-        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise InputError(f'excitation of kind "blade_loss" is required for peak_displacement, got {got}')
+    lost: BladeLossTable = scene.excited_by("peak_displacement", BladeLossTable)
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    return scene.excitation
+    return lost
 
 
 # What is asked about an orbit that an unbalance makes, and where.

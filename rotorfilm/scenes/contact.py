@@ -138,12 +138,8 @@ def contact_motion(scene: Scene) -> DrivenBall:
     InputError
         If the scene has no contact, no step or sine, or a load that is not along y or pulls the ball off.
     """
-    table, shaken = scene.required("contact", "the motion of a ball"), scene.excitation
-    if not isinstance(shaken, StepLoadTable | SineLoadTable):
-        got = "no such table" if shaken is None else type(shaken).__name__
-        raise InputError(
-            f'excitation of kind "step" or "sine" is required for the motion of a ball, got {got}'
-        )
+    what = "the motion of a ball"
+    table, shaken = scene.required("contact", what), scene.excited_by(what, StepLoadTable, SineLoadTable)
     ball = table.build()
     amplitude = _amplitude(shaken, ball)
     period = 2.0 * math.pi / natural_frequency(ball.W)

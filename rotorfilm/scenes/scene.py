@@ -313,6 +313,14 @@ class Scene:
             raise InputError(f"{name} is required for {what}, got no such table")
         return found
 
+    def excited_by(self, what: str, *kinds: type) -> Any:
+        """Return the excitation; raise InputError, naming what it is for, unless it is of these kinds."""
+        if not isinstance(self.excitation, kinds):
+            named = " or ".join(f'"{name}"' for name, table in EXCITATIONS.items() if table in kinds)
+            got = "none" if self.excitation is None else repr(self.excitation)
+            raise InputError(f"excitation of kind {named} is required for {what}, got {got}")
+        return self.excitation
+
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the bearing's film leaves out and should not, one line each."""
