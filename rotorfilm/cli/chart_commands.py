@@ -122,7 +122,10 @@ def journal(
     motion: Motion = "large",
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
+    """Error of the force against its cost, for every journal film: chart_journal.png and .csv.
+
+    Example: rotorfilm chart journal --ld 0.5 --json
+    """
     ranges = studies.LARGE if motion == "large" else studies.SMALL
     found = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
     return said_study(out, found)
@@ -131,7 +134,10 @@ def journal(
 def pads(
     report: Report, ld: Slenderness = 0.5, states: States = 100, seed: Seed = 1978, out: Folder = OUT
 ) -> CommandOutput:
-    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
+    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv.
+
+    Example: rotorfilm chart pads --ld 0.5 --json
+    """
     return said_study(out, studies.pad_accuracy(ld, states=states, seed=seed, report=report))
 
 
@@ -142,7 +148,10 @@ def damper(
     states: States = 200,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
+    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json.
+
+    Example: rotorfilm chart damper --ld 0.25 --permeability 0.001
+    """
     result = studies.damper_accuracy(ld, permeability, states=states, report=report)
     return CommandOutput(result, shown_study(result, write_study(out, result, result)))
 
@@ -154,12 +163,18 @@ def contact(
     ] = 64,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
+    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes.
+
+    Example: rotorfilm chart contact --cells 48 --json
+    """
     return said_study(out, studies.contact_precision(cells, report=report))
 
 
 def bush(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
+    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft.
+
+    Example: rotorfilm chart bush --json
+    """
     result = studies.bush_tiers(report=report)
     files, shaft = write_study(out, result), result.notes["shaft"]
     *_, errors = shaft.values()
@@ -171,7 +186,10 @@ def bush(report: Report, out: Folder = OUT) -> CommandOutput:
 
 
 def heat(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
+    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute.
+
+    Example: rotorfilm chart heat --out rotorfilm-charts
+    """
     from ..studies.heat_accuracy import heated_film
 
     result = studies.heat_accuracy(report=part_of(report, 0.0, 0.7))
@@ -191,7 +209,10 @@ def rolling(
     seed: Seed = 1907,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
+    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost.
+
+    Example: rotorfilm chart rolling --speed '30000 rpm'
+    """
     top = parse_quantity(speed, "rad/s")
     speeds = [k * top / (POINTS - 1) for k in range(POINTS)]
     curves = studies.ball_curves(studies.usual_bearing(), speeds, report=part_of(report, 0.0, 0.5))
@@ -213,7 +234,10 @@ def rolling(
 
 
 def cosim(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
+    """Stability limits of the coupling schemes, and their error against film calls: takes minutes.
+
+    Example: rotorfilm chart cosim --json
+    """
     limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
     files = write_chart(out, "cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
@@ -226,7 +250,10 @@ def cosim(report: Report, out: Folder = OUT) -> CommandOutput:
 
 
 def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> CommandOutput:
-    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
+    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv.
+
+    Example: rotorfilm chart stability --ld 0.5 --json
+    """
     from ..charts.whirl_verdicts import verdicts
     from ..studies.journal_stability import by_film
 
@@ -247,7 +274,10 @@ def limits(
     ] = None,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
+    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds.
+
+    Example: rotorfilm chart limits --physics journal --physics damper
+    """
     atlas = studies.limits_atlas(physics, report=report)
     table = atlas.columns()
     files = write_chart(out, "limits", table, charts.plot_limit_summary(atlas), table)
@@ -266,7 +296,10 @@ def bearings(
     mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
+    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load.
+
+    Example: rotorfilm chart bearings --ld 0.5 --mass '250 kg'
+    """
     film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
     carried = parse_quantity(mass, "kg")
     whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
@@ -297,7 +330,10 @@ def scene(
     changes: Settings = None,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Estimated error against cost of all models that could answer a scene, and the one that does."""
+    """Estimated error against cost of all models that could answer a scene, and the one that does.
+
+    Example: rotorfilm chart scene examples/question.toml
+    """
     from ..questions.walk import all_models
 
     loaded = load_scene(file, changes)
@@ -320,6 +356,9 @@ def scene(
 
 
 def page(out: Folder = OUT) -> CommandOutput:
-    """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
+    """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else.
+
+    Example: rotorfilm chart page --out rotorfilm-charts
+    """
     path = str(charts.write_page(out))
     return CommandOutput({"page": path}, partial(console.print_rows, "", [("page", path)]))

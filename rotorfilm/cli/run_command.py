@@ -56,6 +56,8 @@ def run(
     A scene has a [shaft], a [rigid_rotor] on a film or a damper, or a [contact] whose load jumps or swings.
     Where a rotor reaches the wall, or the end of a film's range, the motion until then is shown and
     written, and the command exits with 1.
+
+    Example: rotorfilm run examples/blade_loss.toml --out motion.csv
     """
     loaded = load_scene(scene, changes)
     make_room(out)
@@ -203,7 +205,10 @@ def cosim(
     tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
     out: SignalFile = None,
 ) -> CommandOutput:
-    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
+    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls.
+
+    Example: rotorfilm cosim examples/friswell.toml --scheme si-exp3 --set "cosimulation.macro_angle=5 deg"
+    """
     report(0.0, "packages")
     from ..core.errors import PartialResultError
     from ..scenes.cosimulate_scene import run_scene, scheme_named
