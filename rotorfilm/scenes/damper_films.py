@@ -45,7 +45,7 @@ NO_RICHER = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class DamperFilm:
     """A film of a damper that may answer; the dampers are made when they are needed, for a map takes seconds.
 
@@ -192,14 +192,7 @@ def plain_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
     rich = dampers.FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, dampers.FiniteMapSqueeze) else top
     return tuple(
-        DamperFilm(
-            name=name,
-            shape=own,
-            law=law,
-            rich_shape=shape,
-            rich_law=None if law == top else rich,
-            prior=prior,
-        )
+        DamperFilm(name, own, law, shape, None if law == top else rich, prior)
         for name, own, law, prior in found
     )
 
@@ -321,15 +314,11 @@ def built_films(table: DamperTable, speed: float) -> tuple[DamperFilm, ...]:
     whole.require_range(speed)
     laws = [law for law in _laws(table) if table.film is None] or [_named(table)]
     shapes = {NO_INERTIA: with_changes(whole, density=0.0), "": whole} if table.density else {"": whole}
+    slim, at = 0.02 * min(whole.slenderness**2, 1.0), abs(speed)
+    priors = {name: slim if isinstance(law, dampers.ShortSqueeze) else 0.0 for name, law in laws}
     return tuple(
         DamperFilm(
-            name=f"{name}{inertia}",
-            shape=shape,
-            law=law,
-            rich_shape=whole,
-            rich_law=_richest(table, law),
-            prior=0.02 * min(whole.slenderness**2, 1.0) if isinstance(law, dampers.ShortSqueeze) else 0.0,
-            frequency=abs(speed),
+            f"{name}{inertia}", shape, law, whole, _richest(table, law), priors[name], frequency=around
         )
         for name, law in laws
         for inertia, shape in shapes.items()
