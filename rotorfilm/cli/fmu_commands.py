@@ -40,13 +40,7 @@ def build(
     with inside(scene):
         if loaded.has_film and loaded.damper is None:
             loaded.film_table.make_map(report)
-        made = export_scene(
-            loaded,
-            out,
-            version=fmi,
-            backend=backend,
-            platforms=platforms,
-        )
+        made = export_scene(loaded, out, version=fmi, backend=backend, platforms=platforms)
         files = {name: str(path) for name, path in made.items()}
         if ssp:
             made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)

@@ -548,7 +548,4 @@ def bush_remarks(run: BushRun) -> tuple[str, ...]:
     return messages(remarks_of("bush"), bush_numbers(run))
 
 
-LADDERS = {
-    "critical_speed": bush_ladder,
-    "wear": wear_ladder,
-}
+LADDERS = {"critical_speed": bush_ladder, "wear": wear_ladder}

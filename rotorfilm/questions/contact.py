@@ -222,9 +222,7 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(rungs=tuple(rungs), unit="m", remarks=remarks, within=ISOTHERMAL)
 
 
-LADDERS = {
-    **dict.fromkeys(QUANTITIES, contact_ladder),
-}
+LADDERS = {**dict.fromkeys(QUANTITIES, contact_ladder)}
 
 
 # The approach of a rolling ball on its reduced law, over time.

@@ -20,12 +20,7 @@ from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
 from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected, grid_name
 from ..scenes.pad_tables import pad_film_name, quasi_static_scene
-from .film_motions import (
-    OrbitRung,
-    orbit_ladder,
-    wave_change,
-    wave_value,
-)
+from .film_motions import OrbitRung, orbit_ladder, wave_change, wave_value
 from .film_statics import static_ladder, whirl_ladder
 from .journal import film_ladders
 from .quantities import FORCE, ORBIT_UNITS as ORBITS, QUANTITIES

@@ -252,11 +252,7 @@ def ball_ladder(scene: Scene, quantity: str) -> Ladder:
     table: rolling_scene.BallTable = scene.table("ball_bearing")
     oil, bearing = table.oil if scene.speed else None, table.build()
     asked = BallQuestion(
-        quantity=quantity,
-        load=scene.static_load,
-        speed=scene.speed,
-        oil=oil,
-        roughness=table.roughness,
+        quantity=quantity, load=scene.static_load, speed=scene.speed, oil=oil, roughness=table.roughness
     )
     if quantity == "film_parameter" and (oil is None or table.roughness is None):
         raise InputError(

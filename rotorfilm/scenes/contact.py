@@ -156,9 +156,7 @@ def contact_motion(scene: Scene) -> DrivenBall:
     duration = max(AFTER_JUMP, period) + (end if math.isfinite(end) else 0.0)
     require_followable(duration, 0.0)
     return DrivenBall(
-        load=contacts.StepLoad(amplitude=amplitude, end=end),
-        duration=duration,
-        shortest_period=period,
+        load=contacts.StepLoad(amplitude=amplitude, end=end), duration=duration, shortest_period=period
     )
 
 

@@ -317,9 +317,7 @@ def built_films(table: DamperTable, speed: float) -> tuple[DamperFilm, ...]:
     slim, at = 0.02 * min(whole.slenderness**2, 1.0), abs(speed)
     priors = {name: slim if isinstance(law, dampers.ShortSqueeze) else 0.0 for name, law in laws}
     return tuple(
-        DamperFilm(
-            f"{name}{inertia}", shape, law, whole, _richest(table, law), priors[name], frequency=around
-        )
+        DamperFilm(f"{name}{inertia}", shape, law, whole, _richest(table, law), priors[name], frequency=at)
         for name, law in laws
         for inertia, shape in shapes.items()
         if table.film is None or not inertia

@@ -336,10 +336,7 @@ class FilmCandidate:
         position, still = np.array([0.3, 0.4]) * minimum_radial_clearance(self.reaction), np.zeros(2)
 
         def sampled(reaction: PlanarReaction) -> Callable[[], object]:
-            return lambda: (
-                reaction.force(position, still, speed),
-                reaction.jacobian(position, still, speed),
-            )
+            return lambda: (reaction.force(position, still, speed), reaction.jacobian(position, still, speed))
 
         return {self.tangents: sampled(self.reaction), self.defects(smooth=False): sampled(self.rich)}
 

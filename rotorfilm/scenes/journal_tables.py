@@ -236,11 +236,7 @@ SLIGHT = 0.1
 
 
 def journal_numbers(
-    bearing: JournalBearing,
-    oil: Lubricant,
-    speed: float,
-    load: tuple[float, float],
-    film: Any = None,
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float], film: Any = None
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 

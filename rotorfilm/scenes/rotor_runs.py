@@ -20,14 +20,7 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
-from .shared_tables import (
-    BladeLossTable,
-    GroundTable,
-    MotorTable,
-    RunUpTable,
-    UnbalanceTable,
-    require_kind,
-)
+from .shared_tables import BladeLossTable, GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
 
 if TYPE_CHECKING:
     from .scene import Scene

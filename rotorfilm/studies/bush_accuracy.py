@@ -81,9 +81,7 @@ def bush_tiers(
         "BushReaction": {
             f"BushReaction, {n} nodes": partial(worn_run, times, replace(worn, nodes=n)) for n in nodes
         },
-        "LocalMelting: another law": {
-            f"LocalMelting, {local.nodes} nodes": lambda: worn_run(times, local),
-        },
+        "LocalMelting: another law": {f"LocalMelting, {local.nodes} nodes": lambda: worn_run(times, local)},
         "as published": {f"as published, {n} steps": partial(published_run, bush, times, n) for n in steps},
     }
     models = [

@@ -150,12 +150,7 @@ def compared_damper(
         permeability = permeability_number * CLEARANCE**3 / thickness
         cage = damper.PorousCage(thickness=thickness, permeability=permeability, grading=grading)
     return damper.PorousDamper(
-        radius=RADIUS,
-        length=length,
-        clearance=CLEARANCE,
-        viscosity=VISCOSITY,
-        cage=cage,
-        extent=FullFilm(),
+        radius=RADIUS, length=length, clearance=CLEARANCE, viscosity=VISCOSITY, cage=cage, extent=FullFilm()
     )
 
 

@@ -197,7 +197,4 @@ def _pictures(export: Export) -> dict[str, bytes]:
     content = picture.read_bytes()
     if export.version == "2.0":
         return {"model.png": content}
-    return {
-        f"terminalsAndIcons/{ICON}": content,
-        f"documentation/{ICON}": content,
-    }
+    return {f"terminalsAndIcons/{ICON}": content, f"documentation/{ICON}": content}

@@ -324,11 +324,7 @@ def _resources(
     entry = f"{component}_{tag}"
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
-        slave=bundle.modules[SLAVE],
-        base=base,
-        modules=f"({modules}\n)",
-        title=component,
-        tag=tag,
+        slave=bundle.modules[SLAVE], base=base, modules=f"({modules}\n)", title=component, tag=tag
     )
     files = {
         **bundle.files,
