@@ -203,26 +203,32 @@ def largest(found: Any, printed: Any) -> float:
 def rows() -> list[str]:
     """Return the rows of docs/accuracy.md."""
     lines = []
-    tables = ("elliptical, preload .5, L/D 1", ELLIPTICAL), ("two grooves, L/D .5 and 1", GROOVES)
+    tables = ("elliptical, preload 0.5, L/D 1", ELLIPTICAL), ("two grooves, L/D 0.5 and 1", GROOVES)
     for name, table in tables:
         gap = lund_and_thomsen(name, table)
-        lines.append(
-            f"| `LobedBearing`, {name}: eps / phi / K / C of Lund & Thomsen (1978) | printed, 2-3 digits | "
-            f"{gap.place:.3f} / {gap.angle:.2f} deg / {gap.stiffness:.2f} / {gap.damping:.2f}"
-            " of the load per pad clearance |"
+        load = "of the load per pad clearance"
+        errors = (
+            f"{gap.place:.3f}",
+            f"{gap.angle:.2f} deg",
+            f"{gap.stiffness:.2f} {load}",
+            f"{gap.damping:.2f} {load}",
         )
+        source = "Lund & Thomsen (1978), 2 to 3 digits"
+        for quantity, error in zip(("eccentricity ratio", "attitude angle", "K", "C"), errors, strict=True):
+            lines.append(f"| `LobedBearing` | {quantity} | {name} | {source} | {error} |")
     gap = nicholas()
-    lines.append(
-        "| `PressureDamBearing`: eps / threshold / K / C of Nicholas, Barrett & Leader (1980), L/D 1 | "
-        f"printed, 1-3 digits | {gap.place:.2f} / {100.0 * gap.angle:.1f} % / {100.0 * gap.stiffness:.1f} / "
-        f"{100.0 * gap.damping:.1f} % of the largest entry |"
+    errors = f"{gap.place:.2f}", *(f"{100.0 * e:.1f} %" for e in (gap.angle, gap.stiffness, gap.damping))
+    source = "Nicholas, Barrett & Leader (1980), 1 to 3 digits"
+    for quantity, error in zip(("eccentricity ratio", "threshold", "K", "C"), errors, strict=True):
+        lines.append(f"| `PressureDamBearing` | {quantity} | L/D 1 | {source} | {error} |")
+    kinds = (
+        ("`LobedBearing`", "three and four lobes, offset halves"),
+        ("`TiltingPadBearing`", "three bearings"),
     )
-    kinds = ("`LobedBearing`, three and four lobes, offset halves", "`TiltingPadBearing`, three bearings")
-    for kind, gap in zip(kinds, prototype(), strict=True):
-        lines.append(
-            f"| {kind}: place / K / C | another discretization, extrapolated | {gap.place:.1e} of the pad "
-            f"clearance / {100.0 * gap.stiffness:.2f} / {100.0 * gap.damping:.2f} % of the largest entry |"
-        )
+    for (bearing, kind), gap in zip(kinds, prototype(), strict=True):
+        errors = f"{gap.place:.1e}", f"{100.0 * gap.stiffness:.2f} %", f"{100.0 * gap.damping:.2f} %"
+        for quantity, error in zip(("place", "K", "C"), errors, strict=True):
+            lines.append(f"| {bearing} | {quantity} | {kind} | another discretization | {error} |")
     return lines
 
 

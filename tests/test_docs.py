@@ -1,5 +1,6 @@
 """The page of machine elements leads somewhere, and that of the interface shows every public name once."""
 
+import json
 import re
 from collections import Counter
 from pathlib import Path
@@ -8,10 +9,11 @@ import draw_pictures
 import example_gallery
 import interface_tasks
 import pytest
+import scene_pages
 
 from rotorfilm import charts
 from rotorfilm.core import published
-from rotorfilm.scenes import Scene
+from rotorfilm.scenes import Scene, json_schema
 
 ROOT = Path(__file__).parents[1]
 
@@ -28,7 +30,8 @@ ring; thrust bearing; hydrostatic; gas bearing; foil; aerostatic; roller bearing
 seal; labyrinth; plain bearing; sleeve bearing; axial groove; partial arc; bush; Campbell diagram; critical
 speed; unbalance response; Bode; run-up; blade loss; retainer spring; squirrel cage; EHL; ROSS; FMI;
 Sommerfeld number; short bearing; half Sommerfeld; cavitation; friction loss; oil flow; jump; logarithmic
-decrement; hybrid
+decrement; hybrid; gear; coupling; turbulence; misalignment; jacking; grease; fatigue life; induction motor;
+mixed friction; Morton effect; thermohydrodynamic; varying compliance; deformation
 """
 
 
@@ -59,7 +62,7 @@ def test_every_row_leads_to_a_public_name_or_says_that_it_is_absent():
 def test_what_is_absent_is_said_to_be_not_covered():
     absent = re.findall(r"^\| (.*?) \| absent", ELEMENTS, re.MULTILINE)
     said = read("docs/accuracy.md").partition("\n## Not covered")[2].lower()
-    assert len(absent) >= 8
+    assert len(absent) >= 18
     for words in absent:
         assert words.split(",")[0].lower() in said, words
 
@@ -95,6 +98,19 @@ def test_no_name_has_two_places_of_equal_length():
     for name in published():
         lengths = [length for length, _, _ in interface_tasks.fitting(name)]
         assert len(set(lengths)) == len(lengths), name
+
+
+def test_pages_of_scene_keys_are_made_of_the_tables():
+    for name, text in scene_pages.pages().items():
+        assert read(f"docs/{name}") == text, "run `python tools/scene_schema.py`"
+
+
+def test_pages_of_scene_keys_have_every_table():
+    text = "".join(read(f"docs/{name}") for name in scene_pages.PAGES)
+    tables = json.loads(json_schema())["properties"].keys() - {"schema", "title"}
+    assert set(re.findall(r"^## `(\w+)`$", text, re.MULTILINE)) == tables
+    for key in ("film_start", "end_inner_diameter", "spectrum", "viscosity_40"):
+        assert f"| `{key}`" in text
 
 
 def test_the_gallery_has_every_script_and_every_file_that_one_reads(tmp_path):

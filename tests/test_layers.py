@@ -260,6 +260,7 @@ def test_core_needs_numpy_only(name):
         "html",
         "itertools",
         "difflib",
+        "json",
         "numbers",
     }
     assert outside <= allowed

@@ -103,12 +103,16 @@ def test_a_job_is_short_and_ends_in_a_number(target):
     assert text.splitlines()[-1].startswith("print(")
 
 
-@pytest.mark.parametrize("page", ["jobs.md", "own_bearing.md", "machine_elements.md"])
+@pytest.mark.parametrize("page", sorted(path.name for path in DOCS.glob("*.md")))
 def test_links_of_a_page_lead_somewhere(page):
     for target, place in re.findall(
         r"\]\(([^)#]*)(?:#([^)]*))?\)", (DOCS / page).read_text(encoding="utf-8")
     ):
+        if target.startswith("https://"):
+            continue
         path = (DOCS / target) if target else DOCS / page
         assert path.is_file(), target
+        if not place:
+            continue
         headings = re.findall(r"^#+ (.*)$", path.read_text(encoding="utf-8"), re.MULTILINE)
-        assert not place or place in map(anchor, headings), (target, place)
+        assert place in map(anchor, headings), (target, place)

@@ -17,8 +17,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 CLEAN = [
-    "CONTRIBUTING.md", "README.md", "docs/commands.md", "docs/index.md",
-    "docs/jobs.md", "docs/machine_elements.md",
+    "CONTRIBUTING.md", "README.md", "docs/accuracy.md", "docs/accuracy_elements.md",
+    "docs/accuracy_systems.md", "docs/adding_a_bearing.md", "docs/bush.md", "docs/bush_wear.md",
+    "docs/charts.md", "docs/commands.md", "docs/contact.md", "docs/contact_accuracy.md",
+    "docs/contact_cases.md", "docs/conventions.md", "docs/cosimulation.md", "docs/damper.md",
+    "docs/damper_films.md", "docs/failures.md", "docs/groove_map.md", "docs/heat.md", "docs/index.md",
+    "docs/jobs.md", "docs/journal.md", "docs/machine_elements.md", "docs/map.md", "docs/mass_conserving.md",
+    "docs/orbits.md", "docs/own_bearing.md", "docs/pads.md", "docs/paper.md", "docs/question_errors.md",
+    "docs/questions.md", "docs/results.md", "docs/rolling.md", "docs/rolling_rotors.md",
+    "docs/rotor_accuracy.md", "docs/rotors.md", "docs/scene_elements.md", "docs/scene_journals.md",
+    "docs/scene_operation.md", "docs/scene_pads.md", "docs/scene_rotors.md", "docs/scenes.md",
+    "docs/supply.md", "docs/sweeps.md",
 ]  # fmt: skip
 """Files and folders without a finding, which `.ci/run` keeps so. Add a page when it is clean."""
 MOST_WORDS, LONGEST_PAGE = 40, 3000

@@ -1,4 +1,6 @@
-"""Write the JSON Schema of scene files, for editors: from the readers of their tables and from docstrings.
+"""Write the JSON Schema of scene files, for editors, and the pages of their keys.
+
+Both are made from the readers of the tables and from docstrings.
 
 Usage: python tools/scene_schema.py
 """
@@ -141,3 +143,6 @@ def text() -> str:
 
 if __name__ == "__main__":
     FILE.write_text(text(), encoding="utf-8")
+    import scene_pages
+
+    scene_pages.write()

@@ -210,6 +210,8 @@ def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Comple
 def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> Any:
     """Return K and C of a film at its equilibria under a load, over speed, as a `TabulatedBearing`.
 
+    Its table has eccentricity, attitude, least film, temperature, power loss and flow of the equilibria too.
+
     Parameters
     ----------
     reaction : Reaction
@@ -230,13 +232,14 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
-    points = [film_coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
+    rests = tuple(equilibrium(reaction, load, speed) for speed in grid.tolist())
+    points = [film_coefficients(reaction, at.position, at.speed) for at in rests]
     return offered("TabulatedBearing")(
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),
         damping=np.array([point.damping for point in points]),
         freedoms=freedoms_of(reaction),
-    )
+    ).found_at(rests)
 
 
 # How a shaft swings as the balls of its bearing pass the load.

@@ -20,8 +20,10 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.errors import ConvergenceError, UnloadedPadWarning
+from ..core.frames import ResultTable
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
+from ..core.readable import Tabled, table_of, table_text
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import (
     MatrixRotor,
@@ -432,8 +434,8 @@ def tally(name: str, count: int = 1) -> None:
             work[name] += count
 
 
-class TupleWithOperations(tuple[Item, ...]):
-    """What an analysis found, and what it took.
+class TupleWithOperations(Tabled, tuple[Item, ...]):
+    """What an analysis found, which prints as a table, and what it took.
 
     Attributes
     ----------
@@ -448,6 +450,13 @@ class TupleWithOperations(tuple[Item, ...]):
         made = super().__new__(cls, tuple(found))
         made.work = dict(work)
         return made
+
+    def to_table(self) -> ResultTable:
+        """Return what was found, one a row."""
+        return table_of(self) if self else ResultTable(())
+
+    def __str__(self) -> str:
+        return table_text(self.to_table()).lstrip("\n") if self else "none"
 
 
 class ArrayWithOperations(np.ndarray):

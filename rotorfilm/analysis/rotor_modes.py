@@ -10,15 +10,17 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator
 from scipy.linalg import eig
 from scipy.optimize import brentq, linear_sum_assignment
 
 from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
+from ..core.frames import Column, ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import Bearings
 from ..core.progress import Report, silent
-from ..core.readable import Drawable, Readable
+from ..core.readable import Drawable, Readable, table_of
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .critical import Crossing, crossings
@@ -83,10 +85,30 @@ class Whirls:
         return log_decrement(self.eigenvalues)
 
     @property
+    def damping_ratio(self) -> Array:
+        """Share of the critical damping [1], -Re s / |s|: negative where the whirl grows."""
+        return np.asarray(-self.eigenvalues.real / np.abs(self.eigenvalues))
+
+    @property
     def grows(self) -> NDArray[np.bool_]:
         """Whether a whirl grows by more than the roundoff of its eigenvalue, or 1e-4 of its frequency."""
         bound = np.minimum(self.roundoff, GROWN * np.abs(self.eigenvalues))
         return np.asarray(self.eigenvalues.real > bound)
+
+
+CIRCULAR = 0.1
+"""Direction beyond which a whirl counts as forward or, negative, backward."""
+
+
+def senses(direction: ArrayLike) -> NDArray[np.str_]:
+    """Return "forward", "backward" or "mixed" for directions as in `RotorModes`; empty words for nan."""
+    turns = np.asarray(direction, dtype=float)
+    words = np.where(turns > CIRCULAR, "forward", np.where(turns < -CIRCULAR, "backward", "mixed"))
+    return np.where(np.isnan(turns), "", words)
+
+
+KINDS = ("lateral", "axial", "torsional")
+"""Kinds of modes, in the order of `RotorModes.energy`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,6 +139,8 @@ class RotorModes(Whirls, Readable):
     work : dict of str to int
         Rests of the rotor that were searched (equilibria); eigenproblems in the shapes kept; factorizations
         of matrices of all coordinates.
+    energy : ndarray, shape (3, n) [1]
+        Kinetic energy of lateral, axial and torsional motion over that of all.
     """
 
     speed: float
@@ -127,6 +151,49 @@ class RotorModes(Whirls, Readable):
     roundoff: Array | float = 0.0
     highest_frequency: float = math.inf
     work: dict[str, int] = field(default_factory=dict, compare=False)
+    energy: Array = field(default_factory=lambda: np.zeros((3, 0)), compare=False)
+
+    _tabled: ClassVar[tuple[str, ...]] = (
+        "eigenvalues",
+        "shapes",
+        "direction",
+        "roundoff",
+        "energy",
+        "frequency",
+        "log_decrement",
+    )
+
+    def to_table(self) -> ResultTable:
+        """Return the modes, one a row: frequency, log decrement, damping ratio, whirl and kind."""
+        kinds = np.array(KINDS)[self.energy.argmax(axis=0)] if self.energy.size else ""
+        return ResultTable(
+            (
+                Column("mode", "", np.arange(1, len(self.eigenvalues) + 1)),
+                *whirl_columns(self.eigenvalues, self.direction),
+                Column("kind", "", np.broadcast_to(kinds, self.eigenvalues.shape)),
+            ),
+            "modes",
+            "mode",
+            {"speed": self.speed},
+            {"speed": "rad/s"},
+        )
+
+    def _pages(self) -> Iterator[ResultTable]:
+        yield self.to_table()
+
+
+def whirl_columns(eigenvalues: NDArray[np.complex128], direction: Array) -> tuple[Column, ...]:
+    """Return what a table says of whirls: frequency twice, log decrement, damping ratio, sense."""
+    turns = eigenvalues.imag / (2.0 * np.pi)
+    with np.errstate(invalid="ignore"):
+        ratio = -eigenvalues.real / np.abs(eigenvalues)
+    return (
+        Column("frequency", "Hz", turns),
+        Column("frequency_rpm", "rpm", 60.0 * turns, "frequency"),
+        Column("log_decrement", "1", log_decrement(eigenvalues)),
+        Column("damping_ratio", "1", ratio),
+        Column("whirl", "", senses(direction)),
+    )
 
 
 def log_decrement(eigenvalues: ArrayLike) -> Array:
@@ -206,6 +273,7 @@ def whirls_of(motions: RotorModes, highest_frequency: float = math.inf) -> Rotor
         eigenvalues=motions.eigenvalues[whirls],
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
+        energy=motions.energy[:, whirls],
         roundoff=np.broadcast_to(motions.roundoff, whirls.shape)[whirls],
         highest_frequency=min(highest_frequency, motions.highest_frequency),
     )
@@ -221,6 +289,7 @@ def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorMo
         eigenvalues=np.concatenate(values),
         shapes=model.lifted(shapes),
         direction=directions(model.structure, shapes, at.speed),
+        energy=energies(model.structure, shapes),
         error=max(errors),
         roundoff=np.concatenate(rounded),
         highest_frequency=math.inf if model.space is None else known_to,
@@ -236,6 +305,15 @@ def directions(structure: Structure, shapes: np.ndarray, speed: float) -> Array:
     aside = 2.0 * np.sum(others.conj() * (mass[2 * n :, 2 * n :] @ others), axis=0).real
     whirl, sense = forward + backward, -1.0 if speed < 0.0 else 1.0
     return np.where(whirl > _ASIDE * aside, sense * (forward - backward) / (whirl + aside), 0.0)
+
+
+def energies(structure: Structure, shapes: np.ndarray) -> Array:
+    """Return the kinetic energy of shapes (N, m) as in `RotorModes`."""
+    n = 2 * len(structure.coordinates)
+    energy = (shapes.conj() * (structure.mass @ shapes)).real
+    twists = np.array(["twist" in name for name, *_ in structure.others], dtype=bool)
+    parts = energy[:n].sum(axis=0), energy[n:][~twists].sum(axis=0), energy[n:][twists].sum(axis=0)
+    return np.stack(parts) / np.where((whole := sum(parts)) > 0.0, whole, 1.0)
 
 
 Band = tuple[float, float, float]
@@ -391,6 +469,67 @@ class Campbell(Whirls, Drawable):
     highest_frequency: float = math.inf
     work: dict[str, int] = field(default_factory=dict, compare=False)
 
+    _tabled: ClassVar[tuple[str, ...]] = (
+        "speeds",
+        "eigenvalues",
+        "direction",
+        "roundoff",
+        "frequency",
+        "log_decrement",
+    )
+
+    @property
+    def crossings(self) -> tuple[CriticalSpeed, ...]:
+        """Critical speeds by interpolation between the speeds; `critical_speeds` finds all of them."""
+        found: list[CriticalSpeed] = []
+        for values, direction in zip(self.eigenvalues, self.direction, strict=True):
+            known = np.isfinite(values)
+            if np.count_nonzero(known) > 1:
+                order = np.flatnonzero(known)[np.argsort(self.speeds[known])]
+                rows = np.stack([values.imag, log_decrement(values), direction])[:, order]
+                found += _crossed(self.speeds[order], *rows)
+        return tuple(sorted(found, key=lambda one: one.speed))
+
+    def to_table(self) -> ResultTable:
+        """Return whirls, one a row for each speed and mode, as `RotorModes.to_table` has them."""
+        modes, count = self.eigenvalues.shape
+        known = np.isfinite(self.eigenvalues).T.ravel()
+        columns = (
+            Column("speed", "rad/s", np.repeat(self.speeds, modes)),
+            Column("mode", "", np.tile(np.arange(1, modes + 1), count)),
+            *whirl_columns(self.eigenvalues.T.ravel(), self.direction.T.ravel()),
+        )
+        return ResultTable(tuple(one._replace(values=one.values[known]) for one in columns), "Campbell")
+
+    def _pages(self) -> Iterator[ResultTable]:
+        """Yield frequencies and log decrements of the modes over speed, and the critical speeds."""
+        speed = Column("speed", "rad/s", self.speeds)
+        hertz, grows = self.frequency / (2.0 * np.pi), self.grows
+        words = [
+            [
+                "" if np.isnan(value) else f"{value:.4g} {sense[:1].upper()}{'*' if unstable else ' '}"
+                for value, sense, unstable in zip(*row, strict=True)
+            ]
+            for row in zip(hertz, senses(self.direction), grows, strict=True)
+        ]
+        title = "frequency [Hz] by mode; F forward, B backward, M mixed, * grows"
+        yield ResultTable(
+            (speed, *(Column(f"{k}", "", np.array(w)) for k, w in enumerate(words, start=1))), title
+        )
+        decrements = (Column(f"{k}", "", one) for k, one in enumerate(self.log_decrement, start=1))
+        yield ResultTable((speed, *decrements), "log decrement by mode")
+        if found := self.crossings:
+            yield table_of(found, "critical speeds, interpolated")
+
+
+def _crossed(speeds: Array, frequency: Array, decrement: Array, direction: Array) -> Iterator[CriticalSpeed]:
+    """Yield where a frequency that is known at rising speeds crosses that of the rotation."""
+    ways = PchipInterpolator(speeds, np.stack([frequency - np.abs(speeds), decrement, direction], axis=-1))
+    roots = PchipInterpolator(speeds, frequency - np.abs(speeds)).roots(extrapolate=False)
+    for speed in roots[np.isfinite(roots)]:
+        _, there, sense = ways(speed)
+        yield CriticalSpeed(speed=float(speed), log_decrement=float(there), direction=float(sense))
+
 
 _BEYOND = 1.5
 """How far modes of a rotor of many elements are followed / the highest frequency."""
@@ -413,6 +552,13 @@ class CriticalSpeed(Readable):
     speed: float
     log_decrement: float
     direction: float
+
+    _shown: ClassVar[tuple[str, ...]] = ("whirl",)
+
+    @property
+    def whirl(self) -> str:
+        """Whether it is forward, backward or mixed."""
+        return str(senses(self.direction))
 
 
 @one_blas_thread

@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -17,9 +18,11 @@ from scipy.interpolate import PchipInterpolator
 
 from ..core.errors import InputError, require_finite
 from ..core.files import read_text
+from ..core.frames import Column, ResultTable, write_csv
 from ..core.inputs import quantities
 from ..core.model import Array
-from ..core.results import write_csv
+from ..core.readable import Tabled
+from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
 from ..native.film_call import FilmCall
 from ..native.spec import NativeSpec, linear_kernel
@@ -81,7 +84,7 @@ def headings(freedoms: tuple[str, ...]) -> list[str]:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TabulatedBearing(LinearReaction):
+class TabulatedBearing(Tabled, LinearReaction):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.
 
     Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them the bearing
@@ -111,6 +114,8 @@ class TabulatedBearing(LinearReaction):
     damping: ArrayLike
     freedoms: tuple[str, ...] = PLANAR
 
+    _tabled: ClassVar[tuple[str, ...]] = ("speeds", "stiffness", "damping")
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "freedoms", checked_freedoms(self.freedoms))
         speeds = require_rising("speeds", self.speeds)
@@ -138,6 +143,35 @@ class TabulatedBearing(LinearReaction):
             raise InputError(f"{path} must have {len(wanted)} numbers in every row")
         tables = numbers[:, 1:].reshape(len(numbers), 2, len(freedoms), len(freedoms))
         return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1], freedoms=freedoms)
+
+    def found_at(self, equilibria: Sequence[Equilibrium]) -> TabulatedBearing:
+        """Return the table with the equilibria where it was found, one a speed, for print and tables."""
+        found = replace(self)
+        object.__setattr__(found, "_equilibria", tuple(equilibria))
+        return found
+
+    def to_table(self) -> ResultTable:
+        """Return the speeds, one a row: what is known of the equilibria, and K and C by their entries."""
+        rests = vars(self).get("_equilibria", ())
+        return ResultTable(
+            (
+                Column("speed", "rad/s", np.asarray(self.speeds)),
+                *_rest_columns(rests),
+                *(
+                    Column(name.partition(" ")[0], name.partition("[")[2][:-1], values)
+                    for name, values in zip(
+                        headings(self.freedoms)[1:],
+                        np.hstack([table.reshape(len(table), -1) for table in self._tables]).T,
+                        strict=True,
+                    )
+                ),
+            ),
+            "coefficients",
+            "speed",
+        )
+
+    def _pages(self) -> tuple[ResultTable, ...]:
+        return (self.to_table(),)
 
     def to_csv(self, path: Path | str) -> Path:
         """Write the table with nine digits; return the path."""
@@ -195,6 +229,19 @@ class TabulatedBearing(LinearReaction):
             return (0.0 * stiffness, 0.0 * damping) if derivative else (stiffness, damping)
         stiffness, damping = (curve(omega, nu=derivative) for curve in self._curves)
         return stiffness, damping
+
+
+def _rest_columns(rests: tuple[Equilibrium, ...]) -> Iterator[Column]:
+    """Yield what is known of equilibria; a film that tells its losses has power loss and flow too."""
+    units = {"eccentricity_ratio": "1", "attitude_angle": "rad", "minimum_film": "m", "temperature": "K"}
+    for name, unit in units.items():
+        values = [getattr(at, name) for at in rests]
+        if values and None not in values and np.isfinite(values).all():
+            yield Column(name, unit, np.array(values))
+    losses = [at.losses for at in rests]
+    if losses and None not in losses:
+        for name, unit in {"power_loss": "W", "side_flow": "m3/s"}.items():
+            yield Column(name, unit, np.array([getattr(one, name) for one in losses], dtype=float))
 
 
 def require_rising(name: str, values: ArrayLike, least: int = 1) -> Array:

@@ -163,7 +163,7 @@ class AnnularSeal(InertialModel):
         Dynamic viscosity.
     density : float [kg/m3]
     inlet_loss : float [1]
-        Pressure lost at the inlet, in (1/2) density V^2; not negative. Sharp edges lose 0.1 to 0.5.
+        Pressure lost at the inlet, in `density V^2 / 2`; not negative. Sharp edges lose 0.1 to 0.5.
     inlet_swirl : float [1]
         Velocity of the fluid round the shaft where it comes in, in radius * speed.
     friction : HirsFriction

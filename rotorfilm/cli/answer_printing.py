@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.answers import QuestionAnswer, RungReport
+from ..core.frames import write_csv
 from ..core.readable import Readable, without_round_off
-from ..core.results import CircularOrbit, to_plain, write_csv
+from ..core.results import CircularOrbit, to_plain
 from . import printing as console
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     rows += [
         (
             "critical speed",
-            f"{one.speed * RPM:.6g} rpm, {_sense(one.direction)}, log decrement {one.log_decrement:.4g}",
+            f"{one.speed * RPM:.6g} rpm, {one.whirl}, log decrement {one.log_decrement:.4g}",
         )
         for one in answer.critical_speeds
     ]
@@ -126,12 +127,6 @@ def _course(curve: StabilityCurve) -> str:
     first, last = curve.log_decrement[0], curve.log_decrement[-1]
     way = "rising" if last > first else "falling"
     return f"from {first:.4g} without to {last:.4g} at {curve.cross_coupling[-1]:.4g} N/m ({way})"
-
-
-def _sense(direction: float) -> str:
-    if abs(direction) <= 0.1:
-        return "to and fro"
-    return "forward" if direction > 0.0 else "backward"
 
 
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:

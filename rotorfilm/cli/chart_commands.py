@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from .. import charts, studies
 from ..core.errors import visible
+from ..core.frames import write_csv
 from ..core.limits import CHART_STATES, CONTACT_CELLS
 from ..core.progress import Report, part_of
-from ..core.results import write_csv
 from ..core.units import parse_quantity
 from . import printing as console
 from .command import Argument, CommandOutput, Option, Settings, load_scene

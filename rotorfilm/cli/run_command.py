@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..core.errors import InputError
+from ..core.frames import write_csv
 from ..core.progress import Report
-from ..core.results import write_csv
 from . import printing as console
 from .command import (
     Argument,

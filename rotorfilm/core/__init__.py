@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         UnloadedPadWarning as UnloadedPadWarning,
         ValidityWarning as ValidityWarning,
     )
+    from .frames import write_csv
     from .inputs import BUILT, units_of
     from .model import (
         Dynamic as Dynamic,
@@ -46,7 +47,6 @@ if TYPE_CHECKING:
         WhirlThreshold as WhirlThreshold,
         orbit_distance,
         to_plain,
-        write_csv,
     )
     from .signals import (
         FORCE_OUTPUTS,

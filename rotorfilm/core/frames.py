@@ -1,15 +1,20 @@
-"""Results as arrays with dimensions and units: a `pandas.DataFrame` or an `xarray.Dataset`."""
+"""Results as columns and as arrays with units: `pandas.DataFrame`, CSV, JSON, `xarray.Dataset`."""
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .errors import AbsentError
+from .files import write_atomically
 
 AXIS = "axis"
 """Dimension along x and y; that of forces in a matrix is `force_axis`."""
@@ -93,22 +98,102 @@ def to_dataset(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any])
     return xarray.Dataset(renamed, coords=coords, attrs=notes)
 
 
-def to_frame(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -> Any:
-    """Return a pandas.DataFrame; what does not run along its rows is in its `attrs`, as are the units."""
-    pandas = optional("pandas", "pandas")
-    columns, units, rest = {}, {}, {}
+class Column(NamedTuple):
+    """One quantity of a table.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        Of the values; empty for words.
+    values : ndarray or sequence
+        Real numbers or words, one a row.
+    heading : str
+        What is printed above it in place of the name.
+    """
+
+    name: str
+    unit: str
+    values: Any
+    heading: str = ""
+
+
+class ResultTable(NamedTuple):
+    """Columns of equal length, from which print, data frame, CSV and JSON follow.
+
+    Attributes
+    ----------
+    columns : tuple of Column
+    title : str
+    key : str
+        Name of the column that is the index of a data frame; may be empty.
+    notes : mapping
+        What is said beside the rows, by name: numbers in SI and words.
+    units : mapping of str to str
+        Units of the numbers among the notes.
+    """
+
+    columns: tuple[Column, ...]
+    title: str = ""
+    key: str = ""
+    notes: Mapping[str, Any] = {}
+    units: Mapping[str, str] = {}
+
+    @property
+    def every_unit(self) -> dict[str, str]:
+        """The units of all columns and of the notes that have one, by name."""
+        return {**{one.name: one.unit for one in self.columns}, **self.units}
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas.DataFrame, its units in `attrs`; raise AbsentError without pandas."""
+        pandas = optional("pandas", "pandas")
+        frame = pandas.DataFrame({one.name: one.values for one in self.columns})
+        if self.key in frame:
+            frame = frame.set_index(self.key)
+        frame.attrs = {"units": self.every_unit, "title": self.title, **self.notes}
+        return frame
+
+    def to_csv(self, path: Path | str) -> Path:
+        """Write the columns as CSV, units in the headings and floats with nine digits; return the path."""
+        headed = {f"{one.name} [{one.unit}]" if one.unit else one.name: one.values for one in self.columns}
+        return write_csv(path, {name: np.asarray(values).tolist() for name, values in headed.items()})
+
+    def to_json(self) -> str:
+        """Return title, units, columns by name and notes as JSON; what is not finite is null."""
+        columns = {one.name: _plain(np.asarray(one.values).tolist()) for one in self.columns}
+        notes = {name: _plain(value) for name, value in self.notes.items()}
+        return json.dumps(
+            {"title": self.title, "units": self.every_unit, "columns": columns, "notes": notes},
+            allow_nan=False,
+        )
+
+
+def _plain(value: Any) -> Any:
+    """Return numbers and lists of them as JSON holds them."""
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def to_table(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -> ResultTable:
+    """Return the columns of arrays along their rows; arrays that do not run along them are notes."""
+    columns: list[Column] = []
+    rest: dict[str, Any] = {}
+    units: dict[str, str] = {}
     for name, one in arrays.items():
         if along and along not in one.dims:
-            rest[name] = one.values.tolist()
-            units[name] = one.unit
-            continue
-        for key, values in _columns(name, one, along):
-            columns[key], units[key] = values, one.unit
-    frame = pandas.DataFrame(columns)
-    if index in columns:  # a complex one is two
-        frame = frame.set_index(index)
-    frame.attrs = {"units": units, **notes, **rest}
-    return frame
+            for key, part in _real(name, one.values):
+                rest[key], units[key] = part.tolist(), one.unit
+        else:
+            columns += [Column(key, one.unit, values) for key, values in _columns(name, one, along)]
+    return ResultTable(tuple(columns), notes.get("title", ""), index, {**notes, **rest}, units)
+
+
+def _real(name: str, values: np.ndarray) -> tuple[tuple[str, np.ndarray], ...]:
+    """Return numbers under their name, complex ones as two, which CSV, Excel and Parquet hold."""
+    if not np.iscomplexobj(values):
+        return ((name, values),)
+    return (f"{name}_real", values.real), (f"{name}_imag", values.imag)
 
 
 def rows_of(arrays: Arrays) -> str:
@@ -125,7 +210,14 @@ def _columns(name: str, one: LabeledArray, along: str) -> Iterator[tuple[str, np
         ends = ["xy"[k] if dim.endswith(AXIS) else str(k) for k, dim in zip(place, dims, strict=True)]
         matrix = "".join(ends) if all(dim.endswith(AXIS) for dim in dims) else "_".join(ends)
         key, column = "_".join([name, matrix]) if matrix else name, values[(slice(None), *place)]
-        if np.iscomplexobj(column):  # which CSV, Excel and Parquet do not hold
-            yield from ((f"{key}_real", column.real), (f"{key}_imag", column.imag))
-        else:
-            yield key, column
+        yield from _real(key, column)
+
+
+def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path:
+    """Write columns of equal length, by their headings, as CSV: floats with nine digits; return the path."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*columns.values(), strict=True):
+        writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
+    return write_atomically(path, text.getvalue().encode())

@@ -33,6 +33,7 @@ from .errors import (
     warn_user,
 )
 from .limits import MAGNITUDE, NUMBER
+from .readable import as_data_sheet
 from .units import DISPLAY_UNITS, UNITS, WEIGHT, parse_quantity, si_name
 
 # Public functions: quantities with their units, and arguments of the wrong kind that name themselves.
@@ -90,7 +91,7 @@ def units_of(documented: Any) -> Mapping[str, str]:
 
 
 def quantities(cls: type[T]) -> type[T]:
-    """Let a public dataclass take quantities with their units.
+    """Let a public dataclass take quantities with their units, and print as a data sheet.
 
     Raises, from then on
     --------------------
@@ -103,7 +104,7 @@ def quantities(cls: type[T]) -> type[T]:
         If a dimension is far outside of what is built, as `dimensions.BUILT` has it.
     """
     cls.__init__ = in_si(cls.__init__, cls)  # type: ignore[method-assign]
-    return cls
+    return as_data_sheet(cls)
 
 
 def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -20,8 +21,10 @@ from .units import CELSIUS, DISPLAY_UNITS
 
 Row = tuple[str, str]
 
+T = TypeVar("T")
+
 MANY = 12
-"""Results in a tuple beyond which only the first and the last are shown."""
+"""Results in a tuple beyond which only the first and the last are shown, and rows of a table."""
 
 
 SERIES, UNITS = "signals", "units"
@@ -93,11 +96,44 @@ def rows(**things: Any) -> list[Row]:
     return rows_of(Item(name, value, "", ()) for name, value in things.items())
 
 
-class Readable:
-    """A result that people, notebooks and tables read with units; its docstring says which."""
+class Tabled:
+    """What gives a table: its data frame, CSV and JSON."""
+
+    def to_table(self) -> frames.ResultTable:
+        """Return the numbers as columns with units."""
+        raise NotImplementedError
+
+    def to_dataframe(self) -> Any:
+        """Return `to_table` as a pandas.DataFrame, its units by column in `attrs`, and its notes.
+
+        Raises
+        ------
+        AbsentError
+            If pandas is not installed.
+        """
+        return self.to_table().to_dataframe()
+
+    def to_csv(self, path: Path | str) -> Path:
+        """Write `to_table` as CSV, units in the headings; return the path."""
+        return self.to_table().to_csv(path)
+
+    def to_json(self) -> str:
+        """Return `to_table` as JSON: title, units, columns and notes; what is not finite is null."""
+        return self.to_table().to_json()
+
+
+class Readable(Tabled):
+    """A result that people, notebooks and tables read with units; its docstring says which.
+
+    A result that reads as a table says its columns in `to_table`, what is printed of them in `_pages`, and
+    which of its fields these show in `_tabled`.
+    """
 
     _shown: ClassVar[tuple[str, ...]] = ()
     """Properties that are shown behind the fields."""
+
+    _tabled: ClassVar[tuple[str, ...]] = ()
+    """Fields and properties that its pages show, which have no row of their own in print."""
 
     _along: ClassVar[str] = ""
     """Dimension along which the rows of a data frame run, where it is not that of the first series."""
@@ -114,6 +150,10 @@ class Readable:
         """Yield what goes into data frames and data sets."""
         return items_of(self, self._shown)
 
+    def _pages(self) -> Iterable[frames.ResultTable]:
+        """Return the tables that are printed below the rows."""
+        return ()
+
     def to_rows(self) -> list[Row]:
         """Return names and values with their units, a row for each; of a result in it, all of its rows."""
         return rows_of(items_of(self, self._shown))
@@ -122,23 +162,20 @@ class Readable:
         return f"{type(self).__name__}({in_one_line(self.to_rows())})"
 
     def __str__(self) -> str:
-        shown = self.to_rows()
-        width = max((len(label) for label, _ in shown), default=0)
-        lines = [f"{visible(label):{width}}  {visible(text)}".rstrip() for label, text in shown]
-        return "\n".join([type(self).__name__, *lines])
+        return printed(self, self._rows(), self._pages())
+
+    def _rows(self) -> list[Row]:
+        """Return the rows above the pages."""
+        items = items_of(self, self._shown)
+        return (
+            rows_of(one for one in items if one.name not in self._tabled) if self._tabled else self.to_rows()
+        )
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         printer.text("..." if cycle else str(self))
 
     def _repr_html_(self) -> str:
-        from html import escape  # with a table of all letters, which no calculation needs
-
-        lines = "".join(
-            f'<tr><th style="text-align:left">{escape(visible(label)).replace("  ", "&#8195;")}</th>'
-            f'<td style="text-align:left"><pre style="margin:0">{escape(visible(text))}</pre></td></tr>'
-            for label, text in self.to_rows()
-        )
-        return f"<table><caption>{type(self).__name__}</caption><tbody>{lines}</tbody></table>"
+        return printed_html(self, self._rows(), self._pages())
 
     def to_xarray(self) -> Any:
         """Return the numbers as an xarray.Dataset, each with its unit in `attrs`; texts are in its own.
@@ -153,19 +190,14 @@ class Readable:
         """
         return self._handed(frames.to_dataset)
 
-    def to_dataframe(self) -> Any:
-        """Return the numbers as a pandas.DataFrame, with all units in its `attrs`, by column.
+    def to_table(self) -> frames.ResultTable:
+        """Return the numbers as columns with units, from which data frame, CSV and JSON are made.
 
-        Its rows run along the first series, as the time; what does not is in `attrs`. Without a series there
+        Rows run along the first series, as the time; what does not is among the notes. Without a series there
         is one row. Vectors and matrices have a column for each entry, as `position_x` and `stiffness_xy`;
         complex numbers have two, which end in `_real` and `_imag`.
-
-        Raises
-        ------
-        AbsentError
-            If pandas is not installed.
         """
-        return self._handed(frames.to_frame)
+        return self._handed(frames.to_table)
 
     def _handed(self, make: Callable[..., Any]) -> Any:
         arrays, notes = _arrays(self._items())
@@ -192,6 +224,155 @@ class Drawable(Readable):
         Axes, or several of them
         """
         return offered("plot_result")(self, axes=axes)
+
+
+# Print and notebooks: names and values, and tables below them.
+
+
+def printed(thing: Any, rows: Sequence[Row], pages: Iterable[frames.ResultTable]) -> str:
+    """Return the name of a class, rows and pages of an object of it as text."""
+    width = max((len(label) for label, _ in rows), default=0)
+    lines = [f"{visible(label):{width}}  {visible(text)}".rstrip() for label, text in rows]
+    return "\n".join([type(thing).__name__, *lines, *map(table_text, pages)])
+
+
+def printed_html(thing: Any, rows: Sequence[Row], pages: Iterable[frames.ResultTable]) -> str:
+    """Return the same as HTML."""
+    from html import escape  # with a table of all letters, which no calculation needs
+
+    lines = "".join(
+        f'<tr><th style="text-align:left">{escape(visible(label)).replace("  ", "&#8195;")}</th>'
+        f'<td style="text-align:left"><pre style="margin:0">{escape(visible(text))}</pre></td></tr>'
+        for label, text in rows
+    )
+    head = f"<table><caption>{type(thing).__name__}</caption><tbody>{lines}</tbody></table>"
+    tables = "".join(map(table_html, pages))
+    return f"<div>{head}{tables}</div>" if tables else head
+
+
+def table_of(things: Sequence[Any], title: str = "") -> frames.ResultTable:
+    """Return what many objects of one dataclass hold as a table, one a row, without what is usual in all.
+
+    A dataclass that all of them share is told in the title.
+    """
+    rows = [list(items_of(one, getattr(one, "_shown", ()))) for one in things]
+    usual = {one.name: repr(one.default) for one in fields(things[0])}
+    columns: list[frames.Column] = []
+    for name in dict.fromkeys(item.name for row in rows for item in row):
+        items = [next((item for item in row if item.name == name), None) for row in rows]
+        first = next(item for item in items if item is not None)
+        values = [None if item is None else item.value for item in items]
+        if all(repr(value) == usual.get(name) for value in values):
+            continue
+        if all(value is None or (is_number(value) and not np.ndim(value)) for value in values):
+            absolute = [math.nan if value is None else value for value in values]
+            columns.append(frames.Column(name, first.unit, np.array(absolute)))
+            continue
+        words = ["" if item is None else _words(item) for item in items]
+        if is_dataclass(first.value) and len(words) > 1 and len(set(words)) == 1:
+            title += f"; {label_of(name)}: {words[0]}"
+        else:
+            columns.append(frames.Column(name, "", np.array(words, dtype=object)))
+    return frames.ResultTable(tuple(columns), title)
+
+
+def as_data_sheet(cls: type[T]) -> type[T]:
+    """Let inputs print as a data sheet: what was given, with units, and tables of their parts."""
+
+    def text(self: Any) -> str:
+        return printed(self, sheet_rows(self), sheet_pages(self))
+
+    def pretty(self: Any, printer: Any, cycle: bool) -> None:
+        printer.text("..." if cycle else str(self))
+
+    cls.__str__ = text  # type: ignore[method-assign]
+    cls._repr_pretty_ = pretty  # type: ignore[attr-defined]
+    cls._repr_html_ = lambda self: printed_html(self, sheet_rows(self), sheet_pages(self))  # type: ignore[attr-defined]
+    return cls
+
+
+def sheet_rows(thing: Any) -> list[Row]:
+    """Return the rows of an input: all but plain defaults and what its pages show."""
+    usual = {one.name: repr(one.default) for one in fields(thing)}
+    items, tabled = items_of(thing, getattr(thing, "_shown", ())), getattr(thing, "_tabled", ())
+    told = (one for one in items if one.name not in tabled and not _is_many(one.value))
+    return rows_of(one for one in told if is_dataclass(one.value) or repr(one.value) != usual.get(one.name))
+
+
+def sheet_pages(thing: Any) -> Iterator[frames.ResultTable]:
+    """Yield the pages of an input: its own, and a table of each tuple of parts, as the disks of a rotor."""
+    for one in items_of(thing):
+        if _is_many(one.value):
+            yield table_of(one.value, label_of(one.name))
+    yield from getattr(thing, "_pages", tuple)()
+
+
+def _is_many(value: Any) -> bool:
+    return isinstance(value, tuple) and bool(value) and all(is_dataclass(one) for one in value)
+
+
+def table_text(table: frames.ResultTable) -> str:
+    """Return a table as text, numbers to the right; of many rows some, from the first to the last."""
+    columns = [[heading, *cells] for heading, cells in shown_columns(table)]
+    words = [_is_words(one) for one in table.columns]
+    widths = [max(map(len, column), default=0) for column in columns]
+    lines = [
+        "  ".join(
+            f"{cell:{'<' if word else '>'}{width}}"
+            for cell, word, width in zip(row, words, widths, strict=True)
+        ).rstrip()
+        for row in zip(*columns, strict=True)
+    ]
+    return "\n".join(["", *([_titled(table)] if table.title else []), *lines])
+
+
+def table_html(table: frames.ResultTable) -> str:
+    """Return a table as HTML."""
+    from html import escape
+
+    columns = [[heading, *cells] for heading, cells in shown_columns(table)]
+    heads, *rows = zip(*columns, strict=True)
+    head = "".join(f"<th>{escape(cell)}</th>" for cell in heads)
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    return f"<table><caption>{escape(_titled(table))}</caption><tbody><tr>{head}</tr>{body}</tbody></table>"
+
+
+def shown_columns(table: frames.ResultTable) -> list[tuple[str, list[str]]]:
+    """Return heading and cells of each column, in a unit of the size of its numbers."""
+    return [_shown_column(one) for one in table.columns]
+
+
+def _titled(table: frames.ResultTable) -> str:
+    count = len(table.columns[0].values) if table.columns else 0
+    return f"{table.title} ({MANY} of {count} rows)" if count > MANY else table.title
+
+
+def _is_words(column: frames.Column) -> bool:
+    return np.asarray(column.values).dtype.kind in "OU"
+
+
+def _shown_column(column: frames.Column) -> tuple[str, list[str]]:
+    values, heading = np.asarray(column.values), column.heading or label_of(column.name)
+    if len(values) > MANY:
+        values = values[np.linspace(0, len(values) - 1, MANY).round().astype(int)]
+    if _is_words(column):
+        return heading, ["" if one is None else visible(str(one)) for one in values]
+    if values.dtype.kind in "iub":
+        return heading, [_number(one) for one in values]
+    unit, numbers = column_scale(column.name, column.unit, values)
+    cells = [f"{one + 0.0:.5g}" if np.isfinite(one) else "-" for one in numbers]
+    return f"{heading} [{unit}]" if unit else heading, cells
+
+
+def column_scale(name: str, unit: str, values: np.ndarray) -> tuple[str, np.ndarray]:
+    """Return the unit in which people read numbers of a quantity, and the numbers in it."""
+    if unit == "rad/s":
+        turns = ("Hz", 0.5 / math.pi) if "frequency" in name else ("rpm", 30.0 / math.pi)
+        return turns[0], values * turns[1]
+    if unit == "K" and name.endswith("temperature"):
+        return "degC", values - CELSIUS
+    shown, factor = _scale(unit, float(np.abs(values[np.isfinite(values)]).max(initial=0.0)))
+    return shown, values / factor if factor != 1.0 else values
 
 
 def _rows(item: Item) -> list[Row]:

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import io
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RotorfilmError, require_each, require_finite
-from .files import write_atomically
 from .readable import Drawable, Item, Readable, Row, rows_of
 from .signals import PLANAR
 
@@ -368,13 +364,3 @@ def to_plain(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     return value
-
-
-def write_csv(path: Path | str, columns: Mapping[str, Iterable[object]]) -> Path:
-    """Write columns of equal length, by their headings, as CSV: floats with nine digits; return the path."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    for row in zip(*columns.values(), strict=True):
-        writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
-    return write_atomically(path, text.getvalue().encode())

@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import norm, t as student
+from scipy.stats import chi2, norm, t as student
 
 from ..analysis import equilibrium
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import JournalBearing, heat_surplus
-from ..core.errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
+from ..core.errors import (
+    ConvergenceError,
+    InputError,
+    ValidityWarning,
+    require_kind,
+    require_number,
+    warn_user,
+)
+from ..core.frames import Column, ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.readable import Readable
+from ..core.readable import Readable, quantity
 from ..core.results import Equilibrium
-from .measurements import Measurements
+from .measurements import QUANTITIES, Measurements
 
 # Parameters of a bearing that a fit may find: where they are, and how they are scaled.
 
@@ -38,6 +46,7 @@ ZEROS = ("zero_x", "zero_y")
 """What the sensors show of a journal in the center of its bearing."""
 
 NAMES = (*_BEARING, *_COOLING, *ZEROS)
+_UNITS = dict(zip(NAMES, ("m", "m", "Pa s", "K", "K", "K", "W/K", "1", "m", "m"), strict=True))
 _POSITIVE = ("clearance", "length", "viscosity")
 _RANGE = {"housing_conductance": (0.0, math.inf), "carry_over": (0.0, 1.0)}
 
@@ -182,6 +191,9 @@ TAKES_PART = 0.1
 
 TOLERANCE = 1e-12
 
+CHANCE = 0.999
+"""Share of fits whose misfit is as stated, beyond which one is doubted."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class FittedParameter(Readable):
@@ -218,6 +230,8 @@ class BearingFit(Readable):
     misfit : float [1]
         Root of the mean square of what is left over, in the noise of each quantity, or in its size where no
         noise was given.
+    highest_misfit : float [1]
+        What the stated noise explains in 999 of 1000 fits; infinite where none was given.
     residuals : dict of str to ndarray, shape (n,)
         Measured less fitted, by quantity, in its SI unit; not-a-number where nothing was measured.
     bearing : JournalBearing
@@ -230,9 +244,51 @@ class BearingFit(Readable):
     confidence: float
     correlation: Array
     misfit: float
+    highest_misfit: float
     residuals: dict[str, Array]
     bearing: JournalBearing
     evaluations: int
+
+    _shown: ClassVar[tuple[str, ...]] = ("verdict",)
+    _tabled: ClassVar[tuple[str, ...]] = ("parameters", "residuals")
+
+    @property
+    def verdict(self) -> str:
+        """Whether the noise that was stated explains what is left over."""
+        if self.misfit <= self.highest_misfit:
+            return (
+                "the stated noise explains the misfit" if self.highest_misfit < math.inf else "no noise given"
+            )
+        return (
+            f"the misfit is {self.misfit:.3g} times the stated noise, more than chance explains "
+            f"({self.highest_misfit:.3g}): noise, model or fixed parameters are wrong"
+        )
+
+    def to_table(self) -> ResultTable:
+        """Return the parameters, one a row: value, standard error and interval, each in its SI unit."""
+        names, found = list(self.parameters), list(self.parameters.values())
+        numbers = ("value", "standard_error", "low", "high")
+        return ResultTable(
+            (
+                Column("parameter", "", np.array(names, dtype=object)),
+                Column("unit", "", np.array([_UNITS.get(name, "") for name in names], dtype=object)),
+                *(Column(key, "", np.array([getattr(one, key) for one in found])) for key in numbers),
+            ),
+            "BearingFit",
+            "parameter",
+            {"misfit": self.misfit, "confidence": self.confidence, "verdict": self.verdict},
+            {"misfit": "1", "confidence": "1"},
+        )
+
+    def _pages(self) -> Iterator[ResultTable]:
+        names, units, *numbers = self.to_table().columns
+        columns = (
+            Column(one.name, "", np.array(list(map(quantity, one.values, units.values)), dtype=object))
+            for one in numbers
+        )
+        yield ResultTable((names, *columns), f"parameters, intervals of {self.confidence:.0%} confidence")
+        left = (Column(name, QUANTITIES.get(name, ""), values) for name, values in self.residuals.items())
+        yield ResultTable(tuple(left), "measured less fitted")
 
 
 @arguments
@@ -320,7 +376,8 @@ def fit_bearing(
     ends = [search.values(np.clip(found.x + side * quantile * error, *search.bounds)) for side in (-1.0, 1.0)]
     columns = (search.values(found.x), error * search.slopes(found.x), *ends)
     left = measured.table - search.predicted(found.x)
-    return BearingFit(
+    stated = measured.noise is not None and spare > 0
+    fit = BearingFit(
         parameters={
             name: FittedParameter(value=value, standard_error=sigma, low=low, high=high)
             for name, value, sigma, low, high in zip(search.names, *np.array(columns).tolist(), strict=True)
@@ -328,10 +385,14 @@ def fit_bearing(
         confidence=confidence,
         correlation=inverse / np.sqrt(np.outer(np.diag(inverse), np.diag(inverse))),
         misfit=math.sqrt(2.0 * found.cost / measured.count),
+        highest_misfit=math.sqrt(float(chi2.ppf(CHANCE, spare)) / measured.count) if stated else math.inf,
         residuals=dict(zip(measured.names, left.T, strict=True)),
         bearing=search.trial(found.x)[0],
         evaluations=int(found.nfev),
     )
+    if fit.misfit > fit.highest_misfit:
+        warn_user(fit.verdict, ValidityWarning)
+    return fit
 
 
 @lru_cache(maxsize=4)

@@ -250,7 +250,8 @@ ORDER = 2
 SHARED_ORDER = 1.5
 """Of it where the contact melts as a whole, with 6 to 100 nodes: its front moves from node to node.
 
-Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimate at worst (docs/bush.md).
+Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimate at worst
+(docs/bush_wear.md).
 """
 
 CLOSED = ", closed-form flux"

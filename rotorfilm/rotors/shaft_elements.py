@@ -26,6 +26,7 @@ class ElasticMaterial:
     young_modulus, shear_modulus : float [Pa]
         Elastic moduli in tension and in shear.
     density : float [kg/m3]
+        Mass per volume.
     """
 
     young_modulus: float
@@ -503,6 +504,7 @@ class Disk:
     Parameters
     ----------
     node : int
+        Index of the node, from 0 at the first end of the shaft.
     mass : float [kg]
     diametral_inertia, polar_inertia : float [kg m2]
         Moments of inertia about a diameter and about the axis.
@@ -560,9 +562,11 @@ class Support:
     Parameters
     ----------
     mass : float [kg]
+        Of the housing.
     stiffness : float [N/m] or 2 x 2 numbers
         From the housing to the ground; one number is the same in both directions.
     damping : float [N s/m] or 2 x 2 numbers
+        Beside that stiffness.
 
     Raises
     ------
@@ -588,10 +592,12 @@ class TiltSpring:
     Parameters
     ----------
     node : int
+        Index of the node, from 0 at the first end of the shaft.
     stiffness : float [N m/rad] or 2 x 2 numbers
         Moment against tilt_x (rotation of the shaft in the x-z plane) and tilt_y; one number is the same in
         both planes.
     damping : float [N m s/rad] or 2 x 2 numbers
+        Moment against the rates of these tilts.
 
     Raises
     ------
@@ -643,7 +649,9 @@ class Probe:
     Parameters
     ----------
     node : int
+        Index of the node, from 0 at the first end of the shaft.
     name : str
+        Prefix of its outputs.
     """
 
     node: int

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -80,7 +80,8 @@ class ShaftRotor(FlexibleRotor):
         elements and couplings and drives forward whirl slower than the shaft.
     mass_damping, stiffness_damping : float [1/s, s]
         Proportional damping alpha M + beta K of shaft and disks against the ground: it does not turn with the
-        shaft. A mode w of a free shaft has the damping ratio alpha / (2 w) + beta w / 2.
+        shaft. A mode w of a free shaft has the damping ratio
+        `alpha / (2 w) + beta w / 2`.
     loss_factor : float [1]
         Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
         strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
@@ -135,6 +136,8 @@ class ShaftRotor(FlexibleRotor):
     initial: tuple[float, ...] = ()
     axial: bool = False
     torsional: bool = False
+
+    _shown: ClassVar[tuple[str, ...]] = ("mass",)
 
     def __post_init__(self) -> None:
         if all(isinstance(element, Coupling) for element in self.elements):

@@ -18,11 +18,12 @@ from ..bearings.journal import JournalBearing, fitted_bearing
 from ..bearings.oil import GRADES, Cooling, Oil
 from ..core.errors import PartialResultError
 from ..core.files import write_atomically
+from ..core.frames import write_csv
 from ..core.model import Array
 from ..core.port import clearance_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
-from ..core.results import Trajectory, orbit_distance, to_plain, write_csv
+from ..core.results import Trajectory, orbit_distance, to_plain
 from ..core.units import CELSIUS
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly

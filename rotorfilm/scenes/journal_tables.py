@@ -64,6 +64,7 @@ class ConservedOil:
     Parameters
     ----------
     cells : tuple of int
+        Cells around the film and along half the length.
     """
 
     cells: tuple[int, int] = (144, 12)

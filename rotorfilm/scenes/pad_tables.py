@@ -294,7 +294,7 @@ class LobedTable(PadTable):
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
     preload, extent, offset, turned : float or None [1], [rad], [1], [rad]
-        Of a preset: preload of each lobe (.5), its angle, the place of its least film as a share of its arc,
+        Of a preset: preload of each lobe (0.5), its angle, the place of its least film as a share of its arc,
         and the angle by which all are turned.
     lobes : tuple of Lobe
         The pads one by one.

@@ -89,7 +89,8 @@ class BallTable(Taking):
     contact_angle : float or None [rad]
         Of the unloaded balls of an angular contact bearing.
     ball_material, ring_material : RollingMaterial
-        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density.
+        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density. Steel unless
+        given.
     growth : float [m]
         Radial growth of the inner ring.
     axial_displacement : float [m]

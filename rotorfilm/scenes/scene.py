@@ -71,7 +71,7 @@ class QuestionTable:
     Parameters
     ----------
     quantity : str
-        A key of `QUANTITIES`.
+        Its name, such as "stiffness"; docs/questions.md lists all.
     tolerance : float [1]
         Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
         co-simulation to the clearance, of an angle to 1 rad, of a temperature to its rise above the supply.

@@ -62,6 +62,7 @@ class PieceTable(reading.Taking):
     length : float [m]
         Of the whole piece.
     pieces : int
+        Number of equally long elements.
     material : ElasticMaterial or None
         Another one than that of the shaft.
     """
@@ -100,7 +101,9 @@ class DiskTable(reading.Taking):
     Parameters
     ----------
     mass : float or None [kg]
+        Of a disk of given mass and inertia.
     width, outer_diameter, inner_diameter : float [m]
+        Of a disk of given size; a width and an outer diameter take the place of a mass.
     density : float or None [kg/m3]
         Of a disk of given size; that of the shaft unless given.
     """
@@ -142,10 +145,13 @@ class BearingTable:
     name : str
         Prefix of its signals.
     node : int
+        Index of its node, from 0 at the first end of the shaft.
     journal : JournalTable or None
         A journal bearing at the node.
     stiffness : float [N/m] or 2 x 2 numbers, or None
+        Of a bearing given by constant coefficients.
     damping : float [N s/m] or 2 x 2 numbers
+        Beside that stiffness.
     seal : AnnularSeal or None
         With its added mass, which a run over time leaves out.
     support : Support or None
@@ -214,6 +220,7 @@ class CouplingShare:
     Parameters
     ----------
     node : int
+        Index of the node, from 0 at the first end of the shaft.
     share : float [1]
         Part of the cross-coupling; the parts are scaled to a sum of 1.
     """
@@ -346,13 +353,19 @@ class ShaftTable(reading.Taking):
     Parameters
     ----------
     material : ElasticMaterial
+        Of the shaft.
     elements : tuple of PieceTable and Coupling
-        From the first node to the last.
+        Pieces of shaft and couplings, from the first node to the last.
     bearings : tuple of BearingTable
+        At least one: a journal bearing, an annular seal, or springs and dampers.
     speeds : SpeedRangeTable
-    disks, unbalances : tuple
-        Of DiskTable, UnbalanceTable.
+        Speeds at which modes are found, and the range of thresholds and critical speeds.
+    disks : tuple of DiskTable
+        Disks of given size, or of given mass and inertia.
+    unbalances : tuple of UnbalanceTable
+        That turn with the shaft.
     beam : Beam
+        Beam element; that of fourth order unless given.
     highest_frequency : float or None [rad/s]
         Of the modes shown; twice the last speed unless given.
     compressor : CompressorTable or None

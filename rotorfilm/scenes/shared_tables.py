@@ -165,6 +165,7 @@ class LubricantTable(reading.Taking):
     heat_capacity : float or None [J/(kg K)]
         Per mass.
     conductivity : float or None [W/(m K)]
+        Thermal conductivity of the oil.
     thinning : float or None [1/K]
         -d ln(viscosity)/d temperature; with `viscosity_40` alone the same at all temperatures.
     bulk_modulus : float [Pa]
@@ -418,6 +419,7 @@ class MotorTable(UnbalanceTable):
     stall_torque : float [N m]
         Torque at rest; it falls in a line to nothing at the idle speed.
     idle_speed : float [rad/s]
+        At which the motor has no torque.
     resistance : float [N m s/rad]
         Torque per rad/s that resists.
     """
@@ -450,8 +452,8 @@ class GroundTable:
     displacement : tuple or None
         Columns time [s], x and maybe y [m]; the cubic spline through it, at rest at both ends.
     spectrum : tuple or None
-        Columns frequency [rad/s] and one-sided spectral density per rad/s of the acceleration [m2/s3], the
-        same along x and along y.
+        Columns `frequency [rad/s]` and `density [m2/s3]`, the one-sided spectral density of the acceleration,
+        the same along x and along y.
     scale : float [1]
         By which the motion is multiplied.
     seed : int

@@ -3,12 +3,13 @@
 import control
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
-from rotorfilm import FmuError, JournalBearing
+from rotorfilm import ElasticMaterial, FmuError, JournalBearing, mount
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.fmu import from_state_space
 from rotorfilm.fmu.reference import reference_table, to_csv
-from rotorfilm.rotors import RigidRotor
+from rotorfilm.rotors import Disk, RigidRotor, ShaftElement, ShaftRotor, Station, Unbalance
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 
@@ -54,3 +55,29 @@ def test_csv_reads_back_exactly():
     header, *lines = to_csv(names, table).decode().splitlines()
     assert header == 'time,a,b,c,d,e,"f,g",h'
     np.testing.assert_array_equal(np.loadtxt(lines, delimiter=","), table)
+
+
+def test_the_table_of_a_rotor_on_films_is_that_of_a_plain_integration():
+    steel = ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7800.0)
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=0.6, outer_diameter=0.05, material=steel).split(2),
+        disks=(Disk.solid(1, outer_diameter=0.3, width=0.06, inner_diameter=0.05, density=7800.0),),
+        stations=(Station(node=0, name="left"), Station(node=2, name="right")),
+        unbalances=(Unbalance(node=1, unbalance=1e-4),),
+        speed=157.0,
+    )
+    model = mount(rotor, {"left": BEARING, "right": BEARING})
+    table = reference_table(model, np.zeros(0), 5e-4)
+    plain = solve_ivp(
+        lambda t, x: model.derivative(t, x, np.zeros(0)),
+        (0.0, 5e-4),
+        model.initial_state,
+        method="Radau",
+        jac=lambda t, x: model.linearization(t, x, np.zeros(0)).A,
+        t_eval=table[:, 0],
+        rtol=1e-7,
+        atol=1e-14,
+    )
+    expected = np.array([model.output(t, x, np.zeros(0)) for t, x in zip(plain.t, plain.y.T, strict=True)])
+    largest = np.abs(expected).max(axis=0)
+    assert np.abs(table[:, 1:] - expected).max(axis=0) / largest == pytest.approx(0.0, abs=1e-5)

@@ -96,7 +96,7 @@ def copy(tmp_path_factory):
     shutil.copytree(PACKAGE, made, ignore=shutil.ignore_patterns("__pycache__"))
     insert(made / "questions" / "quantities.py", "\nQUANTITIES = {\n", shown("A new quantity"))
     insert(
-        made / "scenes" / "quantities.toml", "docs/scenes.md.\n\n", 'loss_per_flow = "of a film [J/m^3]"\n'
+        made / "scenes" / "quantities.toml", "docs/questions.md.\n\n", 'loss_per_flow = "of a film [J/m^3]"\n'
     )
     return made
 

@@ -165,7 +165,7 @@ def test_a_pulse_of_load_wears_as_many_nodes_say():
     ],
 )
 def test_errors_under_a_falling_load_are_near_their_estimates(operation, excitation, rung):
-    # order 1.5 is fitted: over all scenes tried an error is 1.6 times its estimate at worst (docs/bush.md)
+    # order 1.5 is fitted: an error is 1.6 times its estimate at worst (docs/bush_wear.md)
     falling = scene(operation=operation, excitation=excitation)
     truth = wear_by_nodes(falling).value
     at = ladder_of(falling).rungs[rung]

@@ -356,6 +356,7 @@ class RollingBall:
     Parameters
     ----------
     radius : float [m]
+        Of the ball.
     mass : float [kg]
         Moving with the ball against the contact.
     modulus, poisson_ratio : float [Pa, 1]

@@ -152,7 +152,7 @@ class AxialFeed:
     Parameters
     ----------
     start_pressure, end_pressure : float [Pa]
-        Gauge pressure at z = -length/2 and z = length/2. Zero is the pressure at which the film ruptures.
+        Gauge pressure at both ends, the first at negative z. Zero is the pressure at which the film ruptures.
     """
 
     start_pressure: float

@@ -38,7 +38,7 @@ from ..films.law import CENTER, PolarResponse, cartesian_force, cartesian_jacobi
 # so the layer answers a film pressure of mode n with the flux D_n = P_Y(0)/P(0). The mode leaks as a
 # film of thickness h does whose h^3 is raised by c_n = 12 Phi D_n/q^2 with q = 2 (H/L) a_n, Phi = A
 # H/C^3: a short porous film is the weighted sum of films with 1/(h^3 + c_n), the weights being those
-# of the parabola 1 - Z^2. After Cusano & Funk (1977); see docs/damper.md for the errata of Akhverdiev
+# of the parabola 1 - Z^2. After Cusano & Funk (1977); see docs/damper_films.md for errata of Akhverdiev
 # et al.
 
 

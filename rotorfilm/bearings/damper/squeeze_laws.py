@@ -133,7 +133,7 @@ class PublishedSqueeze(SqueezeOptions):
     Full film, linear in eccentricity and velocity. The leak is that of a vented back with the flux number
     Delta1 = 12 grading/(grading + 6) of the authors' polynomial through the layer: no effect without grading
     and a trend opposite to that of a real layer. A radial feed passes a film that does not leak. Equations
-    (37)-(40); docs/damper.md has the errata. Not for design.
+    (37)-(40); docs/damper_films.md has the errata. Not for design.
     """
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:

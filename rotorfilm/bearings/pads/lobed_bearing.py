@@ -93,7 +93,7 @@ class Lobe(OwnCenter):
         1 - c_b/c_p with the assembled clearance c_b, in [0, 1).
     offset : float [1]
         Place of the least film at the centered journal, as a share of the arc from its start, in [0, 1]:
-        .5 for lobes, 1 where the film narrows all along the pad.
+        0.5 for lobes, 1 where the film narrows all along the pad.
 
     Raises
     ------

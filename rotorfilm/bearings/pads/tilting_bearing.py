@@ -68,7 +68,7 @@ class TiltingPadBearing(Called, PadBearing):
     extent : float [rad]
         Angle that a pad covers, below pi.
     pivot_offset : float [1]
-        Share of a pad before its pivot, from its start in the positive sense: .5 in the middle, more
+        Share of a pad before its pivot, from its start in the positive sense: 0.5 in the middle, more
         towards the trailing end of a journal that turns in that sense.
     preload : float [1]
         1 - c_b / c_p, below 1.

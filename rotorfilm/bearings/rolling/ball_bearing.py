@@ -33,8 +33,11 @@ class RollingMaterial:
     Parameters
     ----------
     young_modulus : float [Pa]
+        Elastic modulus.
     poisson_ratio : float [1]
+        Above -1 and at most 0.5.
     density : float [kg/m3]
+        Mass per volume.
 
     Raises
     ------

@@ -247,7 +247,7 @@ def test_every_direction_finds_a_film_that_carries(count, width):
     plain = MapFilm().force(np.zeros(2), unit(0.0), 0.5)[0]
     least = -(force * w).sum(axis=0).max() / -plain
     assert least == pytest.approx(-(exact * w).sum(axis=0).max() / -plain, rel=5e-3)
-    # docs/map.md: 29 % with up to three openings of 40 deg.
+    # docs/groove_map.md: 29 % with up to three openings of 40 deg.
     assert least > 0.28
 
 

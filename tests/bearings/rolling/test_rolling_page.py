@@ -1,4 +1,4 @@
-"""What the page of ball bearings says: its programs run, its figures are those of the present code."""
+"""What the pages of ball bearings say: their programs run, their figures are those of the present code."""
 
 import math
 import re
@@ -10,7 +10,8 @@ import pytest
 
 from rotorfilm import BallBearing, RaceControl, StaticBalls, back_to_back, variable_compliance
 
-PAGE = (Path(__file__).parents[3] / "docs/rolling.md").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[3] / "docs"
+PAGE = "".join((DOCS / name).read_text(encoding="utf-8") for name in ("rolling.md", "rolling_rotors.md"))
 RPM = math.pi / 30.0
 ANGULAR = BallBearing(
     balls=10,
@@ -72,7 +73,7 @@ def test_running_preload_and_unloading_of_pairs():
     wanted = printed(r"with 150 N it is (\d+) N at 10 000 rpm and (\d+) N at 20 000 rpm")
     assert [pair.running_preload(n * RPM) for n in (1e4, 2e4)] == pytest.approx(wanted, rel=3e-3)
     oiled = [back_to_back(replace(ANGULAR, films=(f, f)), distance=0.02, preload=150.0) for f in (2e-7, 5e-7)]
-    wanted = printed(r"has (\d+) N with films of .2 um in each contact and (\d+) N with .5 um")
+    wanted = printed(r"has (\d+) N with films of 0.2 um in each contact and (\d+) N with 0.5 um")
     assert [one.running_preload() for one in oiled] == pytest.approx(wanted, rel=3e-3)
     low, high, flat_low, flat_high = printed(
         r"takes ([\d.]+) to ([\d.]+) times at 25 deg, ([\d.]+) to ([\d.]+)"
