@@ -128,11 +128,11 @@ def draw(path: str, times: np.ndarray, found: dict[str, np.ndarray]) -> None:
         force = ratio * bush.force_unit
         angles = np.linspace(bush.contact_angle(force), bush.angle_at(0.0), 100)
         speeds[f"N = {ratio:g}"] = (angles, bush.critical_speed(force, angles) / bush.critical_speed(force))
-    plot_critical_speed(speeds, axes=panels[0, 0]).set_title("Critical speed as the bush wears, by load")
+    plot_critical_speed(speeds).draw(panels[0, 0])[0].set_title("Critical speed as the bush wears, by load")
     stage = published_stage(bush, 3750.0, 9.0, np.linspace(0.0, 1e-4, 401))
     angles = np.linspace(-0.55, 0.55, 401)
     pressures = {f"t = {stage.times[k]:g}": (angles, stage.pressure(angles)[k]) for k in (0, 40, 400)}
-    plot_contact_pressure(pressures, modulus=3e8, axes=panels[0, 1]).set_title(
+    plot_contact_pressure(pressures, modulus=3e8).draw(panels[0, 1])[0].set_title(
         "Pressure as published, N = .01"
     )
     cooling = np.linspace(0.02, 0.3, 30)

@@ -65,8 +65,8 @@ again = rotor_threshold(small, films, speeds).speed
 print(f"with {len(small.states)} states for {len(rotor.states)}: {again / RPM:.1f} rpm")
 
 response = unbalance_response(rotor, films, resonant_speeds(speeds[speeds < onset.speed], critical))
-above, _ = plot_unbalance_response(response, ["small_x", "small_y", "left_x", "left_y"])
-save(above, Path("unbalance_response.png"))
+shown = plot_unbalance_response(response, ["small_x", "small_y", "left_x", "left_y"])
+save(shown, Path("unbalance_response.png"))
 
 
 book = replace(rotor, beam=ClassicalBeam())  # as the book has it

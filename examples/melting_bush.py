@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from rotorfilm.bearings import ApproximateShaft, GlobalBalance, f4k20_bush, published_stage
-from rotorfilm.charts import new_axes, plot_contact_pressure, plot_critical_speed, save
+from rotorfilm.charts import plot_contact_pressure, plot_critical_speed, save
 
 exact = f4k20_bush()
 bush = replace(exact, shaft_heat=ApproximateShaft())  # the closed form (2.13) that the source calculates with
@@ -51,12 +51,11 @@ Exact shaft heat: the closed form is 2.2 % high. Whole shaft: what the shaft con
 whole circumference, but friction makes it on the arc of contact only."""
 )
 
-axes = new_axes("Critical speed, by load N")
 curves = {}
 for load, ratio in zip(loads, (3e-3, 7e-3, 1e-2), strict=True):
     angles = np.linspace(bush.contact_angle(load), last, 100)
     curves[f"N = {ratio:g}"] = (angles, bush.critical_speed(load, angles) / bush.critical_speed(load))
-save(plot_critical_speed(curves, axes=axes), Path("bush_critical_speed.png"))
+save(plot_critical_speed(curves), Path("bush_critical_speed.png"))
 
 stage = published_stage(bush, loads[2], 9.0, np.linspace(0.0, 1e-4, 401))
 pressures, assumed = {}, {}
@@ -66,6 +65,5 @@ for k in (0, 40, 400):
     pressures[label] = (angles, stage.pressure(angles)[k])
     shape = (np.cos(angles) - np.cos(alpha)) / (1.0 - np.cos(alpha))
     assumed[label] = (angles, bush.maximum_pressure(loads[2], alpha) * shape)
-axes = new_axes("Pressure as published (dashed: of the assumed shape)")
-save(plot_contact_pressure(pressures, assumed=assumed, modulus=3e8, axes=axes), Path("bush_pressure.png"))
+save(plot_contact_pressure(pressures, assumed=assumed, modulus=3e8), Path("bush_pressure.png"))
 print("alpha_hat [rad]:", last)

@@ -59,9 +59,8 @@ for eps, low in ((0.1, 0.94), (0.2, 0.98)):
 
 figure = new_figure(size=(11.0, 5.0))
 left, right = figure.subplots(1, 2)
-plot_orbit_curves(curves, axes=left).set(
-    xlabel="speed / threshold of whirl", title="Whirl of a short bearing"
-)
+plot_orbit_curves(curves, parameter="speed / threshold of whirl").draw(left)
+left.set_title("Whirl of a short bearing")
 
 light = family(*threshold(0.1))(0.97)
 line = np.linspace(-0.97, 0.97, 29)
@@ -70,7 +69,7 @@ inside = np.hypot(*grid) < 0.97 * C
 rest = basin_scan(light, [[0.0], [0.0]], turns=1).rest
 scan = basin_scan(light, grid[:, inside] - rest[:, None], turns=100, rtol=1e-4)
 print(f"{np.mean(scan.whirls):.0%} of the positions within .97 C lead into whirl, 3 % below the threshold")
-save(plot_basin(scan, clearance=C, axes=right), Path("whirl_bifurcation.png"))
+save(plot_basin(scan, clearance=C).draw(right)[0], Path("whirl_bifurcation.png"))
 
 small = next(event for event in curve.events if event.kind is Bifurcation.FOLD)
 print("fold of the small cycle / threshold:", small.parameter)

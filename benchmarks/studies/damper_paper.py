@@ -55,13 +55,13 @@ fed = {**cases, "porous, suction": {**cases["porous"], "suction": 0.1}}
 fed["porous, fed at the ends"] = {**cases["porous"], "ends": (0.2, 0.15)}
 figure = Figure(figsize=(11.0, 8.0), layout="constrained")
 (top, right), (low, last) = figure.subplots(2, 2)
-plot_transmitted({label: transient(support(0.12, **case)) for label, case in fed.items()}, axes=top)
+plot_transmitted({label: transient(support(0.12, **case)) for label, case in fed.items()}).draw(top)
 thin = {label: orbits(support(0.04, **case)) for label, case in cases.items()}
 thick = {label: orbits(support(0.12, **case)) for label, case in cases.items()}
 soft = {"porous, no spring": orbits(support(0.12, phi=0.01, grading=0.1, spring=0.0))}
-plot_transmissibility(thin, unit=UNIT, axes=right)
-plot_eccentricity({**thick, **soft}, unit=UNIT, axes=low)
-plot_phase({**thick, **soft}, unit=UNIT, axes=last)
+plot_transmissibility(thin, unit=UNIT).draw(right)
+plot_eccentricity({**thick, **soft}, unit=UNIT).draw(low)
+plot_phase({**thick, **soft}, unit=UNIT).draw(last)
 for axes, title in zip((top, right, low, last), ("B = .12", "B = .04", "B = .12", "B = .12"), strict=True):
     axes.set_title(f"{title}, dotted: unstable, cross: contact")
 figure.savefig("damper_paper.png", dpi=110)

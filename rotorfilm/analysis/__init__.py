@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         Fold,
         OrbitBranch,
         OrbitCoefficients,
+        OrbitsOverSpeed as OrbitsOverSpeed,
         SynchronousOrbits,
         bistability_limit as bistability_limit,
         bistable_map as bistable_map,
@@ -107,6 +108,14 @@ if TYPE_CHECKING:
         rotor_modes as rotor_modes,
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
+    )
+    from .run_spectra import (
+        RunAmplitudes as RunAmplitudes,
+        RunOrbits as RunOrbits,
+        RunSpectra as RunSpectra,
+        run_amplitudes as run_amplitudes,
+        run_orbits as run_orbits,
+        run_spectra as run_spectra,
     )
     from .shaft_statics import (
         ShaftStatics as ShaftStatics,

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..core.errors import InputError, brief, require_finite, require_kind, require_number, require_positive
+from ..core.frames import ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
@@ -26,7 +27,7 @@ from ..core.port import (
     static_force,
     static_slopes,
 )
-from ..core.readable import Drawable, Item, Readable, items_of
+from ..core.readable import Drawable, Item, Readable, items_of, table_of
 from ..core.results import CircularOrbit, InertialCoefficients, Trajectory
 from ..core.signals import Signal, signals_of
 from ..rotors import RigidRotor
@@ -199,14 +200,38 @@ def synchronous_orbits(
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class OrbitsOverSpeed(Drawable):
+    """The circular orbits of a rotor with one unbalance over speed: the curve of its damper.
+
+    Attributes
+    ----------
+    unbalance : float [kg m]
+    orbits : tuple of CircularOrbit
+        By speed, at each from the smallest; none where the rotor hits the wall.
+    """
+
+    unbalance: float
+    orbits: tuple[CircularOrbit, ...]
+
+    _tabled: ClassVar[tuple[str, ...]] = ("orbits",)
+
+    def to_table(self) -> ResultTable:
+        """Return the orbits, one a row."""
+        return table_of(self.orbits, "orbits") if self.orbits else ResultTable(())
+
+    def _pages(self) -> tuple[ResultTable, ...]:
+        return (self.to_table(),) if self.orbits else ()
+
+
 @one_blas_thread
 @arguments
-def orbits_over_speed(
-    rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike
-) -> tuple[SynchronousOrbits, ...]:
+def orbits_over_speed(rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike) -> OrbitsOverSpeed:
     """Return the orbits of a rotor with its own unbalance at each of the speeds [rad/s]."""
     values = np.atleast_1d(require_finite("speeds", speeds))
-    return tuple(synchronous_orbits(replace(rotor, speed=float(speed)), reaction) for speed in values)
+    found = (synchronous_orbits(replace(rotor, speed=float(speed)), reaction) for speed in values)
+    every = tuple(orbit for one in found for orbit in one.at(rotor.unbalance))
+    return OrbitsOverSpeed(unbalance=rotor.unbalance, orbits=every)
 
 
 def _radii(largest_ratio: float) -> Array:

@@ -812,4 +812,5 @@ def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[Static
 
 def _target(film: Any, load: Array, speed: float) -> StaticTarget:
     x, y = -float(load[0]), -float(load[1])
-    return StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, 1.0, 0.0)
+    still = quasi_static(film)
+    return StaticTarget(prepared_tangent(still), still.clearance, speed, x, y, 1.0, 0.0)

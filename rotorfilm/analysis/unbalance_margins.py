@@ -411,7 +411,7 @@ def tracked_response(
         raise InputError(f"outputs must be among {list(run.signals)}, got {missing}")
     speeds, windows = _windows(run.time, speed, turns)
     table = np.array([run.signals[name] for name in names])
-    phasors = np.array([_fitted(angle, table[:, chosen]) for chosen, angle in windows])
+    phasors = np.array([fitted_phasors(angle, table[:, chosen]) for chosen, angle in windows])
     order = np.argsort(speeds)
     columns = [row[:, None] for row in phasors[order]]
     return frequency_response(columns, speeds[order], ["unbalance"], names, "tracked_response")
@@ -441,7 +441,7 @@ def _windows(time: Array, speed: SpeedProfile, turns: int) -> tuple[Array, list[
     return np.array(speeds), found
 
 
-def _fitted(angle: Array, signals: Array) -> np.ndarray:
+def fitted_phasors(angle: Array, signals: Array) -> np.ndarray:
     """Return the phasors of signals, shape (n_signals, n_samples), in the middle of a window."""
     middle = 0.5 * (angle[0] + angle[-1])
     along = (angle - middle) / (angle[-1] - angle[0])

@@ -21,7 +21,7 @@ from ..core.files import read_text
 from ..core.frames import Column, ResultTable, write_csv
 from ..core.inputs import quantities
 from ..core.model import Array
-from ..core.readable import Tabled
+from ..core.readable import Plottable, Tabled
 from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
 from ..native.film_call import FilmCall
@@ -84,7 +84,7 @@ def headings(freedoms: tuple[str, ...]) -> list[str]:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TabulatedBearing(Tabled, LinearReaction):
+class TabulatedBearing(Plottable, Tabled, LinearReaction):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.
 
     Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them the bearing

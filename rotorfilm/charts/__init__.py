@@ -1,17 +1,24 @@
-"""Charts: functions from results to matplotlib Axes; nothing here computes physics."""
+"""Charts: functions from results to pictures, which matplotlib and plotly draw; no physics here."""
 
 from typing import TYPE_CHECKING
 
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
+    from .canvas import (
+        new_axes as new_axes,
+        new_figure as new_figure,
+    )
     from .film_charts import (
         plot_bistable as plot_bistable,
+        plot_circumference as plot_circumference,
+        plot_coefficients as plot_coefficients,
         plot_contact_pressure as plot_contact_pressure,
         plot_critical_speed as plot_critical_speed,
         plot_damper_run as plot_damper_run,
+        plot_damper_speeds as plot_damper_speeds,
         plot_eccentricity as plot_eccentricity,
+        plot_film as plot_film,
         plot_heated_film as plot_heated_film,
         plot_phase as plot_phase,
         plot_pressure_field as plot_pressure_field,
@@ -20,15 +27,33 @@ if TYPE_CHECKING:
         plot_transmissibility as plot_transmissibility,
         plot_transmitted as plot_transmitted,
     )
-    from .ladder_charts import plot_study as plot_study
-    from .page import write_page as write_page
+    from .ladder_charts import (
+        plot_study as plot_study,
+    )
+    from .on_matplotlib import save as save
+    from .page import (
+        write_page as write_page,
+    )
+    from .picture import (
+        BarsMark as BarsMark,
+        ColorScale as ColorScale,
+        CurveMark as CurveMark,
+        FieldMark as FieldMark,
+        LevelMark as LevelMark,
+        NoteMark as NoteMark,
+        Picture as Picture,
+        PicturePanel as PicturePanel,
+        use as use,
+    )
     from .result_charts import (
+        picture_of as picture_of,
         plot_contact_run as plot_contact_run,
-        plot_film as plot_film,
+        plot_histogram as plot_histogram,
+        plot_map as plot_map,
         plot_question as plot_question,
         plot_result as plot_result,
         plot_scene_ladder as plot_scene_ladder,
-        plot_trajectory as plot_trajectory,
+        plot_tornado as plot_tornado,
     )
     from .rolling_charts import (
         plot_ball_curves as plot_ball_curves,
@@ -40,7 +65,6 @@ if TYPE_CHECKING:
         plot_critical_speed_map as plot_critical_speed_map,
         plot_locus as plot_locus,
         plot_log_decrement as plot_log_decrement,
-        plot_mode_shape as plot_mode_shape,
         plot_orbit_curves as plot_orbit_curves,
         plot_orbits as plot_orbits,
         plot_periodic_orbit as plot_periodic_orbit,
@@ -49,6 +73,20 @@ if TYPE_CHECKING:
         plot_shaft_statics as plot_shaft_statics,
         plot_stability_level_one as plot_stability_level_one,
         plot_unbalance_response as plot_unbalance_response,
+    )
+    from .run_charts import (
+        plot_full_spectrum as plot_full_spectrum,
+        plot_run_amplitudes as plot_run_amplitudes,
+        plot_run_orbits as plot_run_orbits,
+        plot_spectrogram as plot_spectrogram,
+        plot_time_windows as plot_time_windows,
+        plot_trajectory as plot_trajectory,
+        plot_waterfall as plot_waterfall,
+    )
+    from .shaft_charts import (
+        plot_mode_orbits as plot_mode_orbits,
+        plot_mode_shape as plot_mode_shape,
+        plot_rotor as plot_rotor,
     )
     from .study_charts import (
         plot_bearing_thresholds as plot_bearing_thresholds,

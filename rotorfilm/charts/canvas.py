@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
-from ..core.files import write_atomically
 from ..studies.journal_accuracy import FilmFamily
 
 
@@ -87,15 +84,6 @@ def draw_circle(axes: Axes, label: str | None = None) -> None:
 def legend_beside(axes: Axes) -> None:
     """Put the legend to the right of the picture: inside, it would lie on curves that are everywhere."""
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
-
-
-def save(axes: Axes, path: Path, *, dpi: int = 130) -> Path:
-    """Write the figure of `axes`, all of its Axes, as PNG and return the path."""
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    picture = io.BytesIO()
-    figure.savefig(picture, dpi=dpi, metadata={"Software": "rotorfilm"}, format=path.suffix[1:] or "png")
-    return write_atomically(path, picture.getvalue())
 
 
 # Labels beside points that do not cover each other.

@@ -1,199 +1,108 @@
-"""The picture of each result: what `plot()` of it draws."""
+"""The pictures of each result, which its `plot()` draws, and those of studies over parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
 from ..bearings.contact import ContactRun
-from ..bearings.damper import JFOOrbit
-from ..bearings.journal import FilmState, JFOState
 from ..core.answers import QuestionAnswer
-from ..core.errors import InputError
-from ..core.model import Array
-from ..core.readable import Drawable, label_of
-from ..core.results import Trajectory
-from .canvas import add_color_bar, labeled, new_axes, new_figure, with_grids
-from .film_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
+from ..core.errors import InputError, require_finite
+from ..core.readable import label_of
+from .film_charts import (
+    plot_bistable,
+    plot_circumference,
+    plot_coefficients,
+    plot_damper_run,
+    plot_damper_speeds,
+    plot_damper_turn,
+    plot_eccentricity,
+    plot_film,
+    plot_heated_film,
+    plot_phase,
+    plot_transmissibility,
+)
+from .picture import BarsMark, ColorScale, CurveMark, FieldMark, LevelMark, Mark, Picture, PicturePanel
 from .rolling_charts import plot_compliance
 from .rotor_charts import (
     plot_campbell,
+    plot_log_decrement,
     plot_orbit_curves,
     plot_periodic_orbit,
     plot_separation_margins,
     plot_shaft_statics,
     plot_stability_level_one,
+    plot_unbalance_response,
 )
+from .run_charts import (
+    RUNS,
+    plot_full_spectrum,
+    plot_run_amplitudes,
+    plot_run_orbits,
+    plot_spectrogram,
+    plot_waterfall,
+)
+from .shaft_charts import plot_rotor
 
 GRAM_MILLIMETER = 1e-6
 
-
-def plot_result(result: Drawable, *, axes: Any = None) -> Any:
-    """Draw a result as its kind has it: what its `plot()` calls.
-
-    Parameters
-    ----------
-    result : Drawable
-        A trajectory, a co-simulation, a Campbell diagram, periodic or synchronous orbits or a curve of them,
-        a bistable map, the state of a film, a contact over time, or the answer to a question or about a
-        rotor.
-    axes : Axes, or two of them for a trajectory, optional
-        Where to draw; a new figure by default.
-
-    Returns
-    -------
-    Axes, or two of them
-    """
-    kind = next(one.__name__ for one in type(result).__mro__ if one.__name__ in PICTURES)
-    return PICTURES[kind](result, axes=axes)
+Describe = Callable[[Any], Picture]
 
 
-def plot_trajectory(run: Trajectory, *, axes: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
-    """Draw the orbits of all journals [um], and their displacements over time.
-
-    Where no journal moves in a plane, the second signal over the first, and the first over time, in SI.
+def picture_of(result: Any, kind: str = "") -> Picture:
+    """Return a picture of a result, by its kind; the first of its class by default.
 
     Parameters
     ----------
-    run : Trajectory
-    axes : two Axes, optional
-        For orbit and time; a new figure by default.
+    result : object
+        What has `plot()`.
+    kind : str
+
+    Raises
+    ------
+    InputError
+        If there is no such picture; the message lists those that there are.
     """
-    beside, below = axes if axes is not None else new_figure(size=(9.6, 4.4)).subplots(1, 2)
-    stations = [name[:-1] for name in run.signals if name == "x" or name.endswith("_x")]
-    stations = [name for name in stations if not name.endswith("force_") and f"{name}y" in run.signals]
-    pairs, unit, factor = [(f"{name}x", f"{name}y") for name in stations], "um", 1e6
-    if not pairs:
-        pairs, unit, factor = [(*run.signals,)[:2]], "SI", 1.0  # type: ignore[list-item]
-    for pair in pairs:
-        first, second = (factor * run[name] for name in pair)
-        label = label_of(pair[0].removesuffix("x")) or "journal"
-        beside.plot(first, second, linewidth=1.3, label=label)
-        for name, values in zip(pair, (first, second), strict=True):
-            below.plot(run.time, values, linewidth=1.2, label=label_of(name))
-    x, y = (label_of(name) for name in pairs[0])
-    beside.set(xlabel=f"{x} [{unit}]", ylabel=f"{y} [{unit}]", title="Orbit")
-    if stations:
-        beside.set(xlabel="x [um]", ylabel="y [um]", aspect="equal", adjustable="datalim")
-    below.set(xlabel="time [s]", ylabel=f"displacement [{unit}]", title="Over time")
-    with_grids(beside, below)
-    return beside, below
+    name = next(one.__name__ for one in type(result).__mro__ if one.__name__ in PICTURES)
+    kinds = PICTURES[name]
+    if kind and kind not in kinds:
+        raise InputError(
+            f"kind must be one of {', '.join(kinds)} for a {type(result).__name__}, got {kind!r}"
+        )
+    return kinds[kind or next(iter(kinds))](result)
 
 
-def plot_film(state: FilmState | JFOState | JFOOrbit, *, axes: Axes | None = None) -> Axes:
-    """Draw the pressure [MPa] of a film, unwrapped: the angle in the bearing, and from end to end.
-
-    Of a film that conserves its oil there is a line too around what is not full; that of a damper is drawn
-    in axes that turn with its orbit, and with its mirror image where a groove is at one end.
-
-    Parameters
-    ----------
-    state : FilmState, JFOState or JFOOrbit
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    if state.angle is None or state.axial is None or state.pressure is None:
-        raise InputError("state must have a pressure field, as that of a ReynoldsFilm, got one without")
-    axes = axes or new_axes("Pressure of the film")
-    order = np.argsort(state.angle)
-    first = 1 if state.axial[0] == 0.0 else 0
-    ends = np.concatenate([-state.axial[first:][::-1], state.axial])
-
-    def both_halves(numbers: Array) -> Array:
-        return np.hstack([numbers[order, first:][:, ::-1], numbers[order]]).T
-
-    places = np.degrees(state.angle[order]), 1e3 * ends
-    shown = axes.pcolormesh(*places, 1e-6 * both_halves(state.pressure), shading="nearest")
-    add_color_bar(axes, shown, "pressure [MPa]")
-    if isinstance(state, JFOState | JFOOrbit) and state.oil_content.min() < 1.0:
-        axes.contour(*places, both_halves(state.oil_content), levels=[0.999], colors="white", linewidths=1.0)
-    turning = isinstance(state, JFOOrbit)
-    origin = "the line of centers in the sense of +z" if turning else "+x towards +y"
-    axes.set(xlabel=f"angle from {origin} [deg]", ylabel="axial [mm]")
-    return axes
+def plot_result(result: Any, kind: str = "", *, axes: Any = None, backend: str = "") -> Any:
+    """Draw a picture of a result: what its `plot()` calls, whose parameters these are."""
+    return picture_of(result, kind).shown(axes, backend)
 
 
-def plot_question(answer: QuestionAnswer, *, axes: Axes | None = None) -> Axes:
-    """Draw the ladder behind an answer: the estimated error of each rung that was tried over its cost.
-
-    Parameters
-    ----------
-    answer : QuestionAnswer
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
+def plot_question(answer: QuestionAnswer) -> Picture:
+    """Describe the ladder behind an answer: the estimated error of each rung that was tried over its cost."""
     points = [
         (one.name, error, cost, one.name == answer.model)
         for one in answer.rungs
         if (error := one.error_estimate) is not None and (cost := one.cost) is not None
     ]
-    title = label_of(answer.quantity)
-    return plot_scene_ladder(points, title=title, tolerance=answer.tolerance, axes=axes)
+    return plot_scene_ladder(points, title=label_of(answer.quantity), tolerance=answer.tolerance)
 
 
-def plot_contact_run(run: ContactRun, *, axes: Axes | None = None) -> Axes:
-    """Draw the central and the smallest film of a contact over time, in units of the Hertzian contact.
-
-    Parameters
-    ----------
-    run : ContactRun
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes("Film of the contact")
-    axes.plot(run.time, run.central_film, label="central film")
-    axes.plot(run.time, run.minimum_film, "--", label="smallest film")
-    return labeled(axes, "time", "film thickness")
-
-
-def _synchronous(orbits: Any, *, axes: Axes | None) -> Axes:
-    drawn = plot_eccentricity({"orbits": orbits}, unit=GRAM_MILLIMETER, axes=axes)
-    drawn.set_xlabel("unbalance [g mm]")
-    return drawn
-
-
-PICTURES: dict[str, Callable[..., Any]] = {
-    "Trajectory": plot_trajectory,
-    "CoSimulation": lambda result, axes: plot_trajectory(result.trajectory, axes=axes),
-    "Campbell": plot_campbell,
-    "RotorAnswer": lambda result, axes: plot_campbell(
-        result.campbell, critical=result.critical_speeds, axes=axes
-    ),
-    "SeparationMargins": plot_separation_margins,
-    "ShaftStatics": plot_shaft_statics,
-    "StabilityLevelOne": plot_stability_level_one,
-    "PeriodicOrbit": plot_periodic_orbit,
-    "OrbitCurve": lambda result, axes: plot_orbit_curves({"orbits": result}, axes=axes),
-    "SynchronousOrbits": _synchronous,
-    "BistableMap": plot_bistable,
-    "DamperRun": lambda result, axes: plot_damper_run(
-        result.trajectory.time, result.eccentricity_ratio, result.force, axes=axes
-    ),
-    "FilmState": plot_film,
-    "JFOState": plot_film,
-    "JFOOrbit": plot_film,
-    "DamperTurn": plot_damper_turn,
-    "ContactRun": plot_contact_run,
-    "QuestionAnswer": plot_question,
-    "VariableCompliance": plot_compliance,
-}
-"""What draws a result, by the name of its class."""
-
-
-# Chart of the models that could answer a scene's question: estimated error against cost.
+def plot_contact_run(run: ContactRun) -> Picture:
+    """Describe the central and the smallest film of a contact over time, in units of the Hertzian contact."""
+    marks: list[Mark] = [
+        CurveMark(run.time, run.central_film, "central film"),
+        CurveMark(run.time, run.minimum_film, "smallest film", "C1", "--"),
+    ]
+    return Picture((PicturePanel(marks, "time", "film thickness", "Film of the contact"),))
 
 
 def plot_scene_ladder(
-    points: Sequence[tuple[str, float, float, bool]],
-    *,
-    title: str,
-    tolerance: float,
-    axes: Axes | None = None,
-) -> Axes:
-    """Draw the estimated error of each model over its cost, the tolerance, and the model that answers.
+    points: Sequence[tuple[str, float, float, bool]], *, title: str, tolerance: float
+) -> Picture:
+    """Describe the estimated error of each model over its cost, the tolerance, and the model that answers.
 
     Parameters
     ----------
@@ -201,13 +110,152 @@ def plot_scene_ladder(
         Name of a model, its estimated error [1], the cost of its answer [s], and whether it is chosen.
     title : str
     tolerance : float [1]
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes(title, size=(7.5, 5.0))
+    marks: list[Mark] = []
     for number, (name, error, cost, chosen) in enumerate(points):
-        style = {"marker": "*", "markersize": 16} if chosen else {"marker": "o"}
-        label = f"{name}, chosen" if chosen else name
-        axes.plot(1e3 * cost, error, color=f"C{number % 10}", ls="", label=label, **style)
-    axes.axhline(tolerance, color="k", linewidth=1.0, linestyle="--", label="tolerance")
-    return labeled(axes, "cost of the answer [ms]", "estimated error", xscale="log", yscale="log")
+        marker, size, label = ("*", 16.0, f"{name}, chosen") if chosen else ("o", 6.0, name)
+        marks.append(CurveMark([1e3 * cost], [error], label, f"C{number % 10}", "", marker=marker, size=size))
+    marks.append(LevelMark(tolerance, "tolerance", dash="--"))
+    panel = PicturePanel(marks, "cost of the answer [ms]", "estimated error", title, log="xy")
+    return Picture((panel,), size=(7.5, 5.0))
+
+
+# Over parameters: maps of two, sensitivities, scatter.
+
+
+def plot_map(
+    x: ArrayLike, y: ArrayLike, values: ArrayLike, *, labels: tuple[str, str, str], level: float | None = None
+) -> Picture:
+    """Describe a quantity over two parameters, such as a stability map, and the line of one value.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (n,), (m,)
+    values : array_like, shape (m, n)
+    labels : (str, str, str)
+        Of x, y and the values, with units.
+    level : float, optional
+        Whose line is drawn, as 0 of a log decrement or a growth rate, the border of stability.
+
+    Raises
+    ------
+    InputError
+        If the shapes do not fit.
+    """
+    across, upright = require_finite("x", x), require_finite("y", y)
+    table = np.asarray(values, dtype=float)
+    if table.shape != (upright.size, across.size):
+        raise InputError(f"values must have shape {(upright.size, across.size)}, got {table.shape}")
+    colors = ColorScale(labels[2])
+    if level is not None:
+        far = float(np.nanmax(np.abs(table - level)))
+        colors = ColorScale(labels[2], "RdYlGn", level - far, level + far)
+    field = FieldMark(across, upright, table, colors, None if level is None else table, level or 0.0, "k")
+    return Picture((PicturePanel([field], *labels[:2]),), size=(7.0, 5.0))
+
+
+def plot_tornado(effects: Mapping[str, tuple[float, float]], *, base: float, quantity: str) -> Picture:
+    """Describe sensitivities as a tornado chart: what each parameter does to a quantity, the largest above.
+
+    Parameters
+    ----------
+    effects : mapping of str to (float, float)
+        Quantity at the low and at the high end of each parameter.
+    base : float
+        Quantity at the nominal parameters.
+    quantity : str
+        Its label, with its unit.
+    """
+    order = sorted(effects, key=lambda name: float(np.ptp(effects[name])))
+    low, high = (np.array([effects[name][side] for name in order]) for side in (0, 1))
+    names = np.array(order)
+    marks: list[Mark] = [
+        BarsMark(names, low, "low end", "C0", 0.6, base, across=True),
+        BarsMark(names, high, "high end", "C1", 0.6, base, across=True),
+        LevelMark(base, f"nominal, {base:.4g}", upright=True),
+    ]
+    return Picture((PicturePanel(marks, quantity, "", "Sensitivities"),), size=(7.4, 1.5 + 0.5 * len(order)))
+
+
+def plot_histogram(values: ArrayLike, *, quantity: str, bins: int = 30) -> Picture:
+    """Describe how a quantity scatters, as over manufactured bearings, with 5 %, 50 % and 95 % of them.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+    quantity : str
+        Its label, with its unit.
+    bins : int
+    """
+    found = require_finite("values", values).ravel()
+    counts, edges = np.histogram(found, bins)
+    marks: list[Mark] = [BarsMark(0.5 * (edges[1:] + edges[:-1]), counts, width=float(edges[1] - edges[0]))]
+    for share, dash in ((0.05, ":"), (0.5, "--"), (0.95, ":")):
+        at = float(np.quantile(found, share))
+        marks.append(LevelMark(at, f"{share:.0%} below {at:.4g}", dash=dash, upright=True))
+    return Picture((PicturePanel(marks, quantity, "count", f"{found.size} samples"),))
+
+
+def _synchronous(plot: Callable[..., Picture]) -> Describe:
+    """Return a picture of the orbits of a damper over the unbalance [g mm]."""
+
+    def describe(orbits: Any) -> Picture:
+        picture = plot({"orbits": orbits}, unit=GRAM_MILLIMETER)
+        return picture._replace(panels=(picture.panels[0]._replace(x="unbalance [g mm]"),))
+
+    return describe
+
+
+def _of_trajectory(describe: Describe) -> Describe:
+    return lambda found: describe(found.trajectory)
+
+
+def _run(result: Any) -> Picture:
+    return plot_damper_run(result.trajectory.time, result.eccentricity_ratio, result.force)
+
+
+_MODES: dict[str, Describe] = {"campbell": plot_campbell, "log_decrement": plot_log_decrement}
+
+_FILM: dict[str, Describe] = {"pressure": plot_film, "circumference": plot_circumference}
+
+PICTURES: dict[str, dict[str, Describe]] = {
+    "Trajectory": RUNS,
+    "CoSimulation": {kind: _of_trajectory(own) for kind, own in RUNS.items()},
+    "RunAmplitudes": {"amplitude": plot_run_amplitudes},
+    "RunSpectra": {
+        "waterfall": plot_waterfall,
+        "spectrogram": plot_spectrogram,
+        "full_spectrum": plot_full_spectrum,
+    },
+    "RunOrbits": {"orbits": plot_run_orbits},
+    "Campbell": _MODES,
+    "RotorAnswer": {
+        "campbell": lambda found: plot_campbell(found.campbell, critical=found.critical_speeds),
+        "log_decrement": lambda found: plot_log_decrement(found.campbell),
+        "response": lambda found: plot_unbalance_response(found.response),
+    },
+    "ShaftRotor": {"rotor": plot_rotor},
+    "TabulatedBearing": {"coefficients": plot_coefficients},
+    "SeparationMargins": {"margins": plot_separation_margins},
+    "ShaftStatics": {"statics": plot_shaft_statics},
+    "StabilityLevelOne": {"stability": plot_stability_level_one},
+    "PeriodicOrbit": {"orbit": plot_periodic_orbit},
+    "OrbitCurve": {"amplitude": lambda found: plot_orbit_curves({"orbits": found})},
+    "SynchronousOrbits": {
+        "eccentricity": _synchronous(plot_eccentricity),
+        "transmissibility": _synchronous(plot_transmissibility),
+        "phase": _synchronous(plot_phase),
+    },
+    "OrbitsOverSpeed": {"speed": plot_damper_speeds},
+    "BistableMap": {"jumps": plot_bistable},
+    "DamperRun": {"run": _run},
+    "FilmState": _FILM,
+    "JFOState": {"pressure": plot_film},
+    "JFOOrbit": {"pressure": plot_film},
+    "HeatedState": {"film": plot_heated_film, "circumference": plot_circumference},
+    "DamperTurn": {"oil": plot_damper_turn},
+    "ContactRun": {"film": plot_contact_run},
+    "QuestionAnswer": {"ladder": plot_question},
+    "VariableCompliance": {"spectrum": plot_compliance},
+}
+"""What describes the pictures of a result, by the name of its class and by kind, the usual one first."""

@@ -1,15 +1,14 @@
-"""Charts of flexible rotors: Campbell diagram, map of critical speeds, unbalance response."""
+"""Pictures of flexible rotors: modes over speed, responses, certification, orbits and basins."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import control
 import numpy as np
-from matplotlib.axes import Axes
 
 from ..analysis import (
     BasinScan,
@@ -18,96 +17,108 @@ from ..analysis import (
     CriticalSpeed,
     OrbitCurve,
     PeriodicOrbit,
-    RotorModes,
     SeparationMargins,
     ShaftStatics,
     StabilityLevelOne,
 )
 from ..analysis.api617 import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
-from ..core.errors import InputError
+from ..analysis.rotor_modes import senses
 from ..core.model import Array
 from ..core.results import Trajectory
-from ..rotors import ShaftRotor
 from ..studies.journal_accuracy import FilmFamily
-from .canvas import (
-    BAD,
-    DASHES,
-    FAMILY_COLORS,
-    FAMILY_WIDTHS,
-    GOOD,
-    WITHIN,
-    draw_circle,
-    labeled,
-    legend_beside,
-    new_axes,
-    new_figure,
-    with_grids,
-)
+from .canvas import BAD, DASHES, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, WITHIN
+from .picture import ColorScale, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
 
 RPM = math.pi / 30.0
 HERTZ = 2.0 * math.pi
 
-FORWARD, BACKWARD, MIXED, UNSTABLE = "#1f4fb4", "#d62728", "#7f7f7f", "#ffb000"
-"""Colors of whirl with the rotation, against it, neither, and of whirl that grows (behind the others)."""
+UNSTABLE = "#ffb000"
+"""Color of whirl that grows, behind its marks."""
 
-_CIRCLE = 1e-6
-"""Share of an orbit that is no circle, below which it has no longest direction."""
+SENSES = {"forward": "^", "backward": "v", "mixed": "o"}
+"""Marks of whirl with the rotation, against it, and neither."""
 
-CIRCULAR = 0.1
-"""Direction beyond which a whirl counts as forward or, negative, backward."""
+DAMPING = ColorScale("log decrement", "RdYlGn", -0.2, 0.2)
+"""Of a Campbell diagram: red is unstable, green well damped."""
+
+DECREMENTS = (-1.0, 3.0)
+"""Log decrements that decide: beyond, a mode is unstable or overdamped in any case."""
 
 
-def plot_campbell(
-    chart: Campbell, *, critical: Sequence[CriticalSpeed] = (), axes: Axes | None = None
-) -> Axes:
-    """Draw whirl frequency [Hz] over speed [rpm], with the line on which both are equal.
+def _points(x: Any, y: Any, label: str, marker: str, color: str = "k", size: float = 5.0) -> CurveMark:
+    """Return open marks at one or more places."""
+    places = np.atleast_1d(x), np.atleast_1d(y)
+    return CurveMark(*places, label, color, "", marker=marker, filled=False, size=size)
+
+
+def plot_campbell(chart: Campbell, *, critical: Sequence[CriticalSpeed] | None = None) -> Picture:
+    """Describe whirl frequency [Hz] over speed [rpm], with damping as color and the line of the speed.
+
+    A wide ring is whirl that grows by more than round-off.
 
     Parameters
     ----------
     chart : Campbell
-    critical : sequence of CriticalSpeed
-        Marked by circles.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
+    critical : sequence of CriticalSpeed, optional
+        Marked, with their speeds at forward ones; those interpolated in the chart by default.
     """
-    axes = axes or new_axes("Campbell diagram")
-    speeds = chart.speeds / RPM
-    kinds = {"forward": (FORWARD, "-"), "backward": (BACKWARD, "--"), "mixed": (MIXED, ":")}
-    masks = {
-        "forward": chart.direction > CIRCULAR,
-        "backward": chart.direction < -CIRCULAR,
-        "mixed": np.abs(chart.direction) <= CIRCULAR,
-    }
-    grows = np.where(chart.grows, chart.frequency, np.nan) / HERTZ
-    _curves(axes, speeds, grows, "grows", color=UNSTABLE, style="-", width=5.0)
-    for kind, (color, style) in kinds.items():
-        _curves(axes, speeds, _where(masks[kind], chart.frequency) / HERTZ, kind, color=color, style=style)
-    axes.plot(speeds, chart.speeds / HERTZ, "k-", linewidth=0.8, label="1x speed")
-    if critical:
-        places = np.array([one.speed for one in critical])
-        axes.plot(places / RPM, places / HERTZ, "ko", fillstyle="none", label="critical speed")
-    axes.set_ylim(bottom=0.0)
-    return labeled(axes, "speed [rpm]", "damped frequency [Hz]", xlim=(speeds[0], speeds[-1]))
+    speeds, hertz, sense = chart.speeds / RPM, chart.frequency / HERTZ, senses(chart.direction)
+    places = np.broadcast_to(speeds, hertz.shape)
+    marks: list[Mark] = [CurveMark(speeds, one, color="0.6", width=0.8) for one in hertz]
+    if chart.grows.any():
+        at = chart.grows
+        marks.append(
+            CurveMark(places[at], hertz[at], "grows", UNSTABLE, "", marker="o", filled=False, size=9.0)
+        )
+    for name, marker in SENSES.items():
+        at = sense == name
+        if at.any():
+            values = chart.log_decrement[at]
+            one = CurveMark(places[at], hertz[at], name, "k", "", marker=marker, values=values, scale=DAMPING)
+            marks.append(one)
+    marks.append(CurveMark(speeds, np.abs(chart.speeds) / HERTZ, "1x speed", "k", width=0.8))
+    found = chart.crossings if critical is None else critical
+    if found:
+        at = np.array([one.speed for one in found])
+        marks.append(_points(at / RPM, np.abs(at) / HERTZ, "critical speed", "s", size=8.0))
+        forward = [one.speed for one in found if one.whirl == "forward"]
+        marks += [NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm") for w in forward]
+    limits = (float(speeds.min()), float(speeds.max()))
+    panel = PicturePanel(
+        marks,
+        "speed [rpm]",
+        "damped frequency [Hz]",
+        "Campbell diagram",
+        x_limits=limits,
+        y_limits=(0.0, None),
+        legend="inside",
+    )
+    return Picture((panel,), size=(7.4, 5.2))
 
 
-def plot_log_decrement(chart: Campbell, *, axes: Axes | None = None) -> Axes:
-    """Draw the logarithmic decrement of each mode over speed [rpm]; below zero the whirl grows.
+def plot_log_decrement(chart: Campbell) -> Picture:
+    """Describe the log decrement of each mode over speed [rpm], from -1 to 3; below zero the whirl grows.
 
-    The axis is linear from -0.1 to 0.1, where shafts live, and logarithmic beyond, where films do.
+    Modes that are beyond at all speeds are named as overdamped in the title. A dashed line is at 0.1, which
+    API 617 asks for.
     """
-    axes = axes or new_axes("Stability")
-    for decrement, frequency in zip(chart.log_decrement, chart.frequency, strict=True):
+    low, high = DECREMENTS
+    marks: list[Mark] = [LevelMark(0.0), LevelMark(LEAST_DECREMENT, f"{LEAST_DECREMENT:g}", dash="--")]
+    beyond = []
+    for k, (decrement, frequency) in enumerate(zip(chart.log_decrement, chart.frequency, strict=True)):
+        if np.nanmin(decrement) > high:
+            beyond.append(str(k + 1))
+            continue
         first = frequency[np.isfinite(frequency)][0] / HERTZ
-        axes.plot(chart.speeds / RPM, decrement, label=f"from {first:.3g} Hz")
-    axes.axhline(0.0, color="k", linewidth=0.8)
-    axes.set_yscale("symlog", linthresh=0.1)
-    return labeled(axes, "speed [rpm]", "logarithmic decrement")
+        label, dash = f"mode {k + 1}, from {first:.3g} Hz", WITHIN[k // 10 % len(WITHIN)]
+        marks.append(CurveMark(chart.speeds / RPM, decrement, label, f"C{k % 10}", dash))
+    modes = f"; overdamped, above {high:g}: mode {', '.join(beyond)}" if beyond else ""
+    text = "speed [rpm]", "log decrement", f"Stability{modes}"
+    return Picture((PicturePanel(marks, *text, y_limits=(low, high), legend="beside"),), size=(7.4, 4.8))
 
 
-def plot_critical_speed_map(
-    stiffness: Array, speeds: Array, *, bearing: Array | None = None, axes: Axes | None = None
-) -> Axes:
-    """Draw undamped critical speeds [rpm] over bearing stiffness [N/m], both logarithmic.
+def plot_critical_speed_map(stiffness: Array, speeds: Array, *, bearing: Array | None = None) -> Picture:
+    """Describe undamped critical speeds [rpm] over bearing stiffness [N/m], both logarithmic.
 
     Parameters
     ----------
@@ -116,52 +127,53 @@ def plot_critical_speed_map(
         As `critical_speed_map` returns them.
     bearing : ndarray, shape (2, m), optional
         Speed [rad/s] and stiffness [N/m] of the bearing that the rotor will have.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Undamped critical speeds")
-    for number, curve in enumerate(speeds, start=1):
-        axes.loglog(stiffness, curve / RPM, label=f"critical speed {number}")
+    marks = [
+        CurveMark(stiffness, curve / RPM, f"critical speed {k + 1}", f"C{k}")
+        for k, curve in enumerate(speeds)
+    ]
     if bearing is not None:
-        axes.loglog(bearing[1], bearing[0] / RPM, "k--", label="bearing")
-    return labeled(axes, "bearing stiffness [N/m]", "critical speed [rpm]")
+        marks.append(CurveMark(bearing[1], bearing[0] / RPM, "bearing", "k", "--"))
+    text = "bearing stiffness [N/m]", "critical speed [rpm]", "Undamped critical speeds"
+    return Picture((PicturePanel(marks, *text, log="xy"),))
 
 
 def plot_unbalance_response(
     response: control.FrequencyResponseData,
     outputs: Sequence[str] | None = None,
     *,
-    axes: Sequence[Axes] | None = None,
-) -> tuple[Axes, Axes]:
-    """Draw amplitude [um] and phase [deg] of displacements over speed [rpm].
+    peak_to_peak: bool = False,
+) -> Picture:
+    """Describe amplitude [um] and phase [deg] of displacements over speed [rpm], a Bode plot.
 
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` returns it.
+        As `unbalance_response` or `tracked_response` returns it.
     outputs : sequence of str, optional
         Names of displacements; all of the response by default.
-    axes : two Axes, optional
-        For amplitude and phase; a new figure by default.
-
-    Returns
-    -------
-    (Axes, Axes)
+    peak_to_peak : bool
+        Twice the amplitude, as API 617 has it, in place of zero-to-peak; the label says which.
     """
-    if axes is None:
-        axes = new_figure(size=(7.4, 6.0)).subplots(2, 1, sharex=True)
-    above, below = axes
     speeds = np.asarray(response.frequency) / RPM
-    for name in displacements(response.output_labels) if outputs is None else outputs:
-        phasor = np.asarray(response.frdata)[response.output_labels.index(name), 0]
-        above.semilogy(speeds, np.abs(phasor) * 1e6, label=name)
-        below.plot(speeds, np.degrees(np.unwrap(np.angle(phasor))), label=name)
-    above.set(ylabel="amplitude [um]", title="Unbalance response")
-    below.set(xlabel="speed [rpm]", ylabel="phase [deg]")
-    legend_beside(above)
-    for part in (above, below):
-        part.grid(visible=True, alpha=0.3)
-    return above, below
+    sizes, phases = [], []
+    for k, (name, phasor) in enumerate(_phasors(response, outputs)):
+        style = f"C{k % 10}", WITHIN[k % len(WITHIN)]
+        sizes.append(CurveMark(speeds, (2.0 if peak_to_peak else 1.0) * np.abs(phasor), name, *style))
+        phases.append(CurveMark(speeds, np.degrees(np.unwrap(np.angle(phasor))), name, *style))
+    way = "peak-to-peak" if peak_to_peak else "zero-to-peak"
+    above = PicturePanel(sizes, "", f"amplitude, {way} [um]", "Unbalance response", log="y", legend="beside")
+    below = PicturePanel(phases, "speed [rpm]", "phase [deg]", legend="none")
+    return Picture((above, below), size=(7.4, 3.0))
+
+
+def _phasors(
+    response: control.FrequencyResponseData, outputs: Sequence[str] | None
+) -> Iterator[tuple[str, np.ndarray]]:
+    """Yield names and phasors [um] of displacements."""
+    labels = list(response.output_labels)
+    for name in displacements(labels) if outputs is None else outputs:
+        yield name, 1e6 * np.asarray(response.frdata)[labels.index(name), 0]
 
 
 def displacements(names: Iterable[str]) -> list[str]:
@@ -170,213 +182,113 @@ def displacements(names: Iterable[str]) -> list[str]:
     return [name for name in along if not name.endswith(("force_x", "force_y"))]
 
 
-def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int, *, axes: Axes | None = None) -> Axes:
-    """Draw one whirl mode along a shaft at the moment of its largest deflection, in both planes.
-
-    Parameters
-    ----------
-    rotor : ShaftRotor
-    modes : RotorModes
-        Of this rotor.
-    number : int
-        Place of the mode in `modes`, from 0.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-
-    Raises
-    ------
-    InputError
-        If there is no such mode.
-    """
-    if not 0 <= number < len(modes.eigenvalues):
-        raise InputError(f"number must be from 0 to {len(modes.eigenvalues) - 1}, got {number!r}")
-    n = len(rotor.assembly.coordinates)
-    x, y = (_deflection(rotor, modes.shapes[k : k + n, number]) for k in (0, n))
-    size = np.sqrt(np.abs(x) ** 2 + np.abs(y) ** 2).max()
-    turn = _turn(x, y) / size
-    axes = axes or new_axes("Mode shape")
-    along = rotor.positions
-    axes.plot(along, (x * turn).real, "o-", markersize=3, color=FORWARD, label="x")
-    axes.plot(along, (y * turn).real, "s--", markersize=3, color=BACKWARD, label="y")
-    axes.plot(along[[s.node for s in rotor.stations]], np.zeros(len(rotor.stations)), "k^", label="bearing")
-    axes.axhline(0.0, color="k", linewidth=0.8)
-    frequency, decrement = modes.frequency[number] / HERTZ, modes.log_decrement[number]
-    title = f"{frequency:.4g} Hz at {modes.speed / RPM:.0f} rpm, decrement {decrement:.3g}, "
-    title += f"direction {modes.direction[number]:+.2f}"
-    return labeled(axes, "along the shaft [m]", "deflection / the largest", title=title)
-
-
-def _deflection(rotor: ShaftRotor, plane: np.ndarray) -> np.ndarray:
-    return plane[0 : 2 * (len(rotor.elements) + 1) : 2]
-
-
-def _turn(x: np.ndarray, y: np.ndarray) -> complex:
-    """Return the phase, exp(i p), at which the node that moves most is farthest out; on a circle along x."""
-    k = int(np.argmax(np.abs(x) ** 2 + np.abs(y) ** 2))
-    # |Re(x e)|^2 + |Re(y e)|^2 is largest where x^2 + y^2 is turned to the real axis
-    squares = x[k] ** 2 + y[k] ** 2
-    circle = abs(squares) < _CIRCLE * (abs(x[k]) ** 2 + abs(y[k]) ** 2)
-    return complex(np.exp(-1j * (np.angle(x[k]) if circle else 0.5 * np.angle(squares))))
-
-
-def _where(mask: np.ndarray, values: Array) -> Array:
-    """Return the values of a mask and of the points beside it, so that its pieces join; nan elsewhere."""
-    wide = mask.copy()
-    wide[:, 1:] |= mask[:, :-1]
-    return np.where(wide, values, np.nan)
-
-
-def _curves(
-    axes: Axes, x: Array, curves: Array, label: str, *, color: str, style: str, width: float = 1.5
-) -> None:
-    """Draw curves under one label, unless there is nothing to see."""
-    for curve in curves:
-        if np.isfinite(curve).any():
-            axes.plot(x, curve, color=color, linestyle=style, linewidth=width, label=label)
-            label = "_nolegend_"
-
-
-# Charts that rotors are certified with, as API 617 wants them.
-
-
-MEGANEWTON = 1e6
-
-
-def plot_stability_level_one(
-    result: StabilityLevelOne, *, axes: Sequence[Axes] | None = None
-) -> tuple[Axes, Axes]:
-    """Draw the log decrement over the applied cross-coupling [MN/m], and where the machine is screened.
-
-    Parameters
-    ----------
-    result : StabilityLevelOne
-    axes : two Axes, optional
-        For curves and screening; a new figure by default.
-
-    Returns
-    -------
-    (Axes, Axes)
-    """
-    if axes is None:
-        axes = new_figure(size=(9.6, 4.4)).subplots(1, 2)
-    beside, screening = axes
-    for curve in result.curves:
-        applied = curve.cross_coupling / MEGANEWTON
-        beside.plot(applied, curve.log_decrement, "o-", markersize=3, label=curve.name)
-    expected = result.anticipated_cross_coupling / MEGANEWTON
-    beside.axvline(expected, color="k", linestyle=":", label="QA")
-    beside.plot([expected], [result.anticipated_decrement], "ks", fillstyle="none", label="delta_A")
-    if math.isfinite(result.zero_cross_coupling):
-        beside.plot([result.zero_cross_coupling / MEGANEWTON], [0.0], "k^", fillstyle="none", label="Q0")
-    beside.axhline(LEAST_DECREMENT, color="k", linestyle="--", linewidth=0.8, label=f"{LEAST_DECREMENT:g}")
-    beside.axhline(0.0, color="k", linewidth=0.8)
-    needed = "required" if result.level_two_required else "not required"
-    beside.set(xlabel="applied cross-coupling [MN/m]", ylabel="log decrement", title=f"Level II is {needed}")
-    _screening(result, screening)
-    with_grids(beside, screening)
-    return beside, screening
-
-
-def _screening(result: StabilityLevelOne, axes: Axes) -> None:
-    """Draw critical speed ratio over density, with the border between regions A and B."""
-    density = 0.0 if result.average_density is None else result.average_density
-    least, most = BORDER_DENSITY
-    right = max(1.2 * most, 1.2 * density)
-    border = np.array([0.0, least, most, most]), np.array([*BORDER_RATIO[:1], *BORDER_RATIO, 0.0])
-    axes.plot(*border, "k-", linewidth=1.0, label="border of regions A and B")
-    low = result.critical_speed_ratio < 1.0 and density < least
-    axes.text(0.4 * least, 1.5 if low else 0.5, "A")
-    axes.text(1.05 * most, 0.5, "B")
-    if result.average_density is not None:
-        axes.plot([density], [result.critical_speed_ratio], "ks", label="this machine")
-    top = max(3.5, 1.2 * result.critical_speed_ratio)
-    axes.set(
-        xlabel="average gas density [kg/m3]",
-        ylabel="critical speed ratio",
-        xlim=(0.0, right),
-        ylim=(0.0, top),
-        title=f"Q0/QA = {result.margin:.3g}",
-    )
-
-
-def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = None) -> Axes:
-    """Draw the amplitudes [um] over speed [rpm], peaks with their AF, red where it is too near.
-
-    Parameters
-    ----------
-    result : SeparationMargins
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes("Separation margins")
-    for name, amplitude in result.amplitudes.items():
-        axes.semilogy(result.speeds / RPM, 1e6 * amplitude, label=name)
-    axes.axvspan(
-        result.minimum_speed / RPM, result.maximum_speed / RPM, color="0.85", label="operating range"
-    )
-    for peak in result.peaks:
-        mark = "kv" if peak.acceptable else "rv"
-        axes.plot([peak.speed / RPM], [1e6 * peak.peak_amplitude], mark, fillstyle="none")
-        axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.peak_amplitude))
-    title = "Separation margins are kept" if result.acceptable else "Separation margins are not kept"
-    return labeled(axes, "speed [rpm]", "amplitude [um]", title=title)
-
-
-def plot_shaft_statics(
-    result: ShaftStatics, *, axes: Sequence[Axes] | None = None
-) -> tuple[Axes, Axes, Axes]:
-    """Draw sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes.
-
-    Parameters
-    ----------
-    result : ShaftStatics
-    axes : three Axes, optional
-        A new figure by default.
-
-    Returns
-    -------
-    (Axes, Axes, Axes)
-    """
-    if axes is None:
-        axes = new_figure(size=(7.4, 7.4)).subplots(3, 1, sharex=True)
-    above, middle, below = axes
-    for k, name in enumerate("xy"):
-        above.plot(result.positions, 1e6 * result.sag[k], "o-", markersize=3, label=name)
-        middle.plot(result.places, result.shear_force[k], label=name)
-        below.plot(result.places, result.bending_moment[k], label=name)
-    above.set(ylabel="sag [um]", title="Under its weight")
-    middle.set(ylabel="shear force [N]")
-    below.set(ylabel="bending moment [N m]", xlabel="along the shaft [m]")
-    with_grids(above, middle, below)
-    return above, middle, below
-
-
 def plot_polar_response(
-    response: control.FrequencyResponseData, outputs: Sequence[str], *, axes: Axes | None = None
-) -> Axes:
-    """Draw phasors [um] of a response over speed in the complex plane, with some speeds [rpm] beside them.
+    response: control.FrequencyResponseData, outputs: Sequence[str] | None = None
+) -> Picture:
+    """Describe phasors [um] of a response over speed in the complex plane, some speeds [rpm] beside them.
 
     Parameters
     ----------
     response : control.FrequencyResponseData
         As `unbalance_response` or `tracked_response` returns it.
-    outputs : sequence of str
-        Names of displacements.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
+    outputs : sequence of str, optional
+        Names of displacements; all of the response by default.
     """
-    axes = axes or new_axes("Polar plot")
-    speeds = np.asarray(response.frequency) / RPM
-    for name in outputs:
-        phasor = 1e6 * np.asarray(response.frdata)[list(response.output_labels).index(name), 0]
-        axes.plot(phasor.real, phasor.imag, label=name)
-        size = np.abs(phasor)
-        for k in {0, int(np.argmax(size)), len(speeds) - 1}:
-            axes.annotate(f"{speeds[k]:.0f} rpm", (phasor[k].real, phasor[k].imag), fontsize=8)
-    return labeled(axes, "real [um]", "imaginary [um]", aspect="equal", adjustable="datalim")
+    speeds, marks = np.asarray(response.frequency) / RPM, list[Mark]()
+    for k, (name, phasor) in enumerate(_phasors(response, outputs)):
+        marks.append(CurveMark(phasor.real, phasor.imag, name, f"C{k % 10}", WITHIN[k % len(WITHIN)]))
+        marks += [
+            NoteMark(float(phasor[k].real), float(phasor[k].imag), f"{speeds[k]:.0f} rpm")
+            for k in sorted({0, int(np.argmax(np.abs(phasor))), len(speeds) - 1})
+        ]
+    text = "real, zero-to-peak [um]", "imaginary, zero-to-peak [um]", "Polar plot"
+    return Picture((PicturePanel(marks, *text, equal=True),), size=(6.0, 5.4))
 
 
-# Charts of whirl: curves of periodic orbits with their stability, and basins.
+# Pictures that rotors are certified with, as API 617 wants them.
+
+
+MEGANEWTON = 1e6
+
+
+def plot_stability_level_one(result: StabilityLevelOne) -> Picture:
+    """Describe log decrement over the applied cross-coupling [MN/m], and where the machine is screened."""
+    marks: list[Mark] = []
+    for k, curve in enumerate(result.curves):
+        applied = curve.cross_coupling / MEGANEWTON
+        marks.append(CurveMark(applied, curve.log_decrement, curve.name, f"C{k}", marker="o", size=3.0))
+    expected = result.anticipated_cross_coupling / MEGANEWTON
+    marks.append(LevelMark(expected, "QA", dash=":", upright=True))
+    marks.append(_points(expected, result.anticipated_decrement, "delta_A", "s"))
+    if math.isfinite(result.zero_cross_coupling):
+        marks.append(_points(result.zero_cross_coupling / MEGANEWTON, 0.0, "Q0", "^"))
+    marks += [LevelMark(LEAST_DECREMENT, f"{LEAST_DECREMENT:g}", dash="--"), LevelMark(0.0)]
+    needed = "required" if result.level_two_required else "not required"
+    text = "applied cross-coupling [MN/m]", "log decrement", f"Level II is {needed}"
+    return Picture((PicturePanel(marks, *text), _screening(result)), columns=2, size=(4.8, 4.4))
+
+
+def _screening(result: StabilityLevelOne) -> PicturePanel:
+    """Describe critical speed ratio over density, with the border between regions A and B."""
+    density = 0.0 if result.average_density is None else result.average_density
+    least, most = BORDER_DENSITY
+    border = np.array([0.0, least, most, most]), np.array([*BORDER_RATIO[:1], *BORDER_RATIO, 0.0])
+    low = result.critical_speed_ratio < 1.0 and density < least
+    marks: list[Mark] = [
+        CurveMark(*border, "border of regions A and B", "k", width=1.0),
+        NoteMark(0.4 * least, 1.5 if low else 0.5, "A"),
+        NoteMark(1.05 * most, 0.5, "B"),
+    ]
+    if result.average_density is not None:
+        marks.append(_points(density, result.critical_speed_ratio, "this machine", "s"))
+    return PicturePanel(
+        marks,
+        "average gas density [kg/m3]",
+        "critical speed ratio",
+        f"Q0/QA = {result.margin:.3g}",
+        x_limits=(0.0, max(1.2 * most, 1.2 * density)),
+        y_limits=(0.0, max(3.5, 1.2 * result.critical_speed_ratio)),
+    )
+
+
+def plot_separation_margins(result: SeparationMargins) -> Picture:
+    """Describe amplitudes [um] over speed [rpm], peaks with AF and margin, red where they are too near."""
+    marks: list[Mark] = [
+        CurveMark(result.speeds / RPM, 1e6 * amplitude, name, f"C{k % 10}", WITHIN[k % len(WITHIN)])
+        for k, (name, amplitude) in enumerate(result.amplitudes.items())
+    ]
+    ends = result.minimum_speed / RPM, result.maximum_speed / RPM
+    marks.append(LevelMark(ends[0], "operating range", "0.6", upright=True, to=ends[1]))
+    for peak in result.peaks:
+        place, color = (peak.speed / RPM, 1e6 * peak.peak_amplitude), "k" if peak.acceptable else "r"
+        marks.append(_points(*place, "", "v", color))
+        margin = f", SM {peak.separation_margin:.0%} of {peak.required_margin:.0%}"
+        near = peak.required_margin > 0.0
+        marks.append(NoteMark(*place, f"AF {peak.amplification_factor:.3g}{margin if near else ''}", color))
+    title = f"Separation margins are {'' if result.acceptable else 'not '}kept"
+    panel = PicturePanel(
+        marks, "speed [rpm]", "amplitude, zero-to-peak [um]", title, log="y", legend="beside"
+    )
+    return Picture((panel,), size=(7.8, 4.8))
+
+
+def plot_shaft_statics(result: ShaftStatics) -> Picture:
+    """Describe sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes."""
+    sag, shear, moment = [], [], []
+    for k, name in enumerate("xy"):
+        style = name, f"C{k}", WITHIN[k]
+        sag.append(CurveMark(result.positions, 1e6 * result.sag[k], *style, marker="o", size=3.0))
+        shear.append(CurveMark(result.places, result.shear_force[k], *style))
+        moment.append(CurveMark(result.places, result.bending_moment[k], *style))
+    panels = (
+        PicturePanel(sag, "", "sag [um]", "Under its weight"),
+        PicturePanel(shear, "", "shear force [N]"),
+        PicturePanel(moment, "along the shaft [m]", "bending moment [N m]"),
+    )
+    return Picture(panels, size=(7.4, 2.5))
+
+
+# Pictures of whirl: curves of periodic orbits with their stability, and basins.
 
 
 MARKS = {
@@ -389,9 +301,9 @@ MARKS = {
 
 
 def plot_orbit_curves(
-    curves: Mapping[str, OrbitCurve], *, scale: float = 1.0, axes: Axes | None = None
-) -> Axes:
-    """Draw the amplitude of periodic orbits over their parameter; unstable ones dashed, bifurcations marked.
+    curves: Mapping[str, OrbitCurve], *, scale: float = 1.0, parameter: str = "parameter"
+) -> Picture:
+    """Describe the amplitude of periodic orbits over their parameter; unstable dashed, bifurcations marked.
 
     Parameters
     ----------
@@ -399,85 +311,66 @@ def plot_orbit_curves(
         By label.
     scale : float
         Unit of the parameter.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
+    parameter : str
+        Its label.
     """
-    axes = axes or new_axes("Periodic orbits")
+    marks: list[Mark] = []
     marked = set()
     for k, (label, curve) in enumerate(curves.items()):
-        color, x, stable = f"C{k}", curve.parameters / scale, curve.stable
-        amplitude = curve.amplitudes
+        x, stable, amplitude = curve.parameters / scale, curve.stable, curve.amplitudes
         # A segment is drawn as its ends are; where they differ, as the unstable one.
         solid = np.append(stable[:-1] & stable[1:], False)
-        for shown, style in ((solid, "-"), (~solid, "--")):
+        for shown, dash in ((solid, "-"), (~solid, "--")):
             pieces = np.where(shown[:-1, None], np.stack([amplitude[:-1], amplitude[1:]], 1), np.nan)
-            places = np.stack([x[:-1], x[1:]], 1)
             ends = np.full((len(pieces), 1), np.nan)
-            line = np.hstack([places, ends]).ravel(), np.hstack([pieces, ends]).ravel()
-            axes.plot(*line, style, color=color, label=label if style == "-" else None)
+            line = np.hstack([np.stack([x[:-1], x[1:]], 1), ends]).ravel(), np.hstack([pieces, ends]).ravel()
+            marks.append(CurveMark(*line, label if dash == "-" else "", f"C{k}", dash))
         for event in curve.events:
-            name = None if event.kind in marked else event.kind.value
+            name = "" if event.kind in marked else event.kind.value
             marked.add(event.kind)
-            place = event.parameter / scale, event.orbit.amplitude
-            axes.plot(*place, MARKS[event.kind], color="k", markersize=5, label=name)
-    axes.set(ylabel="largest distance of the journal from its mean / clearance")
-    axes.legend(fontsize=8)
-    return axes
+            marks.append(_points(event.parameter / scale, event.orbit.amplitude, name, MARKS[event.kind]))
+    text = parameter, "largest distance of the journal from its mean / clearance", "Periodic orbits"
+    return Picture((PicturePanel(marks, *text),))
 
 
-def plot_periodic_orbit(orbit: PeriodicOrbit, *, axes: Axes | None = None) -> Axes:
-    """Draw a periodic orbit of each journal inside its clearance circle.
-
-    Parameters
-    ----------
-    orbit : PeriodicOrbit
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes("Periodic orbit", size=(5.6, 5.2))
+def plot_periodic_orbit(orbit: PeriodicOrbit) -> Picture:
+    """Describe a periodic orbit of each journal inside its clearance circle."""
     paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
-    for station, (x, y) in zip(orbit.stations, paths, strict=True):
-        axes.plot(x, y, label=station or "journal")
-    draw_circle(axes)
-    return labeled(axes, "x / clearance", "y / clearance", aspect="equal")
+    marks = [
+        CurveMark(x, y, station or "journal", f"C{k}")
+        for k, (station, (x, y)) in enumerate(zip(orbit.stations, paths, strict=True))
+    ]
+    text = "x / clearance", "y / clearance", "Periodic orbit"
+    return Picture((PicturePanel([*marks, circle()], *text, equal=True),), size=(5.6, 5.2))
 
 
-def plot_basin(scan: BasinScan, *, clearance: float, axes: Axes | None = None) -> Axes:
-    """Draw where a rotor goes from initial positions: to rest, or into whirl.
+def plot_basin(scan: BasinScan, *, clearance: float) -> Picture:
+    """Describe where a rotor goes from initial positions: to rest, or into whirl.
 
     Parameters
     ----------
     scan : BasinScan
         Over a list or a grid of offsets of one bearing.
     clearance : float [m]
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Where the rotor goes from rest at a position", size=(6.0, 5.6))
     x, y = (scan.offsets.reshape(2, -1) + scan.rest[:2, None]) / clearance
-    whirls = scan.whirls.ravel()
+    whirls, marks = scan.whirls.ravel(), list[Mark]()
     inside = np.hypot(x, y) < 1.0
     for chosen, color, label in ((whirls, BAD, "into whirl"), (~whirls, GOOD, "to rest")):
         here = chosen & inside
-        axes.plot(x[here], y[here], "s", color=color, markersize=4.5, label=label)
-    draw_circle(axes)
-    axes.plot(*(scan.rest[:2] / clearance), "k+", label="rest")
-    axes.set(xlabel="x / clearance (load)", ylabel="y / clearance", aspect="equal")
-    axes.legend(fontsize=8, loc="upper right")
-    return axes
+        marks.append(CurveMark(x[here], y[here], label, color, "", marker="s", size=4.5))
+    marks += [circle(), _points(scan.rest[0] / clearance, scan.rest[1] / clearance, "rest", "+")]
+    text = "x / clearance (load)", "y / clearance", "Where the rotor goes from rest at a position"
+    return Picture((PicturePanel(marks, *text, equal=True),), size=(6.0, 5.6))
 
 
-# Charts of the journal's motion: orbits and the locus of static equilibria.
+# Pictures of the journal's motion: orbits and the locus of static equilibria.
 
 
 def plot_orbits(
-    orbits: Mapping[str, Trajectory],
-    *,
-    clearance: float,
-    center: Iterable[float] | None = None,
-    axes: Axes | None = None,
-) -> Axes:
-    """Draw journal orbits.
+    orbits: Mapping[str, Trajectory], *, clearance: float, center: Iterable[float] | None = None
+) -> Picture:
+    """Describe journal orbits.
 
     Parameters
     ----------
@@ -487,28 +380,24 @@ def plot_orbits(
         Scale of both axes.
     center : iterable of 2 floats, optional [m]
         Static equilibrium, marked by a cross.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Orbit of the journal center", size=(5.6, 5.2))
-    for number, (label, orbit) in enumerate(orbits.items()):
-        x, y = orbit.position / clearance
-        axes.plot(x, y, ("-", "--", ":")[min(number, 2)], label=label, linewidth=1.6)
+    marks = [
+        CurveMark(orbit["x"] / clearance, orbit["y"] / clearance, label, f"C{k}", WITHIN[min(k, 2)], 1.6)
+        for k, (label, orbit) in enumerate(orbits.items())
+    ]
     if center is not None:
-        x0, y0 = center
-        axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium", zorder=3)
-    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
-    legend_beside(axes)
-    return axes
+        x, y = center
+        marks.append(_points(x / clearance, y / clearance, "static equilibrium", "+", size=10.0))
+    text = "x / clearance", "y / clearance", "Orbit of the journal center"
+    return Picture((PicturePanel(marks, *text, equal=True, legend="beside"),), size=(5.6, 5.2))
 
 
 def plot_locus(
     curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
     *,
     families: Mapping[str, FilmFamily] | None = None,
-    axes: Axes | None = None,
-) -> Axes:
-    """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
+) -> Picture:
+    """Describe the loci of the journal center under a load along -y, rotation counter-clockwise.
 
     Parameters
     ----------
@@ -516,26 +405,27 @@ def plot_locus(
         Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
     families : mapping of str to FilmFamily, optional
         Family of films by label, for its color and line.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Locus of the journal center, load along -y", size=(7.6, 5.2))
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 181)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label="clearance circle")
+    marks: list[CurveMark] = [CurveMark(np.cos(turn), np.sin(turn), "clearance circle", "k", width=1.0)]
     drawn: Counter[FilmFamily | None] = Counter()
-    for label, (eccentricity_ratio, attitude_angle) in curves.items():
+    for k, (label, (eccentricity_ratio, attitude_angle)) in enumerate(curves.items()):
         x = eccentricity_ratio * np.sin(attitude_angle)
         y = -eccentricity_ratio * np.cos(attitude_angle)
         family = None if families is None else families.get(label)
-        color, width, style = None, 1.4, WITHIN[drawn[family] % len(WITHIN)]
+        color, width, dash = f"C{k % 10}", 1.4, WITHIN[drawn[family] % len(WITHIN)]
         if family is not None:
             color, width = FAMILY_COLORS[family], FAMILY_WIDTHS[family]
         drawn[family] += 1
-        line: dict[str, Any] = {"color": color, "linewidth": width, "linestyle": DASHES.get(family, style)}
-        axes.plot(x, y, label=label, zorder=2.0 + 0.5 / width, **line)
-    axes.set(
-        xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
+        marks.append(CurveMark(x, y, label, color, "--" if family in DASHES else dash, width))
+    panel = PicturePanel(
+        [marks[0], *sorted(marks[1:], key=lambda one: -one.width)],
+        "x / clearance",
+        "y / clearance",
+        "Locus of the journal center, load along -y",
+        x_limits=(-0.05, 1.05),
+        y_limits=(-1.05, 0.1),
+        equal=True,
+        legend="beside",
     )
-    # Beside the picture: inside, it would lie on the clearance circle.
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=5.0)
-    return axes
+    return Picture((panel,), size=(7.6, 5.2))

@@ -166,8 +166,7 @@ def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     save(plot_log_decrement(answer.campbell), folder / "log_decrement.png")
     write_csv(folder / "campbell.csv", campbell_columns(answer))
     if answer.response is not None:
-        above, _ = plot_unbalance_response(answer.response)
-        save(above, folder / "unbalance_response.png")
+        save(plot_unbalance_response(answer.response), folder / "unbalance_response.png")
         write_csv(folder / "unbalance_response.csv", response_columns(answer))
     if answer.level_one is not None:
         write_level_one(answer.level_one, folder)
@@ -182,7 +181,7 @@ def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
         columns[f"{curve.name} cross-coupling [N/m]"] = curve.cross_coupling.tolist()
         columns[f"{curve.name} log decrement [1]"] = curve.log_decrement.tolist()
         columns[f"{curve.name} frequency [rad/s]"] = curve.frequency.tolist()
-    save(plot_stability_level_one(found)[0], folder / "stability_level_one.png")
+    save(plot_stability_level_one(found), folder / "stability_level_one.png")
     write_csv(folder / "stability_level_one.csv", columns)
 
 
@@ -225,8 +224,8 @@ def write_damper(answer: DamperAnswer, folder: Path) -> None:
     """Write the picture of transmissibility over unbalance."""
     from ..charts import plot_transmissibility, save
 
-    axes = plot_transmissibility({"damper": answer.response}, unit=answer.unbalance_scale)
-    save(axes, folder / "transmissibility.png")
+    picture = plot_transmissibility({"damper": answer.response}, unit=answer.unbalance_scale)
+    save(picture, folder / "transmissibility.png")
 
 
 # The answer to a question: the value, and the ladder that led to it.

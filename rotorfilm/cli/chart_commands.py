@@ -197,7 +197,7 @@ def heat(report: Report, out: Folder = OUT) -> CommandOutput:
     files = write_study(out, result)
     files += write_chart(out, "heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
     case = studies.HEAT_CASES[1]
-    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
+    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}").draw()
     files += write_picture(out, "heat_film", pictures, "film")
     return CommandOutput(result, shown_study(result, files))
 
@@ -217,7 +217,7 @@ def rolling(
     speeds = [k * top / (POINTS - 1) for k in range(POINTS)]
     curves = studies.ball_curves(studies.usual_bearing(), speeds, report=part_of(report, 0.0, 0.5))
     ladder = studies.ball_accuracy(states, seed=seed, report=part_of(report, 0.5, 1.0))
-    files = write_chart(out, "rolling", curves.columns(), charts.plot_ball_curves(curves))
+    files = write_chart(out, "rolling", curves.columns(), charts.plot_ball_curves(curves).draw())
     headings = ("preload [N]", f"running at {RPM * top:.5g} rpm [N]", "radial [N/um]", "axial [N/um]")
     last = (curves.running_preload, 1e-6 * curves.radial_stiffness, 1e-6 * curves.axial_stiffness)
     rows = [
@@ -345,8 +345,8 @@ def scene(
         for r in result.rungs
         if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
     ]
-    axes = charts.plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-    files = write_chart(out, file.stem, result.columns(), [axes])
+    axes = charts.plot_scene_ladder(points, title=title, tolerance=result.tolerance).draw()
+    files = write_chart(out, file.stem, result.columns(), axes)
     rows = [
         (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), number(r.cost), r.reason)
         for r in result.rungs

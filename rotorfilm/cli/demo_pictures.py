@@ -64,14 +64,16 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
         verdict = " (refused)" if run.refused else ""
         orbits[f"coupled, {math.degrees(run.macro_angle):.3g} deg{verdict}"] = run.trajectory
     center = result.answer.equilibrium.position
-    return charts.plot_orbits(orbits, clearance=clearance_of(result.scene.bearing), center=center, axes=axes)
+    return charts.plot_orbits(orbits, clearance=clearance_of(result.scene.bearing), center=center).draw(axes)[
+        0
+    ]
 
 
 def _draw_locus(result: DemoResult) -> Axes:
     ratios = np.array(ECCENTRICITY_RATIOS)
     families = {rung.name: FilmFamily(rung.family) for rung in demo_rungs()}
     curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
-    return charts.plot_locus(curves, families=families)
+    return charts.plot_locus(curves, families=families).draw()[0]
 
 
 def _draw_coupling(result: DemoResult, axes: Axes | None = None) -> Axes:

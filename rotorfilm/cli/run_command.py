@@ -107,8 +107,6 @@ def contact_motion(found: ContactResponse) -> FollowedMotion:
 
 def damper_motion(run: DamperRun) -> FollowedMotion:
     """Return what a run on a damper says."""
-    from ..charts import plot_damper_run
-
     time, eps = run.trajectory.time, run.eccentricity_ratio
     failure = None
     if run.contact_time is not None:
@@ -133,8 +131,7 @@ def damper_motion(run: DamperRun) -> FollowedMotion:
         ("largest force on the housing", f"{run.peak_force:.5g} N"),
         *_ending(run.contact_time, run.trajectory),
     ]
-    draw = partial(plot_damper_run, time, eps, run.force)
-    return data, rows, _signals(run.trajectory), draw, failure
+    return data, rows, _signals(run.trajectory), run.plot, failure
 
 
 def rotor_motion(run: RotorRun) -> FollowedMotion:

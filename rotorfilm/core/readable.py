@@ -208,22 +208,30 @@ class Readable(Tabled):
         return make(arrays, index, along, {"title": type(self).__name__, **notes})
 
 
-class Drawable(Readable):
-    """A result that has a picture."""
+class Plottable:
+    """What has pictures."""
 
-    def plot(self, *, axes: Any = None) -> Any:
-        """Draw the result by its function of `rotorfilm.charts`.
+    def plot(self, kind: str = "", *, axes: Any = None, backend: str = "") -> Any:
+        """Draw a picture by its function of `rotorfilm.charts`.
 
         Parameters
         ----------
+        kind : str
+            Which picture; the usual one by default. An unknown one raises an error that lists all.
         axes : Axes, or several of them where the picture has several, optional
-            Where to draw; a new figure by default.
+            Where to draw with matplotlib; a new figure by default.
+        backend : str
+            "matplotlib" or "plotly"; by default what `rotorfilm.charts.use` chose, or matplotlib.
 
         Returns
         -------
-        Axes, or several of them
+        Axes, or several of them; of plotly a plotly.graph_objects.Figure
         """
-        return offered("plot_result")(self, axes=axes)
+        return offered("plot_result")(self, kind, axes=axes, backend=backend)
+
+
+class Drawable(Plottable, Readable):
+    """A result that has pictures."""
 
 
 # Print and notebooks: names and values, and tables below them.

@@ -13,6 +13,7 @@ import numpy as np
 from ..core.errors import InputError, require_non_negative
 from ..core.inputs import quantities
 from ..core.model import Array
+from ..core.readable import Plottable
 from ..core.signals import signals_of
 from ..core.units import STANDARD_GRAVITY
 from .profile import SpeedProfile
@@ -54,7 +55,7 @@ from .structure import (
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class ShaftRotor(FlexibleRotor):
+class ShaftRotor(Plottable, FlexibleRotor):
     """A shaft that bends and shears, with rotary inertia and gyroscopic effect: a Dynamic model.
 
     Node i is where element i begins; the last element ends at the last node. z runs along the shaft. The

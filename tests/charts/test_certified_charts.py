@@ -77,4 +77,4 @@ def test_margins_in_rpm_and_micrometers():
     axes = result.plot()
     np.testing.assert_allclose(lines(axes)["mid_x"].get_xydata(), [[100.0, 1.0], [200.0, 2.0], [300.0, 1.0]])
     assert "not kept" in axes.get_title()
-    assert [text.get_text() for text in axes.texts] == ["AF 5"]
+    assert [text.get_text() for text in axes.texts] == ["AF 5, SM 0% of 10%"]

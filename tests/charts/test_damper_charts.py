@@ -39,10 +39,9 @@ FOUND = SynchronousOrbits(
     ("plot", "value"), [(plot_transmissibility, 1.5), (plot_eccentricity, 0.4), (plot_phase, 90.0)]
 )
 def test_unstable_orbits_are_dotted(plot, value):
-    axes = plot({"porous": FOUND}, unit=UNIT)
-    lines = {
-        line.get_linestyle(): line for line in axes.get_lines() if line.get_label().strip("_") == "porous"
-    }
+    (axes,) = plot({"porous": FOUND}, unit=UNIT).draw()
+    lines = {line.get_linestyle(): line for line in axes.get_lines() if len(line.get_xdata()) in (2, 3)}
+    lines = {dash: line for dash, line in lines.items() if line.get_color() == "C0"}
     assert set(lines) == {"-", ":"}
     np.testing.assert_allclose(lines["-"].get_xdata(), [0.1, 0.3, 0.4])
     assert lines[":"].get_ydata()[-1] == pytest.approx(value)
@@ -50,7 +49,7 @@ def test_unstable_orbits_are_dotted(plot, value):
 
 
 def test_contact_is_a_cross_at_the_wall():
-    cross = plot_eccentricity({"porous": FOUND}, unit=UNIT).get_lines()[-1]
+    cross = plot_eccentricity({"porous": FOUND}, unit=UNIT).draw()[0].get_lines()[-1]
     assert (cross.get_marker(), cross.get_xdata()[0], cross.get_ydata()[0]) == ("x", pytest.approx(0.2), 1.0)
 
 
@@ -61,7 +60,7 @@ def test_bistable_region_and_transient_draw_their_numbers():
         jump_up=np.array([[0.5], [np.nan]]),
         jump_down=np.array([[0.4], [np.nan]]),
     )
-    up, down = plot_bistable(found).get_lines()
+    up, down = plot_bistable(found).draw()[0].get_lines()
     assert (up.get_ydata()[0], down.get_ydata()[0]) == (0.5, 0.4)
     axes = new_axes("mine")
-    assert plot_transmitted({"a": (np.arange(3.0), np.ones(3))}, axes=axes) is axes
+    assert plot_transmitted({"a": (np.arange(3.0), np.ones(3))}).draw(axes) == [axes]

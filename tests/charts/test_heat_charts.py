@@ -13,6 +13,7 @@ from rotorfilm.bearings.journal import (
 )
 from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.charts import (
+    plot_circumference,
     plot_heated_film,
     plot_pressure_field,
     plot_study,
@@ -45,7 +46,7 @@ def mesh_of(axes):
 
 
 def test_fields_are_drawn_whole_and_in_degrees(layered):
-    axes = plot_temperature_field(layered)
+    (axes,) = plot_temperature_field(layered).draw()
     shown = mesh_of(axes).get_array()
     mean = layered.oil_temperature.mean(axis=-1) - 273.15
     assert shown.shape == (2 * mean.shape[1] - 1, mean.shape[0])
@@ -57,7 +58,7 @@ def test_fields_are_drawn_whole_and_in_degrees(layered):
 
 
 def test_pressure_is_where_it_was_found(layered):
-    axes = plot_pressure_field(layered)
+    (axes,) = plot_pressure_field(layered).draw()
     mesh = mesh_of(axes)
     shown = mesh.get_array()
     line, node = np.unravel_index(layered.pressure.argmax(), layered.pressure.shape)
@@ -68,26 +69,34 @@ def test_pressure_is_where_it_was_found(layered):
 
 
 def test_the_gap_is_drawn_across(layered):
-    axes = plot_temperature_across(layered)
-    corners = mesh_of(axes).get_coordinates()
-    gap = corners[:, -1, 1]
-    chi = np.hypot(*layered.position) / 75e-6
+    field, journal = plot_temperature_across(layered).panels[0].marks
+    gap, chi = journal.y, np.hypot(*layered.position) / 75e-6
     assert gap.min() == pytest.approx(75.0 * (1.0 - chi), rel=5e-3)
     assert gap.max() == pytest.approx(75.0 * (1.0 + chi), rel=5e-3)
     thinnest = np.degrees(np.arctan2(layered.position[1], layered.position[0])) % 360.0
-    assert corners[gap.argmin(), 0, 0] == pytest.approx(thinnest, abs=12.0)
-    assert mesh_of(axes).get_array().max() == pytest.approx(layered.oil_temperature[:, 0].max() - 273.15)
+    assert journal.x[gap.argmin()] == pytest.approx(thinnest, abs=12.0)
+    assert np.nanmax(field.values) == pytest.approx(layered.oil_temperature[:, 0].max() - 273.15)
+    np.testing.assert_array_equal(np.isnan(field.values), field.y[:, None] >= gap)
 
 
 def test_a_film_with_a_mean_temperature_has_no_picture_across():
     state = state_of(MeanTemperature())
-    assert len(plot_heated_film(state)) == 2
+    assert len(plot_heated_film(state).panels) == 2
     with pytest.raises(InputError, match="state must be that of a film with layers"):
         plot_temperature_across(state)
 
 
+def test_load_and_film_over_the_circumference(layered):
+    _, pressure, film = plot_circumference(layered).panels[0].marks
+    np.testing.assert_array_equal(np.diff(pressure.x) > 0.0, True)
+    assert pressure.y.max() == pytest.approx(1e-6 * layered.pressure.max())
+    chi = np.hypot(*layered.position) / 75e-6
+    assert (film.y.min(), film.y.max()) == pytest.approx((75.0 * (1.0 - chi), 75.0 * (1.0 + chi)), rel=5e-3)
+    assert film.right
+
+
 def test_the_whole_film_is_one_figure(layered):
-    shown = plot_heated_film(layered, title="a film")
+    shown = plot_heated_film(layered, title="a film").draw()
     assert [axes.get_figure().get_suptitle() for axes in shown] == ["a film"] * 3
 
 

@@ -29,7 +29,7 @@ def test_curves_balance_their_loads():
 
 
 def test_curves_are_drawn_and_tabulated():
-    loads, angles, stiffness, swing = plot_ball_curves(CURVES)
+    loads, angles, stiffness, swing = plot_ball_curves(CURVES).draw()
     assert len(loads.get_lines()) == 6
     assert angles.get_lines()[0].get_ydata() == pytest.approx(np.degrees(CURVES.inner_angle))
     assert len(stiffness.get_lines()) == 2 * len(CURVES.preloads)
@@ -43,11 +43,10 @@ def test_curves_are_drawn_and_tabulated():
 def test_the_spectrum_of_a_swing_is_its_picture():
     bearing = BallBearing(balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=10e-6)
     found = variable_compliance(bearing, (0.0, -500.0), 300.0, samples=16)
-    axes = found.plot()
-    tops = [segment[1, 1] for lines in axes.collections for segment in lines.get_segments()]
+    tops = [bar.get_height() for bar in found.plot().patches]
     assert tops == pytest.approx(1e9 * found.swing_amplitude.ravel())
     still = variable_compliance(bearing, (0.0, -500.0), samples=8)
-    assert "multiple of the ball-pass frequency" in plot_compliance(still).get_xlabel()
+    assert "multiple of the ball-pass frequency" in plot_compliance(still).panels[0].x
 
 
 def test_models_beside_each_other():

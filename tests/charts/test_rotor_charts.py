@@ -9,6 +9,7 @@ import pytest
 from rotorfilm import InputError, LinearBearing
 from rotorfilm.analysis import Campbell, CriticalSpeed, rotor_modes
 from rotorfilm.charts import (
+    LevelMark,
     plot_campbell,
     plot_critical_speed_map,
     plot_log_decrement,
@@ -32,44 +33,54 @@ def lines(axes):
 
 def test_campbell_diagram_in_rpm_and_hertz(tmp_path):
     critical = CriticalSpeed(speed=10.0, log_decrement=0.1, direction=1.0)
-    axes = plot_campbell(CHART, critical=[critical])
-    drawn = lines(axes)
+    picture = plot_campbell(CHART, critical=[critical])
+    drawn = picture.panels[0].curves
     assert set(drawn) == {"grows", "forward", "backward", "1x speed", "critical speed"}
-    np.testing.assert_allclose(drawn["forward"].get_xdata(), [100.0, 200.0, 300.0])
-    np.testing.assert_allclose(drawn["forward"].get_ydata() * 2 * np.pi, [10.0, 12.0, 14.0])
-    assert np.isfinite(drawn["grows"].get_ydata()).tolist() == [False, False, True]
-    np.testing.assert_allclose(drawn["1x speed"].get_ydata(), [100 / 60, 200 / 60, 300 / 60])
-    np.testing.assert_allclose(drawn["critical speed"].get_xdata(), [10.0 * 30 / np.pi])
-    assert save(axes, tmp_path / "campbell.png").stat().st_size > 10_000
+    np.testing.assert_allclose(drawn["forward"].x, [100.0, 200.0, 300.0])
+    np.testing.assert_allclose(drawn["forward"].y * 2 * np.pi, [10.0, 12.0, 14.0])
+    np.testing.assert_allclose(drawn["forward"].values, [0.2 * np.pi, np.pi / 6, -np.pi / 7])
+    np.testing.assert_allclose(drawn["grows"].x, [300.0])
+    np.testing.assert_allclose(drawn["1x speed"].y, [100 / 60, 200 / 60, 300 / 60])
+    np.testing.assert_allclose(drawn["critical speed"].x, [10.0 * 30 / np.pi])
+    assert save(picture, tmp_path / "campbell.png").stat().st_size > 10_000
 
 
 def test_a_campbell_diagram_draws_no_roundoff_as_growth():
     values = np.array([[-1e-9 + 10j, 1e-9 + 12j, 1e-7 + 14j]])
     chart = replace(CHART, eigenvalues=values, direction=np.ones((1, 3)), roundoff=np.full((1, 3), 1e-8))
-    drawn = lines(plot_campbell(chart))
-    assert np.isfinite(drawn["grows"].get_ydata()).tolist() == [False, False, True]
+    np.testing.assert_allclose(plot_campbell(chart).panels[0].curves["grows"].x, [300.0])
     chart = replace(chart, roundoff=np.full((1, 3), 1e-6))
-    assert "grows" not in lines(plot_campbell(chart))
+    assert "grows" not in plot_campbell(chart).panels[0].curves
 
 
 def test_log_decrement_is_that_of_the_modes():
-    first, second, _ = plot_log_decrement(CHART).get_lines()
-    np.testing.assert_allclose(first.get_ydata(), [0.2 * np.pi, np.pi / 6, -np.pi / 7])
-    assert np.isnan(second.get_ydata()[2])
+    (panel,) = plot_log_decrement(CHART).panels
+    first, second = panel.curves.values()
+    np.testing.assert_allclose(first.y, [0.2 * np.pi, np.pi / 6, -np.pi / 7])
+    assert np.isnan(second.y[2])
+    assert panel.y_limits == (-1.0, 3.0)
+    assert [one.at for one in panel.marks if isinstance(one, LevelMark)] == [0.0, 0.1]
+
+
+def test_an_overdamped_mode_is_named_and_not_drawn():
+    chart = replace(CHART, eigenvalues=CHART.eigenvalues - np.array([[0.0], [80.0]]))
+    (panel,) = plot_log_decrement(chart).panels
+    assert list(panel.curves) == ["mode 1, from 1.59 Hz"]
+    assert panel.title.endswith("overdamped, above 3: mode 2")
 
 
 def test_map_of_critical_speeds():
     stiffness, speeds = np.array([1e5, 1e6]), np.array([[10.0, 20.0], [30.0, 40.0]])
-    axes = plot_critical_speed_map(stiffness, speeds, bearing=np.array([[5.0, 50.0], [1e5, 2e5]]))
-    drawn = lines(axes)
-    np.testing.assert_allclose(drawn["critical speed 2"].get_ydata(), np.array([30.0, 40.0]) * 30 / np.pi)
-    np.testing.assert_allclose(drawn["bearing"].get_xdata(), [1e5, 2e5])
+    picture = plot_critical_speed_map(stiffness, speeds, bearing=np.array([[5.0, 50.0], [1e5, 2e5]]))
+    drawn = picture.panels[0].curves
+    np.testing.assert_allclose(drawn["critical speed 2"].y, np.array([30.0, 40.0]) * 30 / np.pi)
+    np.testing.assert_allclose(drawn["bearing"].x, [1e5, 2e5])
 
 
 def test_unbalance_response_as_amplitude_and_phase():
     data = np.array([[[1e-6, -2e-6j]], [[5e-6, 5e-6]]])
     response = control.FrequencyResponseData(data, [10.0, 20.0], inputs=["unbalance"], outputs=["x", "y"])
-    above, below = plot_unbalance_response(response, ["x"])
+    above, below = plot_unbalance_response(response, ["x"]).draw()
     np.testing.assert_allclose(above.get_lines()[0].get_ydata(), [1.0, 2.0])
     np.testing.assert_allclose(below.get_lines()[0].get_ydata(), [0.0, -90.0])
 
@@ -78,8 +89,10 @@ def test_unbalance_response_draws_all_displacements_unless_told():
     names = ["left_x", "left_y", "left_vx", "left_vy", "left_housing_force_x", "speed"]
     data = np.arange(1.0, 13.0).reshape(6, 1, 2)
     response = control.FrequencyResponseData(data, [10.0, 20.0], inputs=["unbalance"], outputs=names)
-    above, _ = plot_unbalance_response(response)
-    assert [line.get_label() for line in above.get_lines()] == ["left_x", "left_y"]
+    above, _ = plot_unbalance_response(response, peak_to_peak=True).panels
+    assert list(above.curves) == ["left_x", "left_y"]
+    np.testing.assert_allclose(above.curves["left_x"].y, [2e6, 4e6])
+    assert above.y == "amplitude, peak-to-peak [um]"
 
 
 @pytest.mark.closed_form
@@ -95,8 +108,7 @@ def test_mode_shapes_of_a_simply_supported_shaft_are_sines(speed):
     hard = LinearBearing(stiffness=((1e12, 0.0), (0.0, 1.1e12 if speed == 0.0 else 1e12)))
     modes = rotor_modes(rotor, {"left": hard, "right": hard}, speed)
     for half_waves, number in ((1, 0), (2, 2)):
-        axes = plot_mode_shape(rotor, modes, number)
-        drawn = lines(axes)
+        drawn = lines(plot_mode_shape(rotor, modes, number).draw()[0])
         wanted = np.sin(half_waves * np.pi * rotor.positions / 1.2)
         sign = np.sign(drawn["x"].get_ydata()[1])
         np.testing.assert_allclose(

@@ -22,6 +22,7 @@ RESULTS = {
     "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "FilmDamping", "FilmSystem",
     "HeatedJFOState", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
     "FrequencyDependentCoefficients", "MeshConvergence", "PadEquilibrium", "PadMatrices", "PeriodicOrbit",
+    "OrbitsOverSpeed", "RunAmplitudes", "RunOrbits", "RunSpectra",
     "ReducedCoefficients", "Reduction", "ResonancePeak", "RingContacts", "RotorEquilibrium", "RotorModes",
     "RotorThreshold", "RuptureError", "SealFlow", "SeparationMargins", "ShaftStatics", "SqueezeImpedance",
     "SqueezeMatrices",

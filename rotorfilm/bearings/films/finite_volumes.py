@@ -189,10 +189,11 @@ def _cells_along(edges: Array, along: int) -> list[int]:
 
 
 def _shares(geometry: FilmGeometry) -> tuple[float, ...]:
-    """Return where openings end within the length, each once."""
+    """Return where openings and recesses end within the length, each once."""
     found: list[float] = []
-    for share in sorted(pocket.share for pocket in geometry.pockets):
-        if not found or share - found[-1] > ROUNDOFF:
+    shares = [pocket.share for pocket in geometry.pockets] + [sunk.share for sunk in geometry.recesses]
+    for share in sorted(shares):
+        if share < 1.0 and (not found or share - found[-1] > ROUNDOFF):
             found.append(share)
     return tuple(found)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar, NamedTuple
 
 from ...core.errors import InputError, brief, require_finite, require_non_negative, require_positive
@@ -117,6 +118,30 @@ class Pad:
             raise InputError(f"extent must be in (0, 2 pi], got {self.extent!r}")
 
 
+@dataclass(frozen=True, kw_only=True)
+class SunkArc:
+    """A recess in the wall: an arc of one depth in the middle of the length.
+
+    Parameters
+    ----------
+    start, end : float [rad]
+        Angles of its edges in the bearing frame.
+    share : float [1]
+        Of the bearing's length that it covers, 0 < share <= 1.
+    depth_ratio : float [1]
+        Depth below the wall over the clearance.
+    """
+
+    start: float
+    end: float
+    share: float
+    depth_ratio: float
+
+    def covers(self, angle: float) -> bool:
+        """Return whether it lies at an angle [rad]."""
+        return (angle - self.start) % TURN < self.end - self.start
+
+
 @dataclass(frozen=True)
 class Span:
     """A piece of the circumference between two edges: film, or an opening held at a pressure.
@@ -162,6 +187,8 @@ class FilmGeometry:
         Openings that end within the bearing; they may not touch each other, a groove or an end of a pad.
     circumferential : bool
         Whether a groove all round holds the line at mid-length at the supply pressure.
+    recesses : tuple of SunkArc
+        Where the wall of a pad is deeper; their edges are those of spans.
 
     Raises
     ------
@@ -175,6 +202,7 @@ class FilmGeometry:
     supply: float = 0.0
     pockets: tuple[Pocket, ...] = ()
     circumferential: bool = False
+    recesses: tuple[SunkArc, ...] = ()
 
     def __post_init__(self) -> None:
         require_non_negative("supply", self.supply)
@@ -220,7 +248,8 @@ class FilmGeometry:
     def spans(self) -> tuple[Span, ...]:
         """Return openings and the films between them, all round from the first opening.
 
-        Beside an opening with a share there is film too.
+        Beside an opening with a share there is film too. At the edges of recesses one film ends and the next
+        begins.
         """
         openings = self.openings()
         if not openings:
@@ -228,8 +257,15 @@ class FilmGeometry:
         pieces = []
         for first, second in zip(openings, [*openings[1:], openings[0]], strict=True):
             room = (second.start - first.start) % TURN or TURN
-            pieces += [first, Span(first.end, room - first.extent)]
+            pieces += [first, *self._cut(Span(first.end, room - first.extent))]
         return tuple(piece for piece in pieces if piece.held is not None or piece.extent > 0.0)
+
+    def _cut(self, film: Span) -> list[Span]:
+        """Return the pieces of a film between the edges of recesses."""
+        edges = {(angle - film.start) % TURN for sunk in self.recesses for angle in (sunk.start, sunk.end)}
+        inside = sorted(edge for edge in edges if _MEETING < edge < film.extent - _MEETING)
+        bounds = [0.0, *inside, film.extent]
+        return [Span(film.start + low, high - low) for low, high in pairwise(bounds)]
 
 
 def _require_apart(first: Span, second: Span, room: float) -> None:

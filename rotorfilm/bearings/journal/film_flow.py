@@ -5,6 +5,7 @@ All flows are in units of clearance x radius x length/2, that is in 1/s.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -14,6 +15,7 @@ import numpy as np
 from ...core.model import Array
 from ...core.port import Tangent, has_wall
 from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil
+from ..films.geometry import SunkArc
 from ..films.mass_conserving import Fluidity
 from ..reaction import StaticReaction
 
@@ -68,9 +70,9 @@ class FilmFlow(NamedTuple):
 
 
 def fed_film(
-    film: FrozenFilm, eccentricity: Array, speed: float, *, full_gap: bool, settled: bool = False
+    film: FrozenFilm, position: Array, speed: float, *, full_gap: bool, settled: bool = False
 ) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
-    """Return the film whose openings feed it, its solution for a journal at rest, and its flow.
+    """Return the film whose openings feed it, its solution for a journal at rest [m], and its flow.
 
     In a bearing with openings a film starts at an opening or where the streamers fill the gap again, not from
     nothing: a node at its start that would take more than they bring is left empty, as often as that helps.
@@ -78,6 +80,7 @@ def fed_film(
     """
     cells = film.cells
     while True:
+        eccentricity = film.reaction.eccentricity(position, speed)
         found = film.solve(eccentricity, np.zeros(2), speed)
         flow = film_flow(film, found, eccentricity, speed, full_gap=full_gap)
         starved = _starved(cells, flow, speed)
@@ -95,7 +98,8 @@ def film_flow(
     ----------
     film : FrozenFilm
     found : FilmSolution
-    eccentricity : ndarray, shape (2,) [1]
+    eccentricity : ndarray, shape (2,) or (2, N) [1]
+        Of all lines, or of each.
     speed : float [rad/s]
     full_gap : bool
         Whether oil fills the gap in the ruptured zone too.
@@ -103,7 +107,6 @@ def film_flow(
     cells = film.cells
     full = np.pad(found.full, ((0, 0), (0, 1)), mode="edge")
     pressure = np.pad(found.pressure, ((0, 0), (0, 1)))
-    H, at_lines = (cells.thickness(eccentricity, angles) for angles in (cells.face, cells.theta))
     drag = speed * film.fluidity.mean_at_faces().dragged * cells.width
     drag *= _driven(cells, full, eccentricity, speed)
     pressed = np.zeros(cells.shape)
@@ -117,9 +120,10 @@ def film_flow(
         full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0
     )
     entering, leaving = through(around, axial)
-    capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
+    capacity = abs(speed) * cells.mean_thickness(eccentricity) * film.fluidity.dragged * cells.width
     filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
-    climbing = H[:, None] * (np.roll(pressure, -1, axis=0) - pressure)
+    at_faces = cells.at_faces(eccentricity, cells.face)
+    climbing = at_faces * (np.roll(pressure, -1, axis=0) - pressure)
     return FilmFlow(
         dragged=dragged,
         pressed=pressed,
@@ -128,14 +132,14 @@ def film_flow(
         leaving=leaving,
         filled=filled,
         full=full,
-        shear=filled * cells.integral_of_inverse(eccentricity)[:, None] * cells.width,
+        shear=filled * cells.integral_of_inverse(eccentricity) * cells.width,
         dissipation=_dissipation(cells, found, full),
         climb=0.5 * full * cells.width * (climbing + np.roll(climbing, 1, axis=0)),
     )
 
 
 def _driven(cells: FilmCells, full: np.ndarray, eccentricity: Array, speed: float) -> Array:
-    """Return the thickness of what the walls drag through the faces after the lines, shape (N, M + 1).
+    """Return the thickness of what the walls drag through the faces after the lines, (N, M + 1) or (N, 1).
 
     Oil that an opening leaves to the ruptured zone is as thick as the gap at the edge of the opening.
     """
@@ -143,8 +147,7 @@ def _driven(cells: FilmCells, full: np.ndarray, eccentricity: Array, speed: floa
     giving, taking = (np.roll(cells.held, shift) for shift in shifts)
     emptied = (giving & ~taking)[:, None] & ~np.roll(full, shifts[1], axis=0)
     at_edge, at_face = (
-        cells.thickness(eccentricity, angles)[:, None]
-        for angles in (np.roll(cells.theta, shifts[0]), cells.face)
+        cells.at_faces(eccentricity, angles) for angles in (np.roll(cells.theta, shifts[0]), cells.face)
     )
     return np.where(emptied, at_edge, at_face)
 
@@ -254,6 +257,8 @@ class FilmCells(NamedTuple):
         1 where there is a film after a line, and 0 in openings, in which the gap counts as 1.
     slenderness : float [1]
         Length / diameter.
+    depth_ratio : ndarray, shape (N, M), or None [1]
+        Depth of a recess after a line and after a node, over the clearance; None without any.
     """
 
     theta: Array
@@ -269,6 +274,7 @@ class FilmCells(NamedTuple):
     center: Array
     film: Array
     slenderness: float
+    depth_ratio: Array | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -281,18 +287,83 @@ class FilmCells(NamedTuple):
         return np.stack([np.sin(after) - np.sin(before), np.cos(before) - np.cos(after)])
 
     def thickness(self, eccentricity: Array, angle: Array) -> Array:
-        """Return H at angles (..., N) that belong to the lines."""
-        x, y = eccentricity[:, None] - self.center
+        """Return H at angles (..., N) that belong to the lines, beside recesses."""
+        x, y = eccentricity.reshape(2, -1) - self.center
         return np.asarray(1.0 - self.film * (x * np.cos(angle) + y * np.sin(angle)))
 
+    def at_faces(self, eccentricity: Array, angle: Array, power: int = 1) -> Array:
+        """Return the means of H^power over the cells' faces at angles (N,) after the lines.
+
+        Their shape is (N, 1), with recesses (N, M + 1): on either side of a node it is as deep as there.
+        """
+        H = self.thickness(eccentricity, angle)[:, None]
+        if self.depth_ratio is None:
+            return H**power
+        half = 0.5 / self.conductance
+        parts = half * (H + self.depth_ratio) ** power
+        return (_before(parts) + _after(parts)) / self.width
+
+    def at_ends(self, eccentricity: Array, power: int) -> Array:
+        """Return the means of H^power over the faces after the nodes along the bearing, (N, 1) or (N, M)."""
+        H = self.thickness(eccentricity, self.theta)[:, None]
+        if self.depth_ratio is None:
+            return H**power
+        before, after = self._halves
+        parts = (
+            before * (H + np.roll(self.depth_ratio, 1, axis=0)) ** power
+            + after * (H + self.depth_ratio) ** power
+        )
+        return np.asarray(parts / (before + after))
+
+    def mean_thickness(self, eccentricity: Array) -> Array:
+        """Return H at the lines, shape (N, 1), with recesses its means over the cells, (N, M + 1)."""
+        if self.depth_ratio is None:
+            return self.thickness(eccentricity, self.theta)[:, None]
+        mean = self.at_ends(eccentricity, 1) * (0.5 / self.conductance)
+        return (_before(mean) + _after(mean)) / self.width
+
     def integral_of_inverse(self, eccentricity: Array) -> Array:
-        """Return the integral of 1/H over the cells of the lines, shape (N,)."""
-        angles = self.start + 0.5 * self.extent * (1.0 + _GAUSS_NODES[:, None])
-        return 0.5 * self.extent * (_GAUSS_WEIGHTS @ (1.0 / self.thickness(eccentricity, angles)))
+        """Return the integral of 1/H over the cells around the film, (N, 1), with recesses (N, M + 1)."""
+        if self.depth_ratio is None:
+            return self._inverse(eccentricity, self.start, self.extent, 0.0)
+        before = (self.theta - self.start) % (2.0 * np.pi)
+        deep = np.roll(self.depth_ratio, 1, axis=0)
+        parts = self._inverse(eccentricity, self.start, before, deep)
+        parts = parts + self._inverse(eccentricity, self.theta, self.extent - before, self.depth_ratio)
+        parts = parts * (0.5 / self.conductance)
+        return (_before(parts) + _after(parts)) / self.width
+
+    def _inverse(self, eccentricity: Array, start: Array, extent: Array, depth: Array | float) -> Array:
+        """Return the integral of 1/(H + depth) from angles (N,) on, of the shape of the depth or (N, 1)."""
+        angles = start + 0.5 * extent * (1.0 + _GAUSS_NODES[:, None])
+        H = self.thickness(eccentricity, angles)[..., None] + depth
+        return np.asarray(0.5 * extent[:, None] * np.tensordot(_GAUSS_WEIGHTS, 1.0 / H, 1))
+
+    @property
+    def _halves(self) -> tuple[Array, Array]:
+        """Angles from the face before a line to it, and to that after it, (N, 1) [rad]."""
+        angles = self.theta - np.roll(self.face, 1), self.face - self.theta
+        before, after = (angle[:, None] % (2.0 * np.pi) for angle in angles)
+        return before, after
+
+
+def _before(parts: Array) -> Array:
+    """Return for cells (N, M + 1) what the halves (N, M) before their nodes have: none before the first."""
+    return np.pad(parts, ((0, 0), (1, 0)))
+
+
+def _after(parts: Array) -> Array:
+    """Return for cells (N, M + 1) what the halves (N, M) after their nodes have: none after the last."""
+    return np.pad(parts, ((0, 0), (0, 1)))
 
 
 def film_cells(
-    spans: Spans, grid: Grid, slenderness: float, eccentricity: Array, centers: Array | None = None
+    spans: Spans,
+    grid: Grid,
+    slenderness: float,
+    eccentricity: Array,
+    centers: Array | None = None,
+    recesses: Sequence[SunkArc] = (),
 ) -> FilmCells:
     """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,).
 
@@ -306,6 +377,8 @@ def film_cells(
     centers : ndarray, shape (2, spans), optional [1]
         Of curvature of the wall on each span, over the clearance; by default all are those of the bearing.
         On an arc about a center of its own lines crowd at its own minimum film.
+    recesses : sequence of SunkArc
+        Whose edges are edges of spans, and whose ends are nodes.
     """
     e = np.repeat(eccentricity[:, None], len(spans.start), axis=1)
     if centers is not None:
@@ -333,7 +406,18 @@ def film_cells(
         center=np.zeros((2, 1)) if centers is None else centers[:, grid.span],
         film=grid.film,
         slenderness=slenderness,
+        depth_ratio=_depths(spans, grid, recesses) if recesses else None,
     )
+
+
+def _depths(spans: Spans, grid: Grid, recesses: Sequence[SunkArc]) -> Array:
+    """Return the depth of recesses after each line and each node of a grid, shape (N, M)."""
+    middles, along = (spans.start + 0.5 * spans.extent)[grid.span], grid.nodes[:-1] + 0.5 / grid.conductance
+    total = np.zeros((len(middles), len(along)))
+    for sunk in recesses:
+        inside = np.array([sunk.covers(angle) for angle in middles]) & (grid.film > 0.0)
+        total += sunk.depth_ratio * np.outer(inside, along < sunk.share)
+    return total
 
 
 def _within(spans: Spans, e: Array) -> Array:
@@ -429,6 +513,16 @@ class FrozenFilm(StaticReaction):
         """Typical force [N]."""
         return float(self.bearing.nominal_force)
 
+    @property
+    def reaction(self) -> Any:
+        """The film as a reaction: itself, or the pads that tilt on it."""
+        on_it = getattr(self.bearing, "on_frozen", None)
+        return self if on_it is None else on_it(self)
+
+    def eccentricity(self, position: Array, speed: float) -> Array:
+        """Return the eccentricity of a journal at a position (2,) [m], shape (2,) [1]."""
+        return position / self.clearance
+
     def minimum_film(self, position: Array) -> Array:
         """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
         if has_wall(self.bearing):
@@ -475,18 +569,18 @@ class FrozenFilm(StaticReaction):
 
         Parameters
         ----------
-        eccentricity : ndarray, shape (2,) [1]
+        eccentricity : ndarray, shape (2,), or (2, N) of each line [1]
             Position / clearance.
         squeeze : ndarray, shape (2,) [1/s]
             Velocity / clearance.
         speed : float [rad/s]
         """
         cells, (around, along, dragged) = self.cells, self._per_thickness
-        H, at_lines = (cells.thickness(eccentricity, at)[:, None] for at in (cells.face, cells.theta))
+        H, cubed = (cells.at_faces(eccentricity, cells.face, k)[:, : dragged.shape[1]] for k in (1, 3))
         carried, normal, width = speed * H * dragged, cells.normal(), cells.width[:-1]
         stencil = Stencil(
-            around=H**3 * around,
-            along=at_lines**3 * along,
+            around=cubed * around,
+            along=cells.at_ends(eccentricity, 3) * along,
             source=np.roll(carried, 1, axis=0) - carried + (squeeze @ normal)[:, None] * width,
             held=self.empty | cells.held[:, None],
         )
@@ -506,25 +600,41 @@ class FrozenFilm(StaticReaction):
         )
 
     def _response(self, position: Array, velocity: Array, speed: float) -> Array:
-        """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6).
+        """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6)."""
+        c, all_lines = self.clearance, np.ones((1, len(self.cells.theta)))
+        found = self.responses(position / c, velocity / c, float(speed), all_lines)[0]
+        return float(self.bearing.force_scale) * found / np.array([1.0, c, c, c, c, 1.0])
+
+    def responses(self, eccentricity: Array, squeeze: Array, speed: float, lines: Array) -> Array:
+        """Return forces of some lines, and derivatives by eccentricity, squeeze and speed, shape (P, 2, 6).
 
         In the film A P = b, and F = -12 N^T P. With V = A^-1 N, dF = 12 V^T (dA P - db): the pressure and its
         slope vanish at the edge of a ruptured zone, so moving the edge adds nothing. V^T A P is a sum over
         faces of their conductance times the falls of V and P, V^T b one of what is dragged times that of V.
+
+        Parameters
+        ----------
+        eccentricity, squeeze, speed
+            As of `solve`.
+        lines : ndarray, shape (P, N)
+            1 for those of each of P parts between openings, 0 for others.
         """
-        cells, per_thickness, c = self.cells, self._per_thickness, self.clearance
-        e = position / c
-        found = self.solve(e, velocity / c, float(speed))
+        cells, e = self.cells, eccentricity
+        found = self.solve(e, squeeze, speed)
         P, V = found.pressure, found.answers
         fall, at_end = V - np.roll(V, -1, axis=1), np.diff(V, axis=2, append=0.0) * np.diff(P, append=0.0)
-        falls = fall * (P - np.roll(P, -1, axis=0)), at_end, fall
-        around, along, dragged = (np.sum(a * b, axis=2) for a, b in zip(per_thickness, falls, strict=True))
-        H, at_lines = (cells.thickness(e, at) for at in (cells.face, cells.theta))
+        H, squared = (cells.at_faces(e, cells.face, k)[:, : P.shape[1]] for k in (1, 2))
+        around, along, dragged = self._per_thickness
+        around = np.sum(squared * around * fall * (P - np.roll(P, -1, axis=0)), axis=2)
+        along = np.sum(cells.at_ends(e, 2) * along * at_end, axis=2)
+        carried, dragged = np.sum(H * dragged * fall, axis=2), np.sum(dragged * fall, axis=2)
         n, n_lines = (cells.film * np.stack([np.cos(at), np.sin(at)]) for at in (cells.face, cells.theta))
-        by_e = (3.0 * H**2 * around + speed * dragged) @ n.T + 3.0 * at_lines**2 * along @ n_lines.T
-        by_w = (V @ cells.width[:-1]) @ found.normal.T
-        slopes = np.hstack([-by_e / c, -by_w / c, (dragged @ H)[:, None]])
-        return float(self.bearing.force_scale) * np.hstack([found.force(cells)[:, None], 12.0 * slopes])
+        width, part = cells.width[:-1], lines[:, None, :]
+        force = -((part * found.normal) @ (P @ width))[..., None]
+        by_e = (part * (3.0 * around + speed * dragged)) @ n.T + 3.0 * (part * along) @ n_lines.T
+        by_w = (part * (V @ width)) @ found.normal.T
+        by_speed = (part * carried).sum(axis=2)[..., None]
+        return np.asarray(12.0 * np.concatenate([force, -by_e, -by_w, by_speed], axis=2))
 
 
 def _to_the_end(field: Array) -> Array:

@@ -18,6 +18,7 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
+from ...core.readable import Drawable
 from ..films.finite_volumes import require_cells
 from ..films.geometry import FilmGeometry
 from ..films.mass_conserving import (
@@ -31,6 +32,7 @@ from ..films.mass_conserving_steps import ScaledFilm
 from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
+    BushRing,
     FilmProfile,
     HeatAccount,
     Heating,
@@ -58,7 +60,10 @@ State = TypeVar("State", bound="HeatedState")
 
 @runtime_checkable
 class ArcBearing(Protocol):
-    """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`."""
+    """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`.
+
+    Pads that tilt are without tilt here, and `on_frozen` puts them on a film.
+    """
 
     @property
     def clearance(self) -> float:
@@ -307,11 +312,12 @@ class HeatedFilm(HeatRounds):
 
     Parameters
     ----------
-    bearing : JournalBearing or LobedBearing
+    bearing : JournalBearing, LobedBearing, PressureDamBearing or TiltingPadBearing
         With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
-        housing have no part. Between lobes are openings as between the pads of a journal bearing.
+        housing have no part. Between pads are openings as between the pads of a journal bearing. Tilting
+        pads stand so that the film of each has no moment about its pivot.
     walls : Walls
-        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
+        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`. Tilting pads are no ring.
     cells : tuple of int
         Cells around the film and along half the length, as of `ReynoldsFilm`.
     profile : FilmProfile
@@ -339,22 +345,26 @@ class HeatedFilm(HeatRounds):
     profile: FilmProfile = field(default_factory=MeanTemperature)
 
     def __post_init__(self) -> None:
-        require_kind(
-            "bearing", self.bearing, ArcBearing, "a JournalBearing or LobedBearing with oil and cooling"
-        )
+        wanted = "a JournalBearing or a bearing of pads, with oil and cooling"
+        require_kind("bearing", self.bearing, ArcBearing, wanted)
         self._require_heat()
+        if hasattr(self.bearing, "on_frozen") and isinstance(self.walls, BushRing):
+            raise InputError(
+                "walls must be AdiabaticWalls() or HeldWalls(...) for tilting pads, which are no ring that "
+                f"conducts heat from one to the next, got {self.walls!r}"
+            )
         self.bearing.geometry.require_whole_length("HeatedFilm", "HeatedJFOFilm")
         require_cells(self.cells)
 
-    def cold(self) -> FrozenFilm:
+    def cold(self) -> Any:
         """Return the film of fresh oil, whose lines are where they are for a centered journal."""
-        return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None)
+        return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None).reaction
 
-    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenFilm:
+    def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
-        e = np.asarray(position) / self.bearing.clearance
-        film = self._frozen(e, np.broadcast_to(temperature, self._fresh().shape))
-        return fed_film(film, e, speed, full_gap=self.bearing.cooled[1].full_gap)[0]
+        q = np.asarray(position, dtype=float)
+        film = self._frozen(q, np.broadcast_to(temperature, self._fresh().shape))
+        return fed_film(film, q, speed, full_gap=self.bearing.cooled[1].full_gap)[0].reaction
 
     def _shape(self) -> tuple[int, int]:
         return self._cells(np.zeros(2)).shape
@@ -363,20 +373,22 @@ class HeatedFilm(HeatRounds):
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedState:
         bearing: Any = self.bearing
-        e = position / bearing.clearance
-        film, settled = self._frozen(e, temperature), before is not None and before.rounds >= FREE_ROUNDS
+        film, settled = (
+            self._frozen(position, temperature),
+            before is not None and before.rounds >= FREE_ROUNDS,
+        )
         if before is not None and settled:
             empty = before.film.empty if film.cells.held.any() else _before_start(before)
             film = replace(film, empty=empty)
         full_gap = bearing.cooled[1].full_gap
-        film, found, flow = fed_film(film, e, speed, full_gap=full_gap, settled=settled)
+        film, found, flow = fed_film(film, position, speed, full_gap=full_gap, settled=settled)
         cells = film.cells
         opening = np.broadcast_to(cells.opening[:, None], cells.shape)
         lines = cells.start, cells.extent
         warm = self.profile.warm(self._heating(lines, opening, flow, speed, temperature, closing))
         return self._state(
             HeatedState,
-            (position, speed, before, temperature, film),
+            (position, speed, before, temperature, film.reaction),
             opening,
             flow,
             warm,
@@ -393,12 +405,13 @@ class HeatedFilm(HeatRounds):
         film = ReynoldsFilm(cells=self.cells, geometry=bearing.geometry)
         spans, grids = film.grids(bearing.slenderness)
         centers = bearing.centers_at(spans.start + 0.5 * spans.extent)
-        return film_cells(spans, grids[0], bearing.slenderness, eccentricity, centers)
+        sunk = bearing.geometry.recesses
+        return film_cells(spans, grids[0], bearing.slenderness, eccentricity, centers, sunk)
 
-    def _frozen(self, eccentricity: Array, temperature: Array) -> FrozenFilm:
+    def _frozen(self, position: Array, temperature: Array) -> FrozenFilm:
         """Return the film of the viscosity that oil has at a temperature."""
-        x, y = eccentricity * self.bearing.clearance
-        cells = self._cells(eccentricity)
+        x, y = position
+        cells = self._cells(position / self.bearing.clearance)
         return FrozenFilm(
             cells=cells,
             fluidity=self.profile.fluidity(self._viscosity(temperature)),
@@ -419,7 +432,7 @@ def _before_start(state: HeatedState) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState(StaticFilm):
+class HeatedState(StaticFilm, Drawable):
     """A film with its temperature, for a journal at rest; N lines with M nodes on each.
 
     Attributes

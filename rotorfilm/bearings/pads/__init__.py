@@ -22,6 +22,13 @@ if TYPE_CHECKING:
         is_pad_mappable,
     )
     from .pad_matrices import PadMatrices as PadMatrices
+    from .pads_at_rest import (
+        PadEquilibrium as PadEquilibrium,
+        StaticTiltingPads,
+        TiltedPads as TiltedPads,
+        differenced_slopes,
+        even_pivots as even_pivots,
+    )
     from .pressure_dam import (
         DamKernel,
         PressureDamBearing as PressureDamBearing,
@@ -29,13 +36,6 @@ if TYPE_CHECKING:
         RecessedPad as RecessedPad,
         pressure_dam_pads as pressure_dam_pads,
     )
-    from .tilting_bearing import (
-        PadEquilibrium as PadEquilibrium,
-        StaticTiltingPads,
-        TiltedPads as TiltedPads,
-        TiltingPadBearing as TiltingPadBearing,
-        differenced_slopes,
-        even_pivots as even_pivots,
-    )
+    from .tilting_bearing import TiltingPadBearing as TiltingPadBearing
 else:
     show(__name__)

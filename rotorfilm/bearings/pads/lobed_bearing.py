@@ -14,7 +14,6 @@ from ...core.errors import (
     InputError,
     require_each,
     require_finite,
-    require_number,
     require_tuple,
     require_vector,
 )
@@ -24,11 +23,19 @@ from ...core.results import BearingLosses
 from ...native import JournalKernel, Status
 from ...native.film_kernels import LobesKernel
 from ...native.spec import NativeSpec, journal_spec
-from ..films.geometry import TURN, FilmGeometry, Pad
+from ..films.geometry import TURN
 from ..films.law import BoundKernel
 from ..films.map_fit import matrix_sizes
 from ..reaction import FilmReaction, broadcast_state
-from .pad_bearing import SPEED, WEDGE, PadBearing, PadUnderJournal, heat_slopes_of_pads, losses_of_pads
+from .pad_bearing import (
+    SPEED,
+    WEDGE,
+    OwnCenter,
+    PadBearing,
+    PadUnderJournal,
+    heat_slopes_of_pads,
+    losses_of_pads,
+)
 from .pad_build import DIRECTIONS, FLOOR
 from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
 from .pad_table import LossyPadFilm
@@ -37,42 +44,6 @@ from .pad_table import LossyPadFilm
 
 
 DEGREE = math.pi / 180.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class OwnCenter:
-    """An arc about a center of curvature of its own.
-
-    Parameters
-    ----------
-    start, extent : float [rad]
-        First end of the arc, in the bearing frame from +x towards +y, and the angle that it covers.
-    preload : float [1]
-        Distance of its center of curvature from that of the bearing, in pad clearances.
-    offset : float [1]
-        Share of the arc before the place that is closest to the centered journal.
-    """
-
-    start: float
-    extent: float
-    preload: float = 0.0
-    offset: float = 0.5
-
-    def _require_curve(self) -> None:
-        if not 0.0 <= require_number("preload", self.preload) < 1.0:
-            raise InputError(f"preload must be in [0, 1), got {self.preload!r}")
-        if not 0.0 <= require_number("offset", self.offset) <= 1.0:
-            raise InputError(f"offset must be in [0, 1], got {self.offset!r}")
-
-    @property
-    def closest(self) -> float:
-        """Angle of the least film at the centered journal [rad]."""
-        return self.start + self.offset * self.extent
-
-    @property
-    def center(self) -> tuple[float, float]:
-        """Center of curvature in units of the pad clearance."""
-        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
 
 
 @quantities
@@ -106,11 +77,6 @@ class Lobe(OwnCenter):
         if not 0.0 < self.extent < math.pi:
             raise InputError(f"extent must be in (0, pi) rad, got {self.extent!r}")
         self._require_curve()
-
-    @property
-    def middle(self) -> float:
-        """Angle of the middle of the arc [rad]."""
-        return self.start + 0.5 * self.extent
 
     def least_film(self, position: Array) -> Array:
         """Return the least film on the arc / c_p, shape (...), of journals at positions / c_p (2, ...)."""
@@ -303,19 +269,10 @@ class LobedBearing(FilmReaction, PadBearing):
         at = require_vector("position", position) / self.clearance
         return self.clearance * np.min([lobe.least_film(at) for lobe in self.lobes], axis=0)
 
-    @cached_property
-    def geometry(self) -> FilmGeometry:
-        """Arcs of the lobes and the openings between them, for films that are solved all round."""
-        return FilmGeometry(pads=tuple(Pad(start=lobe.start, extent=lobe.extent) for lobe in self.lobes))
-
-    def centers_at(self, angle: Array) -> Array:
-        """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N).
-
-        Between two lobes it is that of the nearer one.
-        """
-        middles, extents = np.array([(lobe.middle, lobe.extent) for lobe in self.lobes]).T
-        away = np.abs((angle[:, None] - middles + math.pi) % TURN - math.pi) - 0.5 * extents
-        return np.array([lobe.center for lobe in self.lobes])[np.argmin(away, axis=1)].T
+    @property
+    def arcs(self) -> tuple[Lobe, ...]:
+        """The lobes."""
+        return self.lobes
 
     def require_film(self, position: Array) -> None:
         """Raise FilmContactError, which names the lobe, where a journal at positions (2, ...) [m] touches."""

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...core.errors import InputError, require_each, require_positive
+from ...core.errors import InputError, require_each, require_number, require_positive
 from ...core.model import Array
 from ...core.results import BearingLosses
-from ..films.geometry import TURN
+from ..films.geometry import TURN, FilmGeometry, Pad, SunkArc
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import WarmBearing, flow_slopes, require_lubricant
 from ..reaction import require_no_overflow
@@ -20,6 +22,47 @@ from .pad_table import LossyPadFilm, PadFlows, gap_shear_of_pad, gap_slopes_of_p
 
 _ROUNDOFF = 5e-14
 """Force that a map or a grid leaves of a few pads, over viscosity length radius^3 speed/clearance^2."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnCenter:
+    """An arc about a center of curvature of its own.
+
+    Parameters
+    ----------
+    start, extent : float [rad]
+        First end of the arc, in the bearing frame from +x towards +y, and the angle that it covers.
+    preload : float [1]
+        Distance of its center of curvature from that of the bearing, in pad clearances.
+    offset : float [1]
+        Share of the arc before the place that is closest to the centered journal.
+    """
+
+    start: float
+    extent: float
+    preload: float = 0.0
+    offset: float = 0.5
+
+    def _require_curve(self) -> None:
+        if not 0.0 <= require_number("preload", self.preload) < 1.0:
+            raise InputError(f"preload must be in [0, 1), got {self.preload!r}")
+        if not 0.0 <= require_number("offset", self.offset) <= 1.0:
+            raise InputError(f"offset must be in [0, 1], got {self.offset!r}")
+
+    @property
+    def closest(self) -> float:
+        """Angle of the least film at the centered journal [rad]."""
+        return self.start + self.offset * self.extent
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """Center of curvature in units of the pad clearance."""
+        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
+
+    @property
+    def middle(self) -> float:
+        """Angle of the middle of the arc [rad]."""
+        return self.start + 0.5 * self.extent
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,6 +138,32 @@ class PadBearing(WarmBearing):
     def extents(self) -> Sequence[float]:
         """Angle that each pad covers [rad], or the one that all cover."""
         raise NotImplementedError
+
+    @property
+    def arcs(self) -> Sequence[OwnCenter]:
+        """The pads as arcs, tilting ones without tilt."""
+        raise NotImplementedError
+
+    @property
+    def recesses(self) -> tuple[SunkArc, ...]:
+        """Recesses in the pads."""
+        return ()
+
+    @cached_property
+    def geometry(self) -> FilmGeometry:
+        """Arcs of the pads and the openings between them, for films that are solved all round."""
+        pads = tuple(Pad(start=arc.start, extent=arc.extent) for arc in self.arcs)
+        return FilmGeometry(pads=pads, recesses=self.recesses)
+
+    def arc_at(self, angle: Array) -> np.ndarray:
+        """Return the numbers of the pads at angles (N,) [rad], between two of them that of the nearer one."""
+        middles, extents = np.array([(arc.middle, arc.extent) for arc in self.arcs]).T
+        away = np.abs((angle[:, None] - middles + np.pi) % TURN - np.pi) - 0.5 * extents
+        return np.asarray(np.argmin(away, axis=1))
+
+    def centers_at(self, angle: Array) -> Array:
+        """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N)."""
+        return np.array([arc.center for arc in self.arcs])[self.arc_at(angle)].T
 
     @property
     def clearance(self) -> float:

@@ -32,10 +32,9 @@ from ...native.library import loops
 from ...native.spec import NativeSpec, parameter
 from ...native.structs import structure
 from ..films.finite_volumes import are_counts
-from ..films.geometry import TURN, FilmGeometry, Pad
+from ..films.geometry import TURN, SunkArc
 from ..reaction import KernelReaction, broadcast_state
-from .lobed_bearing import OwnCenter
-from .pad_bearing import PadBearing, collected_losses, cross
+from .pad_bearing import OwnCenter, PadBearing, collected_losses, cross
 
 # A fixed pad with its own center of curvature, and a recess in it.
 
@@ -221,7 +220,24 @@ class PressureDamBearing(PadBearing, KernelReaction):
         if not are_counts(self.cells, (16, 8), (4, 4)):
             raise InputError(f"cells must be two multiples of 4, at least (16, 8), got {self.cells!r}")
         super().__post_init__()
-        FilmGeometry(pads=tuple(Pad(start=pad.start, extent=pad.extent) for pad in self.pads))
+        _ = self.geometry
+
+    @property
+    def arcs(self) -> tuple[RecessedPad, ...]:
+        """The pads."""
+        return self.pads
+
+    @property
+    def recesses(self) -> tuple[SunkArc, ...]:
+        """Recesses in the pads."""
+        return tuple(
+            SunkArc(
+                start=first, end=last, share=pad.recess.share, depth_ratio=pad.recess.depth / self.clearance
+            )
+            for pad in self.pads
+            for _, first, last, _ in [pad.edges]
+            if pad.recess is not None and first < last
+        )
 
     @property
     def preloads(self) -> tuple[float, ...]:

@@ -119,7 +119,7 @@ def test_power_is_that_of_the_torque(openings):
     state = HeatedFilm(bearing=bearing, cells=CELLS).solve(POSITION, OMEGA)
     film = state.film
     sheared = (state.filled * film.cells.width / film.fluidity.pressed).sum(axis=1)
-    inverse = film.cells.integral_of_inverse(POSITION / c)
+    inverse = film.cells.integral_of_inverse(POSITION / c)[:, 0]
     M_s = bearing.film_viscosity * OMEGA * R**3 * bearing.length / c * float(sheared @ inverse)
     E, F = POSITION, state.force
     torque = M_s + 0.5 * (E[0] * F[1] - E[1] * F[0])

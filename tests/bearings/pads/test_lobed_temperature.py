@@ -10,12 +10,12 @@ from rotorfilm import (
     FilmContactError,
     HeatedFilm,
     InputError,
+    JFOFilm,
     JournalBearing,
     Lobe,
     LobedBearing,
     Oil,
     Pad,
-    TiltingPadBearing,
     equilibrium,
     heated_equilibrium,
     lobe_set,
@@ -92,7 +92,7 @@ def test_power_is_that_of_the_torque(lobes):
     cells = state.film.cells
     sheared = (state.filled * cells.width / state.film.fluidity.pressed).sum(axis=1)
     M = bearing.film_viscosity * OMEGA * R**3 * bearing.length / c
-    M *= float(sheared @ cells.integral_of_inverse(POSITION / c))
+    M *= float(sheared @ cells.integral_of_inverse(POSITION / c)[:, 0])
     line_forces = -bearing.force_scale * 12.0 * cells.normal()
     line_forces *= (state.pressure / bearing.pressure_scale) @ cells.width
     E = POSITION[:, None] - c * cells.center
@@ -169,6 +169,7 @@ def test_what_breaks_a_rule_is_named():
     with pytest.raises(FilmContactError, match="film on every pad"):
         film.cold().force([0.0, -0.7 * c], [0.0, 0.0], OMEGA)
     assert film.cold().minimum_film(np.zeros(2)) == pytest.approx(0.5 * c)
-    tilting = TiltingPadBearing(pad_clearance=c, pivots=(0.0, 2.0, 4.0), extent=1.2, **WARM)
-    with pytest.raises(InputError, match="bearing must be a JournalBearing or LobedBearing with oil"):
-        HeatedFilm(bearing=tilting)
+    with pytest.raises(InputError, match="bearing must be a JournalBearing or a bearing of pads, with oil"):
+        HeatedFilm(
+            bearing=JFOFilm(bearing=JournalBearing(clearance=c, pads=(Pad(start=0.0, extent=3.0),), **WARM))
+        )

@@ -59,9 +59,9 @@ def test_a_slow_coast_down_in_time_is_the_steady_response():
 def test_charts_of_a_coast_down():
     profile = rf.SpeedProfile(times=(0.0, 3.0), speeds=(400.0, 60.0))
     found = rf.analysis.tracked_response(signal(profile, 3.0, 6001), profile)
-    above, _ = plot_unbalance_response(found)
+    above, _ = plot_unbalance_response(found).draw()
     assert len(above.get_lines()) == 2
-    polar = plot_polar_response(found, ["mid_x"])
+    (polar,) = plot_polar_response(found, ["mid_x"]).draw()
     x, y = polar.get_lines()[0].get_data()
     np.testing.assert_allclose(x + 1j * y, 1e6 * np.asarray(found.frdata)[0, 0])
     assert any("rpm" in text.get_text() for text in polar.texts)

@@ -225,6 +225,6 @@ def test_it_rests_where_one_temperature_has_it_about_and_is_drawn():
     one = equilibrium(film.film, LOAD, OMEGA)
     np.testing.assert_allclose(found.rest.position, one.position, atol=0.08 * c)
     assert found.state.maximum_temperature > one.temperature
-    axes = plot_heated_film(found.state)
+    axes = plot_heated_film(found.state).draw()
     assert len(axes) == 3
     assert axes[0].get_ylim() == pytest.approx((-25.0, 25.0), abs=4.0)

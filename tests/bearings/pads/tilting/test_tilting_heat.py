@@ -8,7 +8,7 @@ import pytest
 from rotorfilm import Cooling, InputError, Oil, coefficients, equilibrium, whirl_threshold
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
 from rotorfilm.bearings.pads.pad_build import build_pad_table, pad_grid
-from rotorfilm.bearings.pads.tilting_bearing import directions, turning
+from rotorfilm.bearings.pads.pads_at_rest import directions, turning
 
 DEGREE = np.pi / 180.0
 SPEED, LOAD = 314.0, (300.0, -3000.0)

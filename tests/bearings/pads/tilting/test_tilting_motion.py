@@ -21,7 +21,7 @@ from rotorfilm import (
     simulate,
     whirl_threshold,
 )
-from rotorfilm.bearings.pads.tilting_bearing import directions
+from rotorfilm.bearings.pads.pads_at_rest import directions
 
 SPEED = 300.0
 KINDS = {

@@ -9,7 +9,7 @@ from scipy.optimize import root
 
 from rotorfilm import FilmContactError, InputError, TiltingPadBearing, coefficients, equilibrium, even_pivots
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, ReducedCoefficients
-from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
+from rotorfilm.bearings.pads.pads_at_rest import WEDGE, directions
 from rotorfilm.core import UnloadedPadWarning
 
 SPEED = 300.0

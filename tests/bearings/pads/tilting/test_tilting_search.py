@@ -17,7 +17,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings import PadGridFilm, PadMapFilm
-from rotorfilm.bearings.pads.tilting_bearing import WEDGE, directions
+from rotorfilm.bearings.pads.pads_at_rest import WEDGE, directions
 
 SPEED = 300.0
 

@@ -1,0 +1,198 @@
+"""Pictures of a shaft: the rotor to scale, mode shapes in two planes and in space."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ..analysis import RotorModes
+from ..analysis.rotor_modes import senses
+from ..core.errors import InputError
+from ..rotors import Coupling, ShaftElement, ShaftRotor
+from ..rotors.shaft_elements import LayeredElement, ShaftPiece
+from .picture import CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel
+
+RPM, HERTZ = math.pi / 30.0, 2.0 * math.pi
+
+STEEL = "#8fa3b5"
+_CIRCLE = 1e-6
+"""Share of an orbit that is no circle, below which it has no longest direction."""
+
+
+_STILL = 1e-6
+"""Deflection / the largest, below which a node has no orbit."""
+
+
+def plot_rotor(rotor: ShaftRotor, bearings: Mapping[str, object] | None = None) -> Picture:
+    """Describe a rotor to scale [mm]: elements, disks, bearings, seals, probes and unbalances.
+
+    A disk is drawn as the solid one with its mass and moments of inertia.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : mapping of str to Reaction, optional
+        By station; seals, by the name of their class, are drawn as combs and not as triangles.
+    """
+    z, radii = 1e3 * rotor.positions, _radii(rotor)
+    tall = max(radii)
+    marks: list[Mark] = list(_elements(rotor))
+    for k, disk in enumerate(rotor.disks):
+        if disk.mass > 0.0:
+            height = 1e3 * math.sqrt(2.0 * disk.polar_inertia / disk.mass) or 2.0 * radii[disk.node]
+            squares = 12.0 * (disk.diametral_inertia - 0.5 * disk.polar_inertia) / disk.mass
+            width = max(1e3 * math.sqrt(max(squares, 0.0)), 0.01 * z[-1])
+            box = _box(z[disk.node] - 0.5 * width, z[disk.node] + 0.5 * width, -height, height)
+            marks.append(CurveMark(*box, "" if k else "disk", "#4c72b0", width=0.8, fill=0.6))
+            tall = max(tall, height)
+    for station in rotor.stations:
+        seal = "Seal" in type((bearings or {}).get(station.name)).__name__
+        at, low = z[station.node], -radii[station.node]
+        label, marker = ("seal", "s") if seal else ("bearing", "^")
+        known = any(isinstance(one, CurveMark) and one.label == label for one in marks)
+        marks.append(
+            CurveMark([at], [low - 0.05 * tall], "" if known else label, "C2", "", marker=marker, size=9.0)
+        )
+        marks.append(NoteMark(float(at), float(low - 0.3 * tall), station.name, "C2"))
+    for label, parts, color, marker, above in (
+        ("unbalance", rotor.unbalances, "C3", "*", 0.1),
+        ("probe", rotor.probes, "C4", "v", 0.35),
+    ):
+        nodes = [one.node for one in parts]
+        if nodes:
+            heights = [radii[node] + above * tall for node in nodes]
+            marks.append(CurveMark(z[nodes], heights, label, color, "", marker=marker, size=8.0))
+    marks.append(LevelMark(0.0, color="0.3", dash="-."))
+    text = "along the shaft [mm]", "radius [mm]", f"Rotor of {rotor.mass:.4g} kg"
+    return Picture((PicturePanel(marks, *text, equal=True, legend="beside"),), size=(9.0, 4.0))
+
+
+def _box(left: float, right: float, low: float, high: float) -> tuple[list[float], list[float]]:
+    return [left, right, right, left, left], [low, low, high, high, low]
+
+
+def _layers(element: ShaftPiece) -> tuple[ShaftElement, ...]:
+    """Return the layers of an element; none of a coupling, whose size is not known."""
+    if isinstance(element, Coupling):
+        return ()
+    return element.layers if isinstance(element, LayeredElement) else (element,)
+
+
+def _radii(rotor: ShaftRotor) -> list[float]:
+    """Return the radius of the shaft at each node [mm], the largest beside it; 0 between couplings."""
+    outer = [
+        max((500.0 * one.outer_diameter for one in _layers(part)), default=0.0) for part in rotor.elements
+    ]
+    return [max(pair) for pair in zip([0.0, *outer], [*outer, 0.0], strict=True)]
+
+
+def _elements(rotor: ShaftRotor) -> Iterator[CurveMark]:
+    z = 1e3 * rotor.positions
+    for left, right, element in zip(z, z[1:], rotor.elements, strict=False):
+        for layer in _layers(element):
+            outer, inner = 500.0 * layer.outer_diameter, 500.0 * layer.inner_diameter
+            for side in (1.0, -1.0):
+                yield CurveMark(
+                    *_box(left, right, side * inner, side * outer), "", STEEL, width=0.6, fill=0.5
+                )
+
+
+def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> Picture:
+    """Describe one whirl mode along a shaft at the moment of its largest deflection, in both planes.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    modes : RotorModes
+        Of this rotor.
+    number : int
+        Place of the mode in `modes`, from 0.
+
+    Raises
+    ------
+    InputError
+        If there is no such mode.
+    """
+    x, y = _shape(rotor, modes, number)
+    nodes = [station.node for station in rotor.stations]
+    marks: list[Mark] = [
+        CurveMark(rotor.positions, x.real, "x", "#1f4fb4", marker="o", size=3.0),
+        CurveMark(rotor.positions, y.real, "y", "#d62728", "--", marker="s", size=3.0),
+        CurveMark(rotor.positions[nodes], np.zeros(len(nodes)), "bearing", "k", "", marker="^"),
+        LevelMark(0.0),
+    ]
+    text = "along the shaft [m]", "deflection / the largest", _titled(modes, number)
+    return Picture((PicturePanel(marks, *text),))
+
+
+def plot_mode_orbits(rotor: ShaftRotor, modes: RotorModes, number: int) -> Picture:
+    """Describe one whirl mode in space: the shaft at its largest deflection, and the orbits of its nodes.
+
+    A dot on each orbit is where the shaft is; blue orbits are forward, red ones backward.
+
+    Parameters
+    ----------
+    rotor, modes, number
+        As in `plot_mode_shape`.
+    """
+    x, y = _shape(rotor, modes, number)
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 73))
+    marks: list[Mark] = [
+        CurveMark(rotor.positions, x.real, "shaft", "k", width=2.0, z=y.real, marker="o", size=3.0)
+    ]
+    told = set()
+    for place, a, b in zip(rotor.positions, x, y, strict=True):
+        if abs(a) + abs(b) < _STILL:
+            continue
+        forward = (np.conj(a) * b).imag <= 0.0
+        if modes.speed < 0.0:
+            forward = not forward
+        label, color = ("forward", "C0") if forward else ("backward", "C3")
+        marks.append(
+            CurveMark(
+                np.full(73, place),
+                (a * turn).real,
+                "" if label in told else label,
+                color,
+                width=0.9,
+                z=(b * turn).real,
+            )
+        )
+        told.add(label)
+    ends, none = rotor.positions[[0, -1]], np.zeros(2)
+    marks.append(CurveMark(ends, none, "", "0.5", "-.", 1.0, z=none))
+    stations = rotor.positions[[station.node for station in rotor.stations]]
+    marks.append(
+        CurveMark(stations, 0.0 * stations, "bearing", "C2", "", marker="^", size=8.0, z=0.0 * stations)
+    )
+    text = "along the shaft [m]", "x / the largest", _titled(modes, number), "y / the largest"
+    return Picture((PicturePanel(marks, *text),), size=(8.4, 6.0))
+
+
+def _titled(modes: RotorModes, number: int) -> str:
+    frequency, decrement = modes.frequency[number] / HERTZ, modes.log_decrement[number]
+    return (
+        f"Mode {number + 1}: {frequency:.4g} Hz at {modes.speed / RPM:.0f} rpm, "
+        f"log decrement {decrement:.3g}, {senses(modes.direction)[number]}"
+    )
+
+
+def _shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the deflections of the nodes along x and y, real where they are largest, there 1."""
+    if not 0 <= number < len(modes.eigenvalues):
+        raise InputError(f"number must be from 0 to {len(modes.eigenvalues) - 1}, got {number!r}")
+    n, nodes = len(rotor.assembly.coordinates), 2 * (len(rotor.elements) + 1)
+    x, y = (modes.shapes[k : k + nodes : 2, number] for k in (0, n))
+    turn = _turn(x, y) / np.sqrt(np.abs(x) ** 2 + np.abs(y) ** 2).max()
+    return x * turn, y * turn
+
+
+def _turn(x: np.ndarray, y: np.ndarray) -> complex:
+    """Return the phase, exp(i p), at which the node that moves most is farthest out; on a circle along x."""
+    k = int(np.argmax(np.abs(x) ** 2 + np.abs(y) ** 2))
+    # |Re(x e)|^2 + |Re(y e)|^2 is largest where x^2 + y^2 is turned to the real axis
+    squares = x[k] ** 2 + y[k] ** 2
+    circular = abs(squares) < _CIRCLE * (abs(x[k]) ** 2 + abs(y[k]) ** 2)
+    return complex(np.exp(-1j * (np.angle(x[k]) if circular else 0.5 * np.angle(squares))))
