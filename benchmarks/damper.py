@@ -31,9 +31,9 @@ from rotorfilm import (
     PorousDamper,
     RigidRotor,
     ShortSqueeze,
-    Sprung,
     export_fmu,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.bearings import MapSqueeze, PublishedSqueeze
 
@@ -103,7 +103,7 @@ def orbits() -> None:
     for name, phi in (("solid", None), ("porous", 0.001)):
         film = damper(0.25, phi or 1.0)
         film = replace(film, viscosity=4.096e-4, cage=film.cage if phi else None)
-        support = Sprung(reaction=film, stiffness=2.56e5)
+        support = with_springs(film, 2.56e5)
         cost = timed(lambda support=support: synchronous_orbits(rotor, support, unbalances))
         print(f"orbits of a {name} damper at 200 unbalances, with folds and stability: {1e3 * cost:.0f} ms")
 

@@ -20,9 +20,9 @@ from rotorfilm import (
     FullFilm,
     RigidRotor,
     ShortSqueeze,
-    Sprung,
     SqueezeFilmDamper,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.bearings import HalfSommerfeld, layer_modes
 from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, FullSqueezeFilm
@@ -145,7 +145,7 @@ def battery(count: int = 30, seed: int = 7) -> None:
     rng, errors, none = np.random.default_rng(seed), [], 0
     for _ in range(count):
         damper, rotor, stiffness = random_case(rng)
-        found = synchronous_orbits(rotor, Sprung(reaction=damper, stiffness=stiffness)).at(rotor.unbalance)
+        found = synchronous_orbits(rotor, with_springs(damper, stiffness)).at(rotor.unbalance)
         stable = [orbit for orbit in found if orbit.stable]
         if not stable:
             none += 1

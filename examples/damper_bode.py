@@ -9,7 +9,7 @@ import control
 import rotorfilm as rf
 
 damper = rf.PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=5e-4, extent=rf.FullFilm())
-support = rf.Sprung(reaction=damper, stiffness=2.56e5)
+support = rf.with_springs(damper, 2.56e5)
 rotor = rf.RigidRotor(mass=10.0, speed=400.0, gravity=(0.0, 0.0))
 ratio = rf.small_motion_transmissibility(rotor, support, name="damper")
 plot = control.bode_plot(ratio, (10.0, 2000.0), dB=True)

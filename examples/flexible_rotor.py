@@ -6,7 +6,6 @@ of 1.5 m x 50 mm with two disks, on springs in example 5.9.1 and on films in exa
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -30,7 +29,7 @@ from rotorfilm import (
     unbalance_response,
 )
 from rotorfilm.analysis import resonant_speeds
-from rotorfilm.charts import plot_campbell, plot_unbalance_response, save
+from rotorfilm.charts import plot_campbell, plot_rotor, plot_unbalance_response
 
 RPM = math.pi / 30.0
 steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
@@ -56,7 +55,8 @@ chart = campbell(rotor, films, speeds, highest_frequency=600.0)
 critical = critical_speeds(rotor, films, speeds)
 for one in critical:
     print(f"critical: {one.speed / RPM:.0f} rpm, decrement {one.log_decrement:.3f}, {one.direction:+.2f}")
-save(plot_campbell(chart, critical=critical), Path("campbell.png"))
+plot_campbell(chart, critical=critical).save("campbell.png")
+plot_rotor(rotor, films).save("rotor.png")
 
 onset = rotor_threshold(rotor, films, speeds)
 print(f"whip from {onset.speed / RPM:.1f} rpm, at {onset.whirl_ratio:.4f} of the speed")
@@ -66,7 +66,7 @@ print(f"with {len(small.states)} states for {len(rotor.states)}: {again / RPM:.1
 
 response = unbalance_response(rotor, films, resonant_speeds(speeds[speeds < onset.speed], critical))
 shown = plot_unbalance_response(response, ["small_x", "small_y", "left_x", "left_y"])
-save(shown, Path("unbalance_response.png"))
+shown.save("unbalance_response.png")
 
 
 book = replace(rotor, beam=ClassicalBeam())  # as the book has it

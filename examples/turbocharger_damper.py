@@ -14,11 +14,11 @@ from rotorfilm import (
     FiniteSqueeze,
     FullFilm,
     RigidRotor,
-    Sprung,
     SqueezeFilmDamper,
     coefficients,
     small_motion_transmissibility,
     synchronous_orbits,
+    with_springs,
 )
 
 SPEED = 60_000 * np.pi / 30.0
@@ -40,7 +40,7 @@ rotor = RigidRotor(mass=0.9, speed=SPEED, unbalance=4e-6, gravity=(0.0, 0.0))
 
 def transmitted(film: SqueezeFilmDamper) -> float:
     """Return the force on the housing per centrifugal force of the unbalance."""
-    support = Sprung(reaction=film, stiffness=1e6)
+    support = with_springs(film, 1e6)
     (orbit,) = synchronous_orbits(rotor, support).at(rotor.unbalance)
     return orbit.transmissibility
 
@@ -50,7 +50,7 @@ print(f"transmitted {with_inertia:.4f}; without inertia {transmitted(replace(oil
 ends = [transmitted(replace(oil_film, seals=seal)) for seal in oil_film.seals.bounds]
 print(f"for the leakage within its uncertainty: {min(ends):.4f} to {max(ends):.4f}")
 
-support = Sprung(reaction=oil_film, stiffness=1e6)
+support = with_springs(oil_film, 1e6)
 gain = small_motion_transmissibility(rotor, support)
 crossing = np.sqrt(2.0 * 1e6 / (rotor.mass + 2.0 * added))
 print("gain where it is 1 whatever the damping:", abs(gain(1j * crossing)))

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 import rotorfilm as rf
-from rotorfilm.charts import new_axes
+from rotorfilm.charts import plot_map
 
 scene, steps = Path(__file__).parent / "friswell.toml", 0.7 ** np.linspace(-1.0, 1.0, 7)
 grid = {"journal.clearance": 1e-4 * steps, "journal.viscosity": 0.1 * steps**2}
 ratio = rf.sweep(scene, grid, workers=1)["eccentricity_ratio"]
-axes = new_axes("Eccentricity ratio over viscosity [Pa s] and clearance [m]")
-filled = axes.contourf(ratio["journal_viscosity"], ratio["journal_clearance"], ratio)
-axes.figure.colorbar(filled)
-axes.figure.savefig("two_parameters.png")
+labels = "viscosity [Pa s]", "clearance [m]", "eccentricity ratio"
+order = np.argsort(steps)
+x, y = (ratio[key].values[order] for key in ("journal_viscosity", "journal_clearance"))
+plot_map(x, y, ratio.values[np.ix_(order, order)], labels=labels).save("two_parameters.png")
 print("spread along the diagonal:", np.ptp(np.diag(ratio)))

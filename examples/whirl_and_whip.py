@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from rotorfilm import Scene, SpeedProfile, mount, rotor_equilibrium, simulate_rotor
-from rotorfilm.charts import new_figure, save
+from rotorfilm.analysis import run_orbits, run_spectra
+from rotorfilm.charts import plot_run_orbits, plot_spectrogram, plot_waterfall
 from rotorfilm.scenes.solve_shaft import solve_rotor
 
 RPM = math.pi / 30.0
@@ -43,12 +44,11 @@ def whirl_frequency(begin: float, end: float) -> float:
     return float(frequencies[slow][np.argmax(spectrum[slow])])
 
 
-axes = new_figure(size=(6.4, 4.0)).subplots()
-axes.plot(time, disk.real * 1e6, linewidth=0.6, label="disk, x")
-axes.plot(time, run["left_x"] * 1e6, linewidth=0.6, label="left journal, x")
-axes.set(xlabel=f"time [s]; 1000 to 6000 rpm in {rise} s", ylabel="displacement [um]", title="Whirl and whip")
-axes.legend()
-save(axes, Path("whirl_and_whip.png"))
+plot_spectrogram(run_spectra(run, "disk", run_up, windows=60)).save("whirl_and_whip.png")
+plot_waterfall(run_spectra(run, "disk", run_up, windows=30)).save("waterfall.png")
+plot_run_orbits(run_orbits(run, np.linspace(1500.0, 5500.0, 6) * RPM, "left", run_up)).save(
+    "orbits_run_up.png"
+)
 
 whip = whirl_frequency(1.0, duration)
 swing = 0.5 * np.ptp(disk.real[time > 1.4]) * 1e6

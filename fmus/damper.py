@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm import PorousCage, PorousDamper, Sprung
+from rotorfilm import Parallel, PorousCage, PorousDamper, with_springs
 from rotorfilm.bearings import MapSqueeze
 
 COMPONENT = "damper"
@@ -11,13 +11,13 @@ SPEED = 400.0
 """Of the orbit that the reference begins with [rad/s]."""
 
 
-def model() -> Sprung:
+def model() -> Parallel:
     """Return the damper: diameter 100 mm, length 25 mm, radial clearance .1 mm, porous cage of 2.5 mm."""
     cage = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
     film = PorousDamper(
         radius=0.05, length=0.025, clearance=1e-4, viscosity=4.096e-4, cage=cage, film=MapSqueeze()
     )
-    return Sprung(reaction=film, stiffness=2.56e5)
+    return with_springs(film, 2.56e5)
 
 
 def start() -> dict[str, float]:

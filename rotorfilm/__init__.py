@@ -62,7 +62,6 @@ if TYPE_CHECKING:
         FeedHole as FeedHole,
         FiniteMapSqueeze as FiniteMapSqueeze,
         FiniteSqueeze as FiniteSqueeze,
-        FiveDegreeBalls as FiveDegreeBalls,
         FrequencyDependentReaction as FrequencyDependentReaction,
         Friction as Friction,
         FullFilm as FullFilm,
@@ -97,7 +96,6 @@ if TYPE_CHECKING:
         ShortFilm as ShortFilm,
         ShortSqueeze as ShortSqueeze,
         SplittingFilm as SplittingFilm,
-        Sprung as Sprung,
         SqueezeFilmDamper as SqueezeFilmDamper,
         StaticBalls as StaticBalls,
         TabulatedBearing as TabulatedBearing,
@@ -114,6 +112,7 @@ if TYPE_CHECKING:
         reduce_ball as reduce_ball,
         reduce_contact as reduce_contact,
         tandem as tandem,
+        with_springs as with_springs,
     )
     from .core import (
         Coefficients as Coefficients,

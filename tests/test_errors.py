@@ -114,3 +114,21 @@ def test_warning_of_a_dataclass_points_at_the_line_that_makes_it():
     with pytest.warns(ValidityWarning) as caught:
         JournalBearing(radius=0.05, length=0.08, clearance=1e-4, viscosity=0.1, film=ShortFilm())
     assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (np.float64(-0.5), "-0.5"),
+        (np.int64(-3), "-3"),
+        ([np.float64("nan"), np.True_, np.str_("a")], "[nan, True, 'a']"),
+        ("np.float", "'np.float'"),
+    ],
+)
+def test_messages_show_scalars_of_numpy_as_plain_numbers(value, shown):
+    with pytest.raises(InputError) as caught:
+        require_positive("clearance", value)
+    assert str(caught.value) == f"clearance must be finite and positive, got {shown}"
+    with pytest.warns(ValidityWarning) as warned:
+        errors.warn_user(f"got {value!r}")
+    assert str(warned[0].message) == f"got {shown}"

@@ -308,7 +308,7 @@ BALLS = rf.back_to_back(
 
 def test_balls_with_five_freedoms_hold_a_flexible_shaft(tmp_path):
     """One pair holds the shaft along its axis and against tilts, in time, in an FMU and in python-control."""
-    held = rf.MomentCarryingBalls(bearing=BALLS, axial=True)
+    held = rf.MomentCarryingBalls(bearing=BALLS, freedoms=rf.bearings.rolling.BALL_FREEDOMS)
     rotor = shaft(
         stations=(rf.Station(node=0, name="left", feels_tilt=True), rf.Station(node=4, name="right"))
     )

@@ -12,7 +12,6 @@ from rotorfilm import (
     RigidRotor,
     ShaftElement,
     ShaftRotor,
-    Sprung,
     Station,
     campbell,
     closed_loop,
@@ -32,6 +31,7 @@ from rotorfilm import (
     transmissibility,
     unbalance_response,
     whirl_threshold,
+    with_springs,
 )
 from rotorfilm.analysis import coefficient_table, orbit_system
 from rotorfilm.core import CircularOrbit
@@ -72,7 +72,7 @@ ASKED = {
     "small_motion_transmissibility": lambda film: small_motion_transmissibility(RIGID, film),
     "synchronous_orbits": lambda film: synchronous_orbits(RIGID, film),
     "simulate": lambda film: simulate(RIGID, film, duration=0.1),
-    "Sprung": lambda film: Sprung(reaction=film, stiffness=1e6),
+    "with_springs": lambda film: with_springs(film, 1e6),
 }
 WITH_STATIONS = {
     "mount": lambda films: mount(SHAFT, films),

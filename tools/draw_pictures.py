@@ -44,9 +44,9 @@ DRAWN = {
     "python examples/api617.py": ["api617"],
     "python examples/contact_film.py": ["contact"],
     "python examples/cracked_shaft.py": ["cracked_shaft"],
-    "python examples/flexible_rotor.py": ["campbell", "unbalance_response"],
+    "python examples/flexible_rotor.py": ["campbell", "rotor", "unbalance_response"],
     "python examples/rub.py": ["rub"],
-    "python examples/whirl_and_whip.py": ["whirl_and_whip"],
+    "python examples/whirl_and_whip.py": ["whirl_and_whip", "waterfall", "orbits_run_up"],
     "python examples/whirl_bifurcation.py": ["whirl_bifurcation"],
 }
 """The pictures of each command, which it writes into the folder where it runs."""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from rotorfilm import ContactError, Sprung
+from rotorfilm import ContactError, with_springs
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.damper import FiniteSqueeze, SqueezeFilmDamper
 from rotorfilm.questions import ladder_of
@@ -139,7 +139,7 @@ def peak(scene: Scene) -> Truth:
         seals=whole.seals,
         film=FiniteSqueeze(),
     )
-    support = Sprung(reaction=film, stiffness=scene.damper.stiffness)
+    support = with_springs(film, scene.damper.stiffness)
     times = np.linspace(0.0, models.duration, math.ceil(models.duration * scene.speed / 0.02))
     try:
         run = simulate(models.rotor, support, duration=models.duration, times=times, rtol=1e-7)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from rotorfilm import ContactError, Reaction, Sprung
+from rotorfilm import ContactError, Reaction, with_springs
 from rotorfilm.analysis import simulate, synchronous_orbits
 from rotorfilm.analysis.circular_orbits import orbit_points, orbit_rotor
 from rotorfilm.bearings.damper import FiniteMapSqueeze, FiniteSqueeze, PorousDamper
@@ -159,7 +159,7 @@ def finite(scene: Scene) -> Reaction:
     damper: PorousDamper = scene.damper.build()
     law = FiniteMapSqueeze() if damper.feed is None else FiniteSqueeze()
     film = replace(damper, film=law)
-    return Sprung(reaction=film, stiffness=scene.damper.stiffness) if scene.damper.stiffness else film
+    return with_springs(film, scene.damper.stiffness) if scene.damper.stiffness else film
 
 
 def lost_blade(random: np.random.Generator) -> Drawn:

@@ -33,7 +33,7 @@ def support(B, phi=0.0, grading=0.0, spring=0.4, suction=0.0, ends=None):
         feed = rf.bearings.AxialFeed(start_pressure=ends[0] * pressure, end_pressure=ends[1] * pressure)
     dimensions = {"radius": RADIUS, "length": LENGTH, "clearance": CLEARANCE, "viscosity": viscosity}
     damper = rf.PorousDamper(**dimensions, cage=cage, feed=feed)
-    return rf.Sprung(reaction=damper, stiffness=MASS * (spring * SPEED) ** 2) if spring else damper
+    return rf.with_springs(damper, MASS * (spring * SPEED) ** 2) if spring else damper
 
 
 def orbits(reaction, unbalances=U):

@@ -215,8 +215,8 @@ def stability_level_one(
         of the impellers, and none where all stages are axial.
     supports : sequence of str, optional
         Stations of the bearings, which are rigid for the critical speed ratio and between which the middle
-        is. By default all but those of an `AnnularSeal`, or what else says `carries_load = False`; name them
-        where a `LinearBearing` or a `TabulatedBearing` is no bearing but a seal.
+        is. By default all except those of an `AnnularSeal` and of other reactions with
+        `carries_load = False`. Name them if a `LinearBearing` or a `TabulatedBearing` represents a seal.
 
     Raises
     ------
@@ -237,8 +237,8 @@ def stability_level_one(
     Notes
     -----
     API 617, 7th ed. (2002), part 1, 2.6.5, and its successor in the 8th ed. (2014). Level II is required for
-    centrifugal compressors where Q0 / QA < 2, delta_A < .1, or Q0 / QA < 10 in region B of critical speed
-    ratio and density; for axial rotors where delta_A < .1. The border of region B is what ROSS reads off the
+    centrifugal compressors where Q0 / QA < 2, delta_A < 0.1, or Q0 / QA < 10 in region B of critical speed
+    ratio and density; for axial rotors where delta_A < 0.1. The border of region B is what ROSS reads off the
     figure: CSR 2.5 up to 16.53 kg/m3, from there in a line to 2.0 at 60 kg/m3; beyond, all is region B.
     """
     _require_cases(cases, stages, speed)
@@ -359,7 +359,7 @@ class StabilityLevelTwo(Readable):
     verdict : str
         In plain words.
     acceptable : bool
-        Whether the final log decrement is above .1, and nothing else grows.
+        Whether the final log decrement is above 0.1, and nothing else grows.
     log_decrement : float [1]
         delta_f, of the first forward whirl with all that disturbs and damps the rotor.
     frequency : float [rad/s]
@@ -381,7 +381,7 @@ LEAST_FINAL = 0.1
 @one_blas_thread
 @arguments
 def stability_level_two(rotor: ShaftRotor, bearings: Bearings, speed: float) -> StabilityLevelTwo:
-    """Return whether the final log decrement of the first forward whirl is what API 617 wants, above .1.
+    """Return whether the final log decrement of the first forward whirl is what API 617 wants, above 0.1.
 
     A rotor of which anything else grows, as a backward whirl or another mode, is not acceptable either.
 

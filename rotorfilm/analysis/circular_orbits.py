@@ -161,7 +161,7 @@ def synchronous_orbits(
     rotor : RigidRotor
         At constant speed, without static load (preloaded springs carry the weight).
     reaction : Reaction
-        Isotropic: a `PorousDamper`, usually inside a `Sprung`.
+        Isotropic: a `PorousDamper`, usually `with_springs`.
     unbalances : array_like, shape (n,) [kg m], optional
         Positive; the rotor's own by default.
 

@@ -477,7 +477,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 
     It takes it where
 
-    - each bearing has no states and adds no mass, and a force in the C library: a journal bearing or a
+    - each bearing has no states, adds no mass, and has a force in the C library. It is a journal bearing or a
       damper whose film has a kernel (map, short film, grooved map, two-dimensional film), a linear one, or
       one of these beside springs;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has

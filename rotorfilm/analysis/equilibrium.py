@@ -88,11 +88,11 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Equilibrium
         With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
         preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
-        A `ValidityWarning` tells of a film beyond its map, of a mean pressure |load|/(2 radius length) above
-        half of the bulk modulus of a mineral oil, of a film that is not laminar (Reynolds number speed radius
-        clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)), and of a temperature beyond
-        the viscosity law of the oil. Another tells of an equilibrium that is statically unstable: the
-        stiffness in slow motion has a negative real eigenvalue.
+        A `ValidityWarning` tells of a film beyond its map, of a temperature beyond the viscosity law of the
+        oil, and of a mean pressure |load|/(2 radius length) above half of the bulk modulus of a mineral oil.
+        It also tells of a film that is not laminar (Reynolds number speed radius clearance/kinematic
+        viscosity above 2000 or 41.2 sqrt(radius/clearance)). Another tells of an equilibrium that is
+        statically unstable: the stiffness in slow motion has a negative real eigenvalue.
 
     Raises
     ------
@@ -635,9 +635,9 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
             warn_of_flow(film, speed, mean, found.state.maximum_temperature)
             return found
     raise EquilibriumError(
-        f"load must be one that the warm film carries: film and temperature do not come to rest together; "
-        f"fresh oil carries the load at {first.tolist()} m, but no place was found where the warm film "
-        f"that openings can feed carries it, got load {load.tolist()} N at {speed:g} rad/s"
+        f"load must be one that the warm film carries, got {load.tolist()} N at {speed:g} rad/s: film and "
+        f"temperature have no common equilibrium. Fresh oil carries the load at {first.tolist()} m, but no "
+        "position was found where the warm film that openings can feed carries it"
     )
 
 

@@ -287,8 +287,8 @@ _HALVINGS, _DOUBLINGS = 40, 40
 def growing_count(ratio: Callable[[float], complex], frequencies: Array, reference: int = 0) -> int:
     """Return how many roots s of a determinant D(s) of real motions have a positive real part.
 
-    With E(s) of the same degree whose number of such roots is known, D/E turns by pi for each root that E has
-    more, while s goes from 0 to i infinity (the principle of the argument; roots off the real line come in
+    Let E(s) have the same degree and a known number of such roots. While s goes from 0 to i infinity, D/E
+    turns by pi for each root that E has more (the principle of the argument; roots off the real line come in
     pairs).
 
     Parameters

@@ -373,8 +373,8 @@ def slope_columns(stiffness: Array, damping: Array, harmonics: int) -> Complex:
     -------
     ndarray of complex, shape (H + 1, 2, 2 H + 1)
         Amplitude of harmonic k of both rows per term. A product with cos(l phi) moves harmonics by l up and
-        down, so they are sums and differences of the coefficients of k - l and k + l; beyond what the samples
-        tell apart these fall back on lower ones, as the products themselves do.
+        down, so they are sums and differences of the coefficients of k - l and k + l. Harmonics that the
+        samples cannot distinguish fall back on lower ones, as in the products themselves.
     """
     samples = stiffness.shape[1]
     order = np.arange(harmonics + 1)

@@ -68,9 +68,9 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
         A static film gives a system without states whose D holds its derivatives, one that remembers the
         system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
     at : OperatingPoint or Equilibrium
-        An Equilibrium stands for the journal at rest there, as input of a reaction, whose states rest with
-        it; the wear of a bush is the one that it starts with, and a film that warms keeps the temperature
-        of the rest.
+        An Equilibrium stands for the journal in this equilibrium, as input of a reaction, whose states are in
+        equilibrium too. The wear of a bush is the one that it starts with, and a heated film keeps the
+        temperature of the equilibrium.
     name : str, optional
         Name of the system; python-control numbers it by default.
 

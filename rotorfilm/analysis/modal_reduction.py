@@ -145,7 +145,7 @@ class ShapeSpace(NamedTuple):
 def shape_space(full: Structure, cut: float) -> ShapeSpace:
     """Return the modes below a frequency [rad/s], and what motion of the bearings and loads add to them.
 
-    With F = (K + shift^2 M)^-1 a load b adds F b and F (M, P, K_xy) F b: what is left out then answers the
+    With F = (K + shift^2 M)^-1 a load b adds F b and F (M, P, K_xy) F b. The neglected shapes then answer the
     forces of the films to the first order in frequency^2, gyroscopic effect and torque.
 
     Raises
@@ -260,7 +260,7 @@ class Condensed(NamedTuple):
         return np.concatenate([self.space.shapes.T @ x, self.space.shapes.T @ y, others])
 
     def answer(self, forces: np.ndarray) -> np.ndarray:
-        """Return how what is left out gives way to slow forces, shape (N, m)."""
+        """Return the static response of the neglected shapes to forces, shape (N, m)."""
         assert self.space is not None
         x, y, others = self._by_plane(forces)
         return np.concatenate([self.space.solid.solve(x), self.space.solid.solve(y), np.zeros_like(others)])

@@ -134,10 +134,10 @@ def to_nlsys(model: Model, scaled: bool = False, name: str | None = None) -> Mod
         Its signals lend their names to the system.
     scaled : bool
         Whether to divide every input, output and state by its Signal's nominal value. python-control
-        linearizes an *interconnected* system by differences of the absolute step 1e-6, which in SI units is
+        linearizes an *interconnected* system by differences with the absolute step 1e-6. In SI units this is
         a large part of a film's clearance; between scaled systems the same step is relative. Where the two
-        ends of a connection have different nominal values, give the connection the gain
-        source.output_scale / target.input_scale.
+        ends of a connection have different nominal values, give the connection the gain source.output_scale /
+        target.input_scale.
     name : str, optional
         Name of the system; python-control numbers it by default.
 

@@ -126,8 +126,8 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
     Notes
     -----
     With the displacement q of the rotor and p of the journals in their bearings,
-    (K + w H) q = weight + T' F(p) and T q = s p. At s = 0 the bearings are rigid, which gives the
-    first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
+    (K + w H) q = weight + T' F(p) and T q = s p. At s = 0 the bearings are rigid, which gives the first
+    loads. Then s goes to 1, each step by Newton's method with the exact Jacobian.
     """
     require_flexible(rotor)
     speed = require_number("speed", speed)
@@ -422,8 +422,8 @@ class RestEquations:
     def _downhill(self, q: Array, p: Array, step: Array, s: float) -> float:
         """Return the part of a step after which the force along it is about gone, as `native/rolling` does.
 
-        Shaft and balls have a convex energy, but for gyroscopic moments: that force only falls. What joins
-        shaft and journals is linear, so that a first whole step makes it fit.
+        Shaft and balls have a convex energy, apart from gyroscopic moments, so that force only falls. What
+        joins shaft and journals is linear, so that a first whole step makes it fit.
         """
         dq, dp = np.split(step, [len(q)])
         low, high, share = 0.0, 1.0, 1.0

@@ -87,8 +87,8 @@ def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float,
 
     Its stiffness is K (1 + i eta sgn(p)) where p is the frequency in the rotating shaft: frequency - speed of
     forward circles, -(frequency + speed) of backward ones. Whirl slower than the shaft then feels the real
-    matrix -i eta K on x + i y, which drives it forward; faster whirl feels the damping i eta K; synchronous
-    whirl the mean of both, as forward circles do not bend the shaft to and fro.
+    matrix -i eta K on x + i y, which drives it forward. Faster whirl feels the damping i eta K. Synchronous
+    whirl feels the mean of both, as forward circles do not bend the shaft to and fro.
     """
     if structure.hysteresis is None:
         return system
@@ -293,8 +293,8 @@ class LeftOut:
     ) -> float:
         """Return the largest error of displacements at bearings and probes / the largest of them, estimated.
 
-        With r = f - L x and l = t - L* y, where y is the answer to unit forces t there, it is l* A r, A the
-        answer of what is left out.
+        With r = f - L x and l = t - L* y, where y is the response to unit forces t there, it is l* A r, with
+        A the response of the neglected shapes.
 
         Parameters
         ----------
@@ -347,7 +347,7 @@ def _unbalanced(forces: Array, shapes: Array, heavy: Array) -> Array:
 
 
 FASTER = 1.0 / (1.0 - MARGIN**-2.0)
-"""How much more what is left out gives way than to slow forces, at most."""
+"""Largest ratio of the response of the neglected shapes to their response to slow forces."""
 
 
 class FullRotorModel:
@@ -411,7 +411,8 @@ def whirl_changes(
     """Return estimates of |ds| of eigenvalues s found in the shapes of a model, shape (m,) [1/s].
 
     With vectors x, y of the whole rotor, r = L(s) x and l = L(s)* y are the forces that the shapes do not
-    balance, and the error is -l* A r / (y* L'(s) x) to leading order, A the answer of what is left out.
+    balance. The error is -l* A r / (y* L'(s) x) to leading order, with A the response of the neglected
+    shapes.
 
     Parameters
     ----------

@@ -637,26 +637,26 @@ def critical_speeds(
     EquilibriumError
         If there is no equilibrium at one of the speeds, or between them.
     ConvergenceError
-        Of intervals in which the list cannot be proven complete, as where coefficients of a bearing jump and
-        a whirl is slower than the rotation on one side only, or of a search that takes too many equilibria;
-        the message names the likely cause. `partial` has those found in all of the range.
+        If the list cannot be proven complete in some intervals, for example where coefficients of a bearing
+        jump and a whirl is slower than the rotation on one side only. Also if a search takes too many
+        equilibria. The message names the likely cause. `partial` has those found in all of the range.
 
     Notes
     -----
     Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and small numbers.
     They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton 1970), and all other
-    eigenvalues by Gershgorin's circles. A step counts as proven where no other eigenvalue comes to the line
-    Im s = |speed|, and those that may, have a frequency that grows more slowly than the speed all along, or
-    faster all along: each then crosses once at most, and Newton's method tells whether it does. Other steps
-    are halved, up to 14 times.
+    eigenvalues by Gershgorin's circles. A step counts as proven if no other eigenvalue can come to the line
+    Im s = |speed|, and if the frequencies of those that can all grow more slowly than the speed, or all
+    faster. Each then crosses once at most, and Newton's method tells whether it does. Other steps are halved,
+    up to 14 times.
 
-    The proof is of the shapes kept, whose eigenvalues are off by 1e-6 at most, as estimated; what is found is
-    solved in all coordinates. Of films it holds if their K and C bend within a step at most twice as much
-    as the parabola through both ends and the middle, and on frequency-dependent films for whirls with |Re s|
-    up to three times the speed. Where K and C jump, as where a tilting pad is loaded first, the same
-    is proven of a straight way from one side to the other, on which no whirl may have the frequency of the
-    rotation. Without damping, and with a stiffness that is symmetric and the same at all speeds, the number
-    is checked in all coordinates besides, by Sylvester's law of inertia.
+    The proof is for the shapes kept, whose eigenvalues have an estimated error of at most 1e-6. The critical
+    speeds found are solved in all coordinates. For films it assumes that their K and C bend within a step at
+    most twice as much as the parabola through both ends and the middle. For frequency-dependent films it
+    holds for whirls with |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is
+    loaded first, the same is proven of a straight way from one side to the other, on which no whirl may have
+    the frequency of the rotation. Without damping, and with a stiffness that is symmetric and the same at all
+    speeds, the number is checked in all coordinates besides, by Sylvester's law of inertia.
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)
@@ -769,7 +769,7 @@ class RotorThreshold(Readable):
     reason : str
         Empty, or why there is no threshold.
     speed_error : float or None [rad/s]
-        How far the speed may be off by the shapes that were left out, estimated; 0 where none were.
+        Estimated error of the speed by the neglected shapes; 0 if there are none.
     work : dict of str to int
         As `RotorModes.work`.
     """
@@ -831,8 +831,9 @@ def rotor_threshold(
     Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
 
     A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
-    are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
-    estimated. The speed is off by the error of s over the slope of Re s over the speed, `speed_error`.
+    have an estimated error of up to 1e-6 |s|, up to the frequency named there. There is no estimate for
+    faster motions. The error of the speed is the error of s divided by the slope of Re s over the speed,
+    `speed_error`.
 
     On frequency-dependent films exponents are those with K(s). At each of the speeds given those that grow
     are counted besides by the phase of the determinant along all frequencies: none is missed unseen.

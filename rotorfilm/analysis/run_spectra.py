@@ -21,8 +21,11 @@ from .unbalance_margins import fitted_phasors
 PADDED = 4
 """Length of a transform / that of its window: a peak between two frequencies is then seen within 1.5 %."""
 
-ORDERS = 3.0
+ORDERS = 2.0
 """Highest frequency that is kept / the highest speed."""
+
+POINTS = 90
+"""Points of an orbit in a turn, interpolated linearly between the samples."""
 
 LEAST = 8
 """Samples that a turn or a window needs."""
@@ -236,26 +239,24 @@ def run_orbits(
         raise InputError(
             f"speeds must be in the run, {low:.6g} to {high:.6g} rad/s, and not 0, got {speeds!r}"
         )
-    number = np.floor(angle / (2.0 * math.pi))
-    passed = np.append(False, np.diff(number) != 0.0)
-    found = []
+    times = []
     for one in wanted:
-        middle = int(np.argmin(np.abs(turning - one)))
-        around = np.flatnonzero(np.abs(angle - angle[middle]) <= math.pi * turns)
+        middle = angle[int(np.argmin(np.abs(turning - one)))]
+        around = run.time[np.abs(angle - middle) <= math.pi * turns]
         if around.size < LEAST * turns:
-            raise InputError(
-                f"run must have {LEAST} samples a turn at {one:.6g} rad/s, got {around.size / turns:.3g}"
-            )
-        found.append(around)
-    count = min(one.size for one in found)
-    places = np.array([one[:count] for one in found])
-    x, y = (values[places] for values in series)
+            each = around.size / turns
+            raise InputError(f"run must have {LEAST} samples a turn at {one:.6g} rad/s, got {each:.3g}")
+        times.append(np.linspace(around[0], around[-1], POINTS * turns + 1))
+    time = np.array(times)
+    number = np.floor(np.interp(time, run.time, angle) / (2.0 * math.pi))
+    passed = np.diff(number, prepend=number[:, :1]) != 0.0
+    x, y = (np.interp(time, run.time, values) for values in series)
     return RunOrbits(
         speed=wanted,
-        time=run.time[places],
+        time=time,
         x=x,
         y=y,
-        keyphasor=passed[places],
+        keyphasor=passed,
         station=prefix.strip("_"),
     )
 

@@ -363,12 +363,12 @@ class SteppedLoop:
 class StepError:
     """Sums up the local errors of steps of second order at the journals, in clearances.
 
-    A parabola through the last place and rate and the place before says where a journal would be; by how much
-    it is not there tells the third derivative, and with it the local error of BDF2 (Hairer, Norsett & Wanner
-    1993, III.5), in a step h after a step k: (h + k)^2 h^2/(6 (2 h + k)) x'''. Between places of an exact
-    motion it is that; between places of BDF2 itself, whose rates do not quite fit them, three times that. So
-    on a round orbit that nothing damps, x' = i x in n steps a turn, the sum is 4 pi/3 (2 pi/n)^2 of the
-    radius, twice what the orbit is off after the turn.
+    A parabola through the last position and rate and the position before says where a journal would be. The
+    difference gives the third derivative, and with it the local error of BDF2 (Hairer, Norsett & Wanner 1993,
+    III.5), in a step h after a step k: (h + k)^2 h^2/(6 (2 h + k)) x'''. Between places of an exact motion it
+    is that; between places of BDF2 itself, whose rates do not quite fit them, three times that. So on a round
+    orbit that nothing damps, x' = i x in n steps a turn, the sum is 4 pi/3 (2 pi/n)^2 of the radius, twice
+    what the orbit is off after the turn.
     """
 
     def __init__(self, loop: SteppedLoop) -> None:

@@ -59,7 +59,7 @@ class ResonancePeak(Readable):
     peak_amplitude : float [m]
         There.
     amplification_factor : float [1]
-        AF = speed / (speed2 - speed1) between the speeds at which the amplitude is .707 of the peak; of a
+        AF = speed / (speed2 - speed1) between the speeds at which the amplitude is 0.707 of the peak; of a
         peak with one such side twice the distance to it; nan with none.
     separation_margin : float [1]
         Distance from the operating range / its nearer end; 0 within it.
@@ -123,7 +123,7 @@ def amplification_factor(speeds: ArrayLike, phasors: ArrayLike, peak: float) -> 
 
     Notes
     -----
-    API 684 and 617, AF = N_c / (N_2 - N_1) with the speeds at which the amplitude is .707 of the peak. Of a
+    API 684 and 617, AF = N_c / (N_2 - N_1) with the speeds at which the amplitude is 0.707 of the peak. Of a
     peak beside another one, or at the end of the range, one of them may be missing; AF is then
     N_c / (2 |N - N_c|) with the other; with none it is nan.
     """

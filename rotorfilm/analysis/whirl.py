@@ -516,7 +516,7 @@ class VerifiedThreshold(WhirlThreshold):
     Attributes
     ----------
     growing_below, growing_above : int [1]
-        How many exponents of rotor and film grow at a speed .1 % lower and higher, counted by the phase of
+        How many exponents of rotor and film grow at a speed 0.1 % lower and higher, counted by the phase of
         det(K(i nu) - mass nu^2) along all frequencies nu, so that none is missed: 0 and 2.
     """
 

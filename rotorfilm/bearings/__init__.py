@@ -11,7 +11,7 @@ if TYPE_CHECKING:
         ReducedCoefficients as ReducedCoefficients,
     )
     from ..core.sources import show
-    from .assemblies import Parallel as Parallel, Sprung as Sprung
+    from .assemblies import Parallel as Parallel, with_springs as with_springs
     from .bush import *
     from .contact import *
     from .damper import *

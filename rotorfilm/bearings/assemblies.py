@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
-from typing import Any, ClassVar, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from ..core.errors import (
     require_tuple,
     require_vector,
 )
-from ..core.inputs import quantities
+from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization, static_linearization
 from ..core.port import (
     Force,
@@ -36,8 +36,8 @@ from ..core.port import (
     force_along,
     force_noise,
     freedoms_of,
-    has_wall,
     inertial,
+    is_constant,
     is_warming,
     largest_eccentricity_ratio,
     minimum_film,
@@ -56,8 +56,9 @@ from ..core.port import (
 )
 from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, force_names, place_names
-from ..native.film_call import FilmCall
+from ..native.film_call import MASSLESS, FilmCall
 from ..native.spec import HasKernel, NativeSpec
+from .linear import LinearBearing
 from .linear_system import HoldingStiffness
 from .reaction import InertialModel, broadcast_state, input_vector, mass_entries, mass_outputs
 
@@ -284,16 +285,19 @@ class Parallel(SharedReaction):
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
-        """Signals of places, rates and speed, as of the reactions with the smallest nominal displacements."""
-        ordered = sorted((one.inputs for one in self.reactions), key=lambda signals: signals[0].nominal)
-        first = {signal.name: signal for signals in reversed(ordered) for signal in signals}
+        """Signals of places, rates and speed, as of the reactions with the smallest nominal displacements.
+
+        Those without a wall, as springs, know no length of their own and come last.
+        """
+        ordered = sorted(self.reactions, key=lambda one: (_is_open(one), one.inputs[0].nominal))
+        first = {signal.name: signal for one in reversed(ordered) for signal in one.inputs}
         return tuple(first[name] for name in (*place_names(self.freedoms), "speed"))
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals of the forces on the shaft, with the largest nominal values; the added mass."""
-        every = sorted((s for one in self.reactions for s in one.outputs), key=lambda signal: signal.nominal)
-        largest = {signal.name: signal for signal in every}
+        every = ((not _is_open(one), s.nominal, s) for one in self.reactions for s in one.outputs)
+        largest = {s.name: s for *_, s in sorted(every, key=lambda row: row[:2])}
         return (*(largest[name] for name in force_names(self.freedoms)), *mass_outputs(self))
 
     @cached_property
@@ -326,29 +330,102 @@ class Parallel(SharedReaction):
         """Do nothing: each reaction says itself where it is touched."""
 
     def compiled(self) -> FilmCall | None:
-        """Return the sum of the forces in the C library; None where one has none, or for a subclass."""
+        """Return the sum of the forces in the C library; None where one has none, or for a subclass.
+
+        The added mass is with it where one of them has one.
+        """
         calls = [compiled_force(one) for one in self.reactions]
-        return reduce(FilmCall.plus, calls) if type(self) is Parallel and all(calls) else None
+        if type(self) is not Parallel or not all(calls):
+            return None
+        masses = [call.mass for call in calls if call.mass != MASSLESS]
+        return reduce(FilmCall.plus, calls)._replace(mass=masses[0] if len(masses) == 1 else MASSLESS)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of its one reaction besides equal springs; None where that takes none."""
+        others = [one for one in self.reactions if not _equal_springs(one)]
+        if type(self) is not Parallel or len(others) != 1 or not isinstance(others[0], HasKernel):
+            return None
+        spec, springs = others[0].native(), [one for one in self.reactions if one is not others[0]]
+        for one in springs:
+            spec = None if spec is None else spec.stiffened(_equal_springs(one))
+        return spec
+
+    def prepare(self) -> Force:
+        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
+        calls = [prepared_force(one) for one in self.reactions]
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            force_x = force_y = 0.0
+            for call in calls:
+                more_x, more_y = call(x, y, vx, vy, speed)
+                force_x, force_y = force_x + more_x, force_y + more_y
+            return force_x, force_y
+
+        return force
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""
+        calls = [prepared_tangent(one) for one in self.reactions]
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            parts = zip(*(call(x, y, vx, vy, speed) for call in calls), strict=True)
+            force_x, force_y, slopes = (list(part) for part in parts)
+            return sum(force_x), sum(force_y), [sum(entries) for entries in zip(*slopes, strict=True)]
+
+        return tangent
+
+    def force_along(
+        self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
+    ) -> Array:
+        """Return the force in a motion with that of the added masses, shape (n, ...); see `core.port`."""
+        total = np.zeros(position.shape)
+        for one, rows, _, _ in self._places:
+            total[rows] += force_along(one, position[rows], velocity[rows], acceleration[rows], speed)
+        return total
+
+    @cached_property
+    def _varying(self) -> list[_Place]:
+        """The reactions besides springs and dampers."""
+        return [place for place in self._places if not is_constant(place.reaction)]
+
+    @cached_property
+    def _springs(self) -> Array:
+        """Derivatives of the forces of all springs and dampers together, shape (n, 2 n + 1)."""
+        n = len(self.freedoms)
+        total = np.zeros((n, 2 * n + 1))
+        for one, rows, columns, _ in self._places:
+            if is_constant(one):
+                still = np.zeros(len(rows))
+                total[np.ix_(rows, columns)] += static_slopes(one, still, still, 0.0)
+        return total
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops; states are held where they begin."""
-        total = np.zeros(position.shape)
-        for one, rows, _, _ in self._places:
-            total[rows] += static_force(one, position[rows], velocity[rows], speed)
+        total = np.tensordot(self._springs[:, :-1], np.concatenate([position, velocity]), 1)
+        for one, rows, _, _ in self._varying:
+            if len(rows) == len(total):
+                total += static_force(one, position, velocity, speed)
+            else:
+                total[rows] += static_force(one, position[rows], velocity[rows], speed)
         return total
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops."""
-        total = np.zeros((len(position), 2 * len(position) + 1, *speed.shape))
-        for one, rows, columns, _ in self._places:
-            total[np.ix_(rows, columns)] += static_slopes(one, position[rows], velocity[rows], speed)
+        total = self._springs.reshape(*self._springs.shape, *[1] * speed.ndim) + np.zeros(speed.shape)
+        for one, rows, columns, _ in self._varying:
+            if len(rows) == len(total):
+                total += static_slopes(one, position, velocity, speed)
+            else:
+                total[np.ix_(rows, columns)] += static_slopes(one, position[rows], velocity[rows], speed)
         return total
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the forces on the shaft, and with inertia the mass [kg], at u = (places, rates, speed)."""
         state, values, n = self._checked(x), input_vector(u, self.freedoms), len(self.freedoms)
-        total = np.zeros(n)
-        for one, rows, columns, inner in self._places:
+        total = self._springs @ values
+        for one, rows, columns, inner in self._varying:
             total[rows] += one.output(t, state[inner], values[columns])[: len(rows)]
         mass = self.mass(values[:n], values[n : 2 * n], values[-1]) if self.has_inertia else np.zeros((n, n))
         return np.concatenate([total, mass_entries(self, mass)])
@@ -437,142 +514,49 @@ class Parallel(SharedReaction):
         return state
 
 
+def _is_open(reaction: Any) -> bool:
+    """Return whether a reaction has no wall, whose clearance is a length."""
+    return not clearance_of(reaction) < np.inf
+
+
+def _equal_springs(reaction: Any) -> float:
+    """Return the stiffness of springs that are equal along x and y [N/m]; 0 of any other reaction."""
+    if not is_constant(reaction) or freedoms_of(reaction) != PLANAR or np.any(reaction.damping):
+        return 0.0
+    (k, _), _ = reaction.stiffness
+    return float(k) if np.array_equal(reaction.stiffness, k * np.eye(2)) else 0.0
+
+
 # A reaction beside springs to the housing, as the retainer springs of a squeeze-film damper.
 
 
-Stiffness = float | tuple[float, float] | tuple[tuple[float, float], tuple[float, float]]
+@arguments
+def with_springs(reaction: PlanarReaction, stiffness: ArrayLike) -> Parallel:
+    """Return a film in parallel with springs to the housing, as the retainer springs of a damper.
 
-
-@quantities
-@dataclass(frozen=True, kw_only=True)
-class Sprung(SharedReaction):
-    """A film in parallel with springs to the housing, F = reaction - stiffness * position, in compiled loops.
-
-    The same as `Parallel` with a `LinearBearing`, for a reaction to x and y without states. It has a kernel
-    and an FMU without Python where the reaction has one, as a damper, and the springs are equal along x and
-    y. The springs are preloaded so that they carry the static load where the rotor is centered: give the
-    rotor no gravity. Their force is part of what reaches the housing.
+    It has a kernel and an FMU without Python where the reaction has one, as a damper, and the springs are
+    equal along x and y. The springs are preloaded so that they carry the static load where the rotor is
+    centered: give the rotor no gravity. Their force is part of what reaches the housing.
 
     Parameters
     ----------
     reaction : PlanarReaction
-        Such as a `PorousDamper`.
+        To x and y, such as a `PorousDamper`.
     stiffness : float [N/m], or 2 or 2 x 2 numbers
         Of the springs together: along either axis, along x and y, or rows for force x, y.
 
     Raises
     ------
     InputError
-        If the reaction is none, reacts to more than x and y or has states, or the stiffness is not positive.
+        If the reaction is none, reacts to more than x and y, or the stiffness is not positive.
     """
-
-    reaction: PlanarReaction
-    stiffness: Stiffness
-
-    def __post_init__(self) -> None:
-        require_kind("reaction", self.reaction, PlanarReaction, "a Reaction such as a PorousDamper")
-        require_reaction("reaction", self.reaction, heavy=True, planar=True)
-        if getattr(self.reaction, "states", ()):
-            raise InputError(
-                f"reaction must have no states (Parallel with a LinearBearing has), got {self.reaction!r}"
-            )
-        given = require_finite("stiffness", self.stiffness)
-        if not given.ndim:
-            return require_positive("stiffness", self.stiffness)  # type: ignore[arg-type]
-        if given.shape not in ((2,), (2, 2)):
-            raise InputError(f"stiffness must be one, 2 or 2 x 2 numbers, got shape {given.shape}")
-        matrix = np.diag(given) if given.ndim == 1 else given
-        if np.linalg.eigvalsh(matrix + matrix.T)[0] <= 0.0:
-            raise InputError(f"stiffness must be positive in every direction, got {self.stiffness!r}")
-        object.__setattr__(self, "stiffness", tuple(map(tuple, matrix.tolist())))
-
-    @property
-    def is_isotropic(self) -> bool:
-        """Whether one number says the stiffness along both axes."""
-        return not isinstance(self.stiffness, tuple)
-
-    @property
-    def reactions(self) -> tuple[PlanarReaction]:
-        """The reaction alone: its springs add no mass, and have no wall."""
-        return (self.reaction,)
-
-    carries_load: ClassVar[bool] = True
-    """Whether it is a bearing: its springs carry the rotor, whatever is beside them."""
-
-    def minimum_film(self, position: ArrayLike) -> Array:
-        """Return the least film of the reaction [m], shape (...), of journals at positions (2, ...) [m]."""
-        return minimum_film(self.reaction, require_vector("position", position))
-
-    def require_film(self, position: Array) -> None:
-        """Raise FilmContactError where the journal touches; a reaction with a wall of its own does itself."""
-        if not has_wall(self.reaction):
-            super().require_film(position)
-
-    def force_along(
-        self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
-    ) -> Array:
-        """Return the force in a motion with that of the added mass, shape (2, n) [N]; see `core.port`."""
-        return force_along(self.reaction, position, velocity, acceleration, speed) - self._pull(position)
-
-    def compiled(self) -> FilmCall | None:
-        """Return the force in the C library; None where the reaction has none, or for a subclass."""
-        inner: FilmCall | None = compiled_force(self.reaction)
-        if inner is None or type(self) is not Sprung:
-            return None
-        if self.is_isotropic:
-            return inner.beside(cast(float, self.stiffness), still=False)
-        springs = FilmCall.of_numbers("rf_springs_at", np.ravel([self.matrix, np.zeros((2, 2))]))
-        return inner.plus(springs)._replace(mass=inner.mass)
-
-    def native(self) -> NativeSpec | None:
-        """Return the kernel of the reaction with these springs; None where it takes none."""
-        if type(self) is not Sprung or not isinstance(self.reaction, HasKernel) or not self.is_isotropic:
-            return None
-        spec = self.reaction.native()
-        return None if spec is None else spec.stiffened(cast(float, self.stiffness))
-
-    def prepare(self) -> Force:
-        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
-        call, ((xx, xy), (yx, yy)) = prepared_force(self.reaction), self.matrix
-
-        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-            force_x, force_y = call(x, y, vx, vy, speed)
-            return force_x - (xx * x + xy * y), force_y - (yx * x + yy * y)
-
-        return force
-
-    def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""
-        call, ((xx, xy), (yx, yy)) = prepared_tangent(self.reaction), self.matrix
-
-        def tangent(
-            x: float, y: float, vx: float, vy: float, speed: float
-        ) -> tuple[float, float, Sequence[float]]:
-            force_x, force_y, slopes = call(x, y, vx, vy, speed)
-            total = [*slopes]
-            for k, stiffness in ((0, xx), (1, xy), (5, yx), (6, yy)):
-                total[k] -= stiffness
-            return force_x - (xx * x + xy * y), force_y - (yx * x + yy * y), total
-
-        return tangent
-
-    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
-        return static_force(self.reaction, position, velocity, speed) - self._pull(position)
-
-    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
-        jacobian = np.array(static_slopes(self.reaction, position, velocity, speed))
-        for i, j in np.ndindex(2, 2):
-            jacobian[i, j] -= self.matrix[i][j]
-        return jacobian
-
-    @cached_property
-    def matrix(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The stiffness, rows for force x, y [N/m]."""
-        k: Any = self.stiffness
-        return ((k, 0.0), (0.0, k)) if self.is_isotropic else k
-
-    def _pull(self, position: Array) -> Array:
-        """Return the stiffness times a position (2, ...)."""
-        return np.asarray(np.tensordot(self.matrix, position, 1))
+    require_kind("reaction", reaction, PlanarReaction, "a Reaction such as a PorousDamper")
+    require_reaction("reaction", reaction, heavy=True, planar=True)
+    given = require_finite("stiffness", stiffness)
+    if not given.ndim:
+        require_positive("stiffness", float(given))
+    springs = LinearBearing(stiffness=given.tolist())
+    matrix = np.array(springs.stiffness)
+    if np.linalg.eigvalsh(matrix + matrix.T)[0] <= 0.0:
+        raise InputError(f"stiffness must be positive in every direction, got {stiffness!r}")
+    return Parallel((reaction, springs))

@@ -21,6 +21,7 @@ from ..core.files import read_text
 from ..core.frames import Column, ResultTable, write_csv
 from ..core.inputs import quantities
 from ..core.model import Array
+from ..core.port import Force, Tangent, force_of, tangent_of
 from ..core.readable import Plottable, Tabled
 from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
@@ -335,6 +336,33 @@ class LinearBearing(LinearReaction):
         return np.broadcast_to(
             constant.reshape(n, 2 * n + 1, *(1,) * len(batch)), (n, 2 * n + 1, *batch)
         ).copy()
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers; see `core.port.Reaction`."""
+        if not self.is_constant:
+            return tangent_of(self)
+        kxx, kxy, kyx, kyy = np.ravel(self.stiffness).tolist()
+        cxx, cxy, cyx, cyy = np.ravel(self.damping).tolist()
+        slopes = (-kxx, -kxy, -cxx, -cxy, 0.0, -kyx, -kyy, -cyx, -cyy, 0.0)
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            force_x = -(kxx * x + kxy * y) - (cxx * vx + cxy * vy)
+            return force_x, -(kyx * x + kyy * y) - (cyx * vx + cyy * vy), slopes
+
+        return tangent
+
+    def prepare(self) -> Force:
+        """Return the force as a function of five numbers; see `core.port.Reaction`."""
+        if not self.is_constant:
+            return force_of(self)
+        tangent = self.prepare_tangent()
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            return tangent(x, y, vx, vy, speed)[:2]
+
+        return force
 
     @property
     def is_constant(self) -> bool:

@@ -246,7 +246,8 @@ class FrequencyDependentReaction:
         InputError
             If an argument breaks its rule.
         ConvergenceError
-            If no number of poles is enough for the tolerance, as of a mass that is far from symmetric.
+            If the tolerance is not reached with any number of poles, for example if the mass is far from
+            symmetric.
         """
         known = require_rising("frequencies", frequencies, least=2)
         require_positive("frequencies[0]", float(known[0]))

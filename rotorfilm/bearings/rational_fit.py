@@ -93,7 +93,7 @@ def rational_fit(
     InputError
         If there are fewer frequencies than the poles need.
     ConvergenceError
-        If no number of poles up to `MOST_POLES`, or to half of what the frequencies allow, is enough.
+        If more poles than `MOST_POLES`, or than half of what the frequencies allow, would be needed.
     """
     most = len(frequencies) - powers
     if (0 if poles is None else poles) > most:

@@ -82,10 +82,9 @@ def _draw_panel(place: _Place, panel: PicturePanel) -> None:
     for one in panel.marks:
         draw_mark(one, place)
     figure, (x, y, height) = place.figure, place.domain
-    scales = any(
-        isinstance(one, FieldMark) or (isinstance(one, CurveMark) and one.scale) for one in panel.marks
-    )
-    figure.update_layout({place.legend: {"x": x + (0.09 if scales else 0.01), "y": y + 0.5 * height}})
+    scaled = any(getattr(one, "scale", None) for one in panel.marks)
+    beside = x + 0.01 + 0.16 * scaled + 0.08 * bool(panel.right)
+    figure.update_layout({place.legend: {"x": beside, "y": y + 0.5 * height}})
     if panel.z:
         names = {
             f"{name}axis": {"title": {"text": text}}

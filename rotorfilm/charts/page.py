@@ -20,7 +20,7 @@ EXPLAINED = {
     "chart_bearings": "Stiffness, damping and onset of whirl of eight types of bearings side by side.",
     "chart_bush": "How far each model of the polymer bush is from the richest one, over what it costs.",
     "chart_contact": "How far each model of a rolling contact is from the finest grid, over what it costs.",
-    "chart_contact_cases": "Published cases of a rolling ball as computed here; each statement is judged.",
+    "chart_contact_cases": "Published cases of a rolling ball as computed here; each statement is checked.",
     "chart_contact_limits": "For which load steps and time steps the published scheme of a contact fails.",
     "chart_cosim_cost": "Error of the coupled orbit over calls of the film; lower left is better.",
     "chart_cosim_limits": "Longest stable macro step of each coupling scheme over the eccentricity ratio.",

@@ -176,7 +176,11 @@ def plot_coupling_limits(result: StudyResult) -> list[Axes]:
     limited = [rung for rung in result.rungs if rung[limit] is not None]
     parts = (
         ("eccentricity_ratio [1]", "eccentricity ratio", "rigid rotor, speed parameter 1"),
-        ("mass_ratio [1]", "mass of the journal / mass of the rotor", "light journal, eccentricity ratio .7"),
+        (
+            "mass_ratio [1]",
+            "mass of the journal / mass of the rotor",
+            "light journal, eccentricity ratio 0.7",
+        ),
     )
     for axes, (place, label, title) in zip(shown, parts, strict=True):
         rigid = axes is shown[0]

@@ -40,7 +40,7 @@ SMALLEST = 0.03
 COLUMNS = (0.0, 0.33, 0.515, 0.69, 0.865, 1.0)
 """Edges of the columns of the table, in its width."""
 
-HEADINGS = ("film", "off by at most", "wrong at eps", "tension in\nlarge motion", "|Cxy - Cyx|\n/ max |C|")
+HEADINGS = ("film", "error at most", "wrong at eps", "tension in\nlarge motion", "|Cxy - Cyx|\n/ max |C|")
 
 
 Cell = tuple[str, str]
@@ -95,7 +95,7 @@ def plot_thresholds(
     if point is not None:
         axes.plot(*point, "k*", markersize=11, label="working point")
     axes.axhline(HIGHEST, color="0.5", linewidth=0.8, linestyle="--")
-    axes.text(0.99, HIGHEST, "judged up to here", fontsize=8, color="0.35", va="bottom", ha="right")
+    axes.text(0.99, HIGHEST, "checked up to here", fontsize=8, color="0.35", va="bottom", ha="right")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.3 * HIGHEST))
     axes.set_ylabel("speed * sqrt(clearance * mass / load)\nat the onset of whirl [1]")
     axes.grid(visible=True, alpha=0.3)
@@ -192,7 +192,7 @@ def _title(result: StudyResult) -> str:
         f"Whirl threshold of a rigid rotor on journal films, L/D = {result.conditions[LENGTH]:g} "
         f"(unstable above)\nreference: {result.reference}; "
         f"its error {100.0 * result.conditions[OWN_ERROR]:.2g} %; "
-        f"wrong: more than {100.0 * TOLERANCE:g} % off, judged up to {HIGHEST:g}"
+        f"wrong: error above {100.0 * TOLERANCE:g} %, checked up to {HIGHEST:g}"
     )
 
 

@@ -256,7 +256,7 @@ def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None
 
 
 def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:
-    verdict = "met" if answer.met else "NOT met by any rung"
+    verdict = "met" if answer.met else "NOT met by any model"
     verdict += f" within {answer.within}" if answer.within else ""
     share = "at most about" if chosen_report(answer).bound else "about"
     price = "cost not known" if answer.next_cost is None else _seconds(answer.next_cost)
@@ -268,7 +268,7 @@ def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:
         ("model", answer.model),
         ("cost", f"{_seconds(answer.cost)}, its error {_seconds(answer.estimate_cost)}"),
         ("all that was tried", _seconds(answer.total_cost)),
-        ("next rung", above),
+        ("next model", above),
     ]
 
 
@@ -280,7 +280,7 @@ def chosen_report(answer: QuestionAnswer) -> RungReport:
 def _ladder(answer: QuestionAnswer) -> Table:
     from rich.text import Text
 
-    table = console.plain_table("the ladder, the cheapest rung first")
+    table = console.plain_table("the ladder, the cheapest model first")
     table.add_column("rung", overflow="fold")
     table.add_column("", no_wrap=True)
     for heading in ("value", "error", "cost", "of error"):

@@ -259,7 +259,7 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Comma
 
     result = studies.journal_stability(ld, report=report)
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
-    headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
+    headings = ("film", "error at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
     rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
     return CommandOutput(
         result, partial(show_table, headings, rows, [("reference", result.reference), *files])

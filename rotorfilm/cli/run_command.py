@@ -244,7 +244,7 @@ def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:
     if watch.local_error is not None:
         rows.append(("local error / rms force", f"{watch.local_error:.2e}"))
     if watch.explicit_ratio is not None:
-        rows.append(("macro step * damping / mass", f"{watch.explicit_ratio:.3g} (explicit limit .1 to 2)"))
+        rows.append(("macro step * damping / mass", f"{watch.explicit_ratio:.3g} (explicit limit 0.1 to 2)"))
     return [*rows, *(("warning", text) for text in watch.warnings)]
 
 

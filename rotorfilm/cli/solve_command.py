@@ -31,12 +31,12 @@ def solve(
     """Answer a scene: its question, or else what its bearing or rotor does.
 
     Without a question a bearing with a film answers with equilibrium, stiffness, damping and whirl
-    threshold; a shaft with modes, critical speeds, threshold, unbalance response and, where it is a
-    compressor, stability by API 617; a damper with the orbits of its rotor; a contact with its film; a bush
-    with its critical speeds.
+    threshold. A shaft answers with modes, critical speeds, threshold, unbalance response and, for a
+    compressor, stability by API 617. A damper answers with the orbits of its rotor, a contact with its film,
+    and a bush with its critical speeds.
 
-    Exits with 1 where no rung meets the tolerance of the question, or nothing is there to answer it; with 2
-    for bad input.
+    Exits with 1 if no model meets the tolerance of the question, or if there is nothing to answer it. Exits
+    with 2 for bad input.
 
     Example: rotorfilm solve examples/question.toml --explain --set "journal.clearance=80 um"
     """

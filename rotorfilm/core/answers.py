@@ -30,7 +30,7 @@ class LeftOutRemark(str):
     Attributes
     ----------
     name : str
-        What is left out, as "heat".
+        The neglected effect, for example "heat".
     size : float [1]
         What it changes of viscosity, density or film, relative to that: as much as it may move the answer.
     """
@@ -50,7 +50,7 @@ class LeftOutRemark(str):
 
 
 def physics_within(within: str, remarks: Iterable[str], tolerance: float) -> str:
-    """Return in which physics a tolerance is meant, and what is left out of it that is more than that."""
+    """Return the physics for which a tolerance holds, and the neglected effects above it."""
     larger: dict[str, float] = {}
     for one in remarks:
         if isinstance(one, LeftOutRemark) and one.size > tolerance:
@@ -247,10 +247,9 @@ class QuestionAnswer(Drawable):
             return f"{self.model} meets the tolerance {self.tolerance:.3g}{within}: estimated error {about}"
         for report in self.rungs:
             if report.name == self.model and report.doubtful:
-                return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"
-        return (
-            f"no rung meets the tolerance {self.tolerance:.3g}; the closest is {self.model}, off by {about}"
-        )
+                return f"no model can be trusted; the closest may be {self.model}: {report.reason}"
+        closest = f"the closest is {self.model}, with an error of {about}"
+        return f"no model meets the tolerance {self.tolerance:.3g}; {closest}"
 
 
 # Ladders of a question: rungs, what they have in common, and the candidates that they are made of.

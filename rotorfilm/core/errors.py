@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import unicodedata
 import warnings
@@ -16,8 +17,16 @@ LONGEST = 120
 """Characters of a value in a message: one line of a terminal, with the rule beside it."""
 
 
+NUMPY = re.compile(r"\bnp\.(?:(?:float|u?int|complex|longdouble|str_|bool)\w*\(([^()]*)\)|(True|False)_)")
+"""How numpy prints a scalar of its own: `np.float64(0.5)`, `np.True_`."""
+
+
 class RotorfilmError(Exception):
     """Base of every error that rotorfilm raises on purpose."""
+
+    def __str__(self) -> str:
+        """Return the message, scalars of numpy as plain numbers."""
+        return plain_numbers(super().__str__())
 
 
 class InputError(RotorfilmError, ValueError):
@@ -227,11 +236,16 @@ def warn_user(message: str, category: type[Warning] = ValidityWarning) -> None:
         if frame.f_globals.get("__name__", "").partition(".")[0] == package:
             outermost = level
         frame = frame.f_back  # type: ignore[assignment]
-    warnings.warn(message, category, stacklevel=outermost + 1)
+    warnings.warn(plain_numbers(message), category, stacklevel=outermost + 1)
 
 
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+
+
+def plain_numbers(text: str) -> str:
+    """Return a text with plain numbers in place of scalars of numpy: 0.5 for `np.float64(0.5)`."""
+    return NUMPY.sub(lambda found: found[1] or found[2] or "", text)
 
 
 def brief(value: object) -> str:

@@ -410,8 +410,8 @@ def drift(
 ) -> Drift:
     """Return how far a coupled run is off.
 
-    The force of the film changes from the run to the motion that is sought by its mean slopes between them:
-    those along the run first, then half the sum of those at both ends and, unless that changed nothing,
+    The force of the film changes from the run to the true motion by its mean slopes between them. These are
+    first those along the run, then half the sum of those at both ends and, if this changed the result,
     Simpson's rule. Where the last two disagree, they are not to be trusted.
 
     Raises

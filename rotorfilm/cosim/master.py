@@ -572,10 +572,10 @@ def _tried(
         if radius is not None and radius > 1.0 and run.watch.warnings:
             reason = f"unstable: grows by a factor of {radius:.4g} per macro step"
         elif error > tolerance:
-            reason = f"not accurate enough: off by {error:.2g}"
+            reason = f"not accurate enough: an error of {error:.2g}"
         else:
             taken, cost = True, f"{_calls(run):.3g} film calls per step"
-            reason = f"stable, off by {error:.2g}, {cost}: the cheapest that will do"
+            reason = f"stable, an error of {error:.2g}, {cost}: the cheapest that is good enough"
     calls = None if run is None else _calls(run)
     outcome = Trial(scheme=scheme, orbit_error=error, spectral_radius=radius, film_calls=calls, reason=reason)
     return outcome, taken

@@ -537,9 +537,9 @@ GIVE_UP = 1e-6
 class Adaptive:
     """Another scheme with macro steps of its own choice; that of the run is the longest, and the first.
 
-    What the tangents leave of the force between two points, D, is a free estimate of the local error: a
-    step is accepted where the change of D from the step before, or D itself, is within the tolerance, and
-    is repeated at a shorter length otherwise.
+    What the tangents leave of the force between two points, D, is a free estimate of the local error. A step
+    is accepted if the change of D from the step before, or D itself, is within the tolerance. Otherwise it is
+    repeated with a shorter length.
 
     Parameters
     ----------

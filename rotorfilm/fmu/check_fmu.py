@@ -56,10 +56,10 @@ Outcome = tuple[bool | None, float | None, str]
 def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
     """Check an FMU of FMI 2.0 or 3.0.
 
-    Its description by fmpy; whether its libraries, for all platforms, are whole; its directional derivatives
-    against central differences of fourth order with steps scaled by the nominal values; FMU states saved,
-    restored and serialized; and the reference trajectory that a native FMU of this package carries, in
-    Co-Simulation and in Model Exchange.
+    The checks are its description by fmpy, and whether its libraries for all platforms are whole. Its
+    directional derivatives are compared with central differences of fourth order, with steps scaled by the
+    nominal values. FMU states are saved, restored and serialized. A native FMU of this package also repeats
+    its reference trajectory, in Co-Simulation and in Model Exchange.
 
     Parameters
     ----------

@@ -55,11 +55,11 @@ Unknown = tuple[int, list[tuple[int, str]]]
 def dependencies(model: Model | Stepped, start: Array, times: Sequence[float] = (0.0,)) -> Dependencies:
     """Return the dependencies of `model` from its exact derivatives.
 
-    An unknown counts as independent of an input or state only if that derivative is exactly zero at the
-    start values and at `SAMPLES` generic points about them, as linear only if it is the same at all of them;
-    wherever derivatives are undefined, as where a film at rest has none, the other points decide, and if no
-    point has derivatives, all may depend. Of a model with its own integrator all outputs follow from all
-    inputs.
+    The derivatives are taken at the start values and at `SAMPLES` generic points about them. An unknown
+    counts as independent of an input or state only if this derivative is exactly zero at all of them, and as
+    linear only if it is the same at all of them. If a point has no derivatives, as a film at rest, the other
+    points decide. If no point has derivatives, all may depend. Of a model with its own integrator all outputs
+    follow from all inputs.
 
     Parameters
     ----------

@@ -175,7 +175,7 @@ class Instance:
         self.counts_values = version == "3.0"
         """Whether functions take the number of values beside that of variables."""
         self.log: list[str] = []
-        """Messages so far, but those of success."""
+        """Messages so far, except those of success."""
 
     def instantiate(self) -> None:
         """Make the instance."""

@@ -269,8 +269,8 @@ def advance(
     """Return the state at t + step under the constant input u.
 
     Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
-    with the whole step and stopped at the `breakpoints` of the model; Radau's implicit method of order 5
-    where that one fails, as on a rotor in a stiff film.
+    with the whole step and stopped at the `breakpoints` of the model. If it fails, as on a rotor in a stiff
+    film, Radau's implicit method of order 5 is used.
 
     Parameters
     ----------

@@ -545,7 +545,7 @@ def _cooled(run: BushRun) -> float:
 
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for the run of a bush."""
+    """Return the neglected effects that matter, one line each, for the run of a bush."""
     return messages(remarks_of("bush"), bush_numbers(run))
 
 

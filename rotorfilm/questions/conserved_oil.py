@@ -151,11 +151,11 @@ def with_change(
     return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
 
 
-NOT_JUDGED = "conservation of oil: not judged, {reason}"
+NOT_JUDGED = "conservation of oil: not checked, {reason}"
 
 NO_RUNG = (
-    "conservation of oil: in the estimate, by small motion; no rung of this question follows the oil of a "
-    "cavity in time"
+    "conservation of oil: in the estimate, by small motion; no model of this question follows the oil of "
+    "a cavity in time"
 )
 
 

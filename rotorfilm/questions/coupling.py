@@ -90,11 +90,11 @@ class CouplingRung(BaseRung):
             raise CouplingError(unstable, None)
         about = 2.0 * self.prior
         if about > self.worst:
-            raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion of the pilot")
+            raise RotorfilmError(f"not run: predicted error {about:.1g}, from the motion of the pilot")
         # Where even the best prediction is hopeless the closest run is wanted all the same: none is left out.
         least = self.case.least(self.scheme, self.macro_angle)
         if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
-            raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")
+            raise RotorfilmError(f"not run: error at least {least:.1g}, by its order from a longer step")
         run = self.case.run(self.scheme, self.macro_angle)
         found, work = self.case.drift(run), run.outcome.trajectory.work
         if not found.doubt:
@@ -190,7 +190,7 @@ def _kept(case: CouplingCase) -> tuple[str, ...]:
         return ()
     return (
         f"heat: the film keeps the temperature of its rest, {temperature - CELSIUS:.4g} degC; the coupling "
-        "of the temperature, which is slow, is not judged",
+        "of the temperature, which is slow, is not checked",
     )
 
 

@@ -72,13 +72,13 @@ class DamperCurveRung(CandidateRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs."""
-        return damper_films.sprung(self.film.reaction, self.stiffness)
+        return damper_films.on_springs(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> PlanarReaction:
         """Film and springs that are quick enough for hundreds of orbits."""
         slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
-        return damper_films.sprung(self.film.moving, self.stiffness) if slow else self.support
+        return damper_films.on_springs(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> WorkUnit:
@@ -149,7 +149,7 @@ class DamperCurveRung(CandidateRung):
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {limit:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
         change = self._fold if self.is_fold else self._orbit
-        richer = circular_orbits.damped_orbit(self.rotor, damper_films.sprung(rich, self.stiffness))
+        richer = circular_orbits.damped_orbit(self.rotor, damper_films.on_springs(rich, self.stiffness))
         value, doubt = change(circular_orbits.orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
@@ -330,7 +330,7 @@ class DamperPeakRung(PeakRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs, the film on its map where it has one."""
-        return damper_films.sprung(self.film.moving, self.stiffness)
+        return damper_films.on_springs(self.film.moving, self.stiffness)
 
     @cached_property
     def tangent(self) -> Tangent:
@@ -341,7 +341,7 @@ class DamperPeakRung(PeakRung):
     def rich(self) -> PlanarReaction | None:
         """The richer film and the springs; None if there is none."""
         found = self.film.rich_moving
-        return None if found is None else damper_films.sprung(found, self.stiffness)
+        return None if found is None else damper_films.on_springs(found, self.stiffness)
 
     @property
     def shaken(self) -> equal_steps.ExcitedRotor:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..bearings.journal import JFOFilm, JournalBearing
+from ..bearings.pads import PadBearing
 from ..core.answers import HEATED, SAFETY, ErrorEstimate, Ladder, RungResult, WorkUnit
 from ..core.errors import RotorfilmError
 from ..scenes.film_heat import (
@@ -29,6 +30,7 @@ from ..scenes.film_heat import (
     assumed_figures,
     ends_within,
     grid_error,
+    richest_profile,
     uniform_rest,
 )
 from ..scenes.film_rungs import FilmCandidate, with_losses
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
 ONE_TEMPERATURE = "laminar films, all at one temperature in the balance of their heat"
-"""`within` of films of pads on an oil, over which no temperature field is known."""
+"""`within` of motions on films of pads on an oil, for which no temperature field is known."""
 
 BALANCE = "its balance"
 """How the error by heat of fresh oil is known."""
@@ -137,9 +139,9 @@ def _uniform_heat(
     if level is FRESH:
         start = uniform_rest(bearing, load, speed, balance_at(bearing, own))
     heat, how, doubt = HeatError(judge.apart(own, start), False), BALANCE, ""
-    if heat.error * SAFETY < tolerance and has_field(bearing):
+    if heat.error * SAFETY < tolerance and has_field(question, bearing):
         steps = HeatSteps(bearing, start)
-        heat, how, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
+        heat, how, doubt = judge.error(own, steps), steps.name, steps.doubt
     return *with_moving(judge.moving(bearing), heat, how), doubt
 
 
@@ -204,9 +206,12 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Functio
         if level.layers:
             grid = grid_error(level, own, rest, judge.apart)
             heat, method, doubt = HeatError(grid, True), "cells twice as long, half the layers", ""
+        elif richest_profile(bearing).layers == 1:
+            heat, method = HeatError(judge.apart(rest(level.coarser), own), True), "cells twice as long"
+            doubt = ""
         else:
             steps = HeatSteps(bearing, own)
-            heat, method, doubt = judge.error(own, steps), "steps towards T3", steps.doubt
+            heat, method, doubt = judge.error(own, steps), steps.name, steps.doubt
         heat, method = with_moving(judge.moving(bearing), heat, method)
         return ErrorEstimate(heat.error, method, bound=heat.bound, doubt=doubt)
 
@@ -254,8 +259,10 @@ def known_films(films: Sequence[FilmCandidate]) -> tuple[Any, ...]:
     return with_losses(films, "an oil that warms")
 
 
-def has_field(bearing: Any) -> bool:
-    """Return whether a temperature over the film of a bearing is known: not of films of pads."""
+def has_field(question: Any, bearing: Any) -> bool:
+    """Return whether a temperature over the film answers a question: not in motions on pads."""
+    if isinstance(bearing, PadBearing):
+        return question.has_levels and not question.moves
     return isinstance(bearing, JournalBearing | JFOFilm)
 
 
@@ -270,7 +277,7 @@ def heat(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: La
     bearing = films[0].reaction
     if not bearing.is_warming:
         return ladder
-    within = HEATED if has_field(bearing) else ONE_TEMPERATURE
+    within = HEATED if has_field(question, bearing) else ONE_TEMPERATURE
     if not question.has_levels:
         return replace(ladder, within=within)
     known = known_films(films)
@@ -282,13 +289,17 @@ def heat(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: La
         for film in known
         for count in question.counts
     ]
-    if has_field(quick) and not ends_within(quick):  # beside openings within it only conserved oil is known
+    if has_field(question, quick) and not ends_within(
+        quick
+    ):  # beside openings within it only conserved oil is known
         if question.moves:
             rungs += frozen_rungs(question, known[0])
         else:
-            rungs += [field_rung(question, level, known[0]) for level in question.levels]
+            layered = richest_profile(quick).layers > 1
+            levels = [level for level in question.levels if layered or not level.layers]
+            rungs += [field_rung(question, level, known[0]) for level in levels]
 
     def assumptions() -> tuple[str, ...]:
-        return assumed_figures(quick, question.moved(known[0]), fields=has_field(quick))
+        return assumed_figures(quick, question.moved(known[0]), fields=has_field(question, quick))
 
     return replace(ladder, rungs=tuple(rungs), units={}, within=within, assumptions=assumptions)

@@ -1,4 +1,4 @@
-"""What bearings of pads bring to scenes and questions: the films that may answer, and their ladders."""
+"""Films of lobed and tilting-pad bearings that may answer a question, and their ladders."""
 
 from __future__ import annotations
 
@@ -323,8 +323,8 @@ def _tilting_candidate(
     return TiltingCandidate(name, own, richer, grid_name(rich), *priors, making=making, call_time=call_time)
 
 
-PAD_STATICS = [name for name in QUANTITIES if name not in ("maximum_temperature", "maximum_pressure")]
-"""Static quantities of pads: films of one temperature, of which only those with recesses tell a pressure."""
+PAD_STATICS = [name for name in QUANTITIES if name != "maximum_pressure"]
+"""Static quantities of pads, of which only those with recesses tell a pressure."""
 
 
 # What bearings of fixed pads bring to scenes and questions.

@@ -29,7 +29,7 @@ PER_DEGREE = 4e-4
 YIELDING = 0.12
 """How much a contact is softer, per film over approach, as its film gets thinner with its load.
 
-It is 1.5 * .067 of one ball; balls under little load count more.
+It is 1.5 * 0.067 of one ball; balls under little load count more.
 """
 
 
@@ -161,7 +161,7 @@ def is_static(bearing: rolling_scene.Balls) -> bool:
 WITHIN, DRY = "rigid rings and balls that roll", "rigid rings and dry balls that roll"
 
 LOAD_POWER, LEAST_LOAD = 0.067, 1e-3
-"""Films go with load^-.067 (Hamrock and Dowson 1977), to this share of the largest load."""
+"""Films go with load^-0.067 (Hamrock and Dowson 1977), to this share of the largest load."""
 
 UNBALANCED = 1e-3
 """Share of the load beyond which a few Newton steps have not arrived."""

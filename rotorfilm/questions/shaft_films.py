@@ -287,7 +287,7 @@ def value_on(rung: ShaftRung, found: RungResult, rests: Mapping[str, film_heat.W
 def steps_error(
     rung: ShaftRung, found: RungResult, own: float, rests: Mapping[str, film_heat.WarmRest]
 ) -> HeatEffect:
-    """Return how far a value is off by heat, by steps of each film towards T3."""
+    """Return the error of a value by heat, by steps of each film towards T3."""
     steps = {
         name: film_heat.HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()
     }

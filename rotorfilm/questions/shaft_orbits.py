@@ -349,12 +349,12 @@ def peak_rung(
 
     def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         method = f"run in {len(model.finer.elements)} elements"
-        work = {WorkUnit(f"runs to judge {name}"): 1}
+        work = {WorkUnit(f"runs to check {name}"): 1}
         try:
             rich = best.reaction if best.bounded else films.rich
             fine = shaken.run(_lowest(model.finer), rich, FINE_RTOL)
         except ContactError:
-            return ErrorEstimate(math.inf, method, work, doubt="a journal touches in the run that judges it")
+            return ErrorEstimate(math.inf, method, work, doubt="a journal touches in the run that checks it")
         better = shaken.peak(fine)
         error = abs(better - found.value) / better
         if not best.journals or not best.bounded:

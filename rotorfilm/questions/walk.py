@@ -184,7 +184,7 @@ def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | N
     """Return why a rung need not be tried: one that is known to be closer was refused."""
     for report in reports:
         if not report.doubtful and rung.prior >= (report.error_estimate or math.inf):
-            return f"known to be off by about {rung.prior:.0e}; {report.name} is closer and was refused"
+            return f"known error about {rung.prior:.0e}; {report.name} is closer and was refused"
     return None
 
 
@@ -197,7 +197,8 @@ def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) 
     before, after = (float(r.error_estimate or 0.0) for r in known)
     if abs(before - after) > STALLED * after:
         return None
-    return f"finer steps do not help: {known[0].name} is off by {before:.2g}, {known[1].name} by {after:.2g}"
+    errors = f"{known[0].name} has an error of {before:.2g}, {known[1].name} of {after:.2g}"
+    return f"finer steps do not help: {errors}"
 
 
 def _shared_in_vain(
@@ -260,7 +261,7 @@ def _beside_richer(reports: Sequence[RungReport], distance: Callable[[Any, Any],
     """Return the reports, in which no rung keeps an estimate that a richer one contradicts.
 
     Two values that are farther apart than both estimates are contradicting each other. The cheaper one is
-    then taken to be off by as much, and in doubt if the richer one is.
+    then taken to have this error, and to be in doubt if the richer one is.
     """
     told = []
     for k, report in enumerate(reports):

@@ -18,7 +18,7 @@ from .rigid import RigidRotor
 from .structure import AroundRotor, FlexibleRotor, dense_matrix
 
 PER_PERIOD = 20
-"""Samples per period of the highest frequency of a spectrum: chords between them are .4 % off."""
+"""Samples per period of the highest frequency of a spectrum: chords between them are 0.4 % off."""
 
 
 def _rising(times: ArrayLike) -> Array:

@@ -36,9 +36,9 @@ from .structure import (
 class ReducedRotor(FlexibleRotor):
     """A rotor in the coordinates of Craig and Bampton (1968), AIAA J. 6, 1313-1319: a Dynamic model.
 
-    The coordinates of a plane are the displacements of journals and housings (with the shape that the rotor
-    takes when they move slowly), the static shapes under weight and unbalance, and the lowest modes of the
-    rotor with all of them held. Inputs and outputs are those of the rotor; static deflections and the total
+    The coordinates of a plane are of three kinds. They are the displacements of journals and housings (with
+    the static shape of the rotor), the static shapes under weight and unbalance, and the lowest modes of the
+    rotor with all of these held. Inputs and outputs are those of the rotor; static deflections and the total
     mass are exact. `reduce_rotor` chooses the number of modes.
 
     Parameters

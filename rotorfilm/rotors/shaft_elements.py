@@ -423,9 +423,9 @@ def beam_matrices(beam: Beam, section: Section, length: float) -> BeamMatrices:
 
     Notes
     -----
-    With the virtual displacements dw, dtheta, axial tension P adds P int dw' w', and a torque T that follows
-    the shaft adds T int (dtheta_x theta_y' - dw_x' theta_y' + dtheta_x' w_y') to the plane of x and the
-    opposite to that of y (Friswell et al. 2010, section 5.4); without shear that is T int dtheta_x' theta_y.
+    With the virtual displacements dw, dtheta, axial tension P adds P int dw' w'. A torque T that follows the
+    shaft adds T int (dtheta_x theta_y' - dw_x' theta_y' + dtheta_x' w_y') to the plane of x and the opposite
+    to that of y (Friswell et al. 2010, section 5.4); without shear that is T int dtheta_x' theta_y.
     """
     bending, shear, mass, inertia = np.broadcast_arrays(*section, POINTS)[:4]
     middle, sheared = len(POINTS) // 2, bool(np.isfinite(shear).all())

@@ -6,9 +6,9 @@ with the angular speed w. q has the coordinates of the x-z plane, as many of the
 along the shaft and about it. G is the gyroscopic effect, H rotating damping. T gives the displacement of
 journals from housings.
 
-The torque that drives the shaft is taken to follow the tilt of each cross section, as it does where the shaft
-itself transmits it, and to accelerate each section as the speed says; an angular acceleration then has no
-moment of its own besides that on the unbalance.
+The torque that drives the shaft is assumed to follow the tilt of each cross section, as if the shaft
+transmits it, and to accelerate each section with the speed. Then an angular acceleration only has a moment on
+the unbalance.
 """
 
 from __future__ import annotations

@@ -376,7 +376,7 @@ def _beyond_roelands(ball: contacts.RollingBall) -> float:
 def contact_remarks(
     ball: contacts.RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
+    """Return the neglected effects that matter, one line each, of a ball; see `contact_numbers`."""
     return messages(
         remarks_of("contact"), contact_numbers(ball, oil, roelands=roelands, compressible=compressible)
     )

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..analysis.circular_orbits import synchronous_orbits
 from ..bearings import damper as dampers
-from ..bearings.assemblies import Sprung
+from ..bearings.assemblies import Parallel, with_springs
 from ..bearings.films.geometry import FullFilm
 from ..core.answers import WorkUnit
 from ..core.errors import InputError, RotorfilmError, ValidityWarning
@@ -262,11 +262,11 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def sprung(
+def on_springs(
     damper: dampers.PorousDamper | dampers.ExtrapolatedDamper | dampers.JudgedDamper, stiffness: float
 ) -> PlanarReaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
-    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+    return with_springs(damper, stiffness) if stiffness else damper
 
 
 # The films of a damper with seals or inertia as rungs: without and with inertia, short and finite.
@@ -423,7 +423,7 @@ def largest_pressure(damper: dampers.PorousDamper, speed: float, eccentricity_ra
 def damper_remarks(
     damper: dampers.PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
+    """Return the neglected effects that matter, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
     ruptures = "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured"
     inertia = () if damper.has_inertia else ("damper_inertia",)
@@ -496,7 +496,7 @@ def _orbits(damper: dampers.PorousDamper, stiffness: float, rotor: RigidRotor) -
     slow = damper.is_fed and not isinstance(damper.extent, FullFilm)
     if slow or not rotor.unbalance:
         return ()
-    return synchronous_orbits(rotor, sprung(damper, stiffness)).at(rotor.unbalance)
+    return synchronous_orbits(rotor, on_springs(damper, stiffness)).at(rotor.unbalance)
 
 
 def _smallest_stable(found: tuple[CircularOrbit, ...]) -> CircularOrbit | None:
@@ -526,7 +526,7 @@ class DamperScene(NamedTuple):
     ----------
     rotor : RigidRotor
         At the center of the damper, or its offset, at rest.
-    support : PorousDamper, Sprung or JFODamper
+    support : PorousDamper, Parallel or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.
     duration : float [s]
@@ -535,7 +535,7 @@ class DamperScene(NamedTuple):
     """
 
     rotor: RigidRotor
-    support: dampers.PorousDamper | Sprung | dampers.JFODamper
+    support: dampers.PorousDamper | Parallel | dampers.JFODamper
     start: float
     duration: float
     step: float

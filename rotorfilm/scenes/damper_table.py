@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from ..bearings import damper as dampers
-from ..bearings.assemblies import Sprung
+from ..bearings.assemblies import Parallel, with_springs
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
 from ..core.errors import InputError, ValidityWarning, require_non_negative
 from .reading import Keyed, Taking, Variant, fields_of, made_from
@@ -208,13 +208,13 @@ class DamperTable(Taking):
                 )
         return made_from(dampers.JFODamper, self, supply=supply)
 
-    def support(self) -> dampers.PorousDamper | Sprung | dampers.JFODamper:
+    def support(self) -> dampers.PorousDamper | Parallel | dampers.JFODamper:
         """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
         if self.supply is not None and self.film is None:
             return replace(self.conserved(self.supply), cells=CELLS)
         return self.plain()
 
-    def plain(self) -> dampers.PorousDamper | Sprung:
+    def plain(self) -> dampers.PorousDamper | Parallel:
         """Return the damper of a film that knows no supply, with its springs, if it has some."""
         damper = self.build()
-        return Sprung(reaction=damper, stiffness=self.stiffness) if self.stiffness else damper
+        return with_springs(damper, self.stiffness) if self.stiffness else damper

@@ -367,7 +367,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     folder : Path
         Made if absent.
     scene : Scene
-        With a rotor, and a bearing of length/diameter .1 to 4, where all films of the ladder exist.
+        With a rotor, and a bearing of length/diameter 0.1 to 4, where all films of the ladder exist.
     report : callable, optional
         Told how far the job is.
 

@@ -136,7 +136,7 @@ class Remark(NamedTuple):
     below : bool
         Whether it is said below the limit, not above it.
     moves : str
-        What is left out, if the number tells about how much that moves an answer, relative to it.
+        The neglected effect, if the number is about its relative influence on an answer.
     """
 
     number: str

@@ -20,6 +20,7 @@ from ..analysis.coefficients import film_coefficients
 from ..bearings import journal
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import RING
+from ..bearings.pads import PadBearing, TiltingPadBearing
 from ..core.errors import RotorfilmError
 from ..core.port import Reaction
 from ..core.results import Coefficients, Equilibrium
@@ -84,13 +85,15 @@ class WarmRest(JournalEquilibrium):
         return film_coefficients(self.reaction, self.rest.position, self.rest.speed)
 
 
-def bush_of(bearing: journal.JournalBearing) -> journal.Walls:
+def bush_of(bearing: Any) -> journal.Walls:
     """Return the bush that a temperature field is in: of steel, to `RING` times the radius.
 
     It carries as much heat to the ambient as the housing conductance of the bearing's cooling; where that is
     0 it conducts around the film only. One that would hold that heat up is thinner. The shaft is as warm as
-    makes its net heat zero.
+    makes its net heat zero. Tilting pads take no heat.
     """
+    if isinstance(bearing, TiltingPadBearing):
+        return journal.AdiabaticWalls()
     _, cooling = bearing.cooled
     R, outer = bearing.radius, RING * bearing.radius
     wanted = cooling.housing_conductance / (2.0 * math.pi * R * bearing.length)
@@ -141,7 +144,10 @@ def warm_field(
     if isinstance(bearing, journal.JFOFilm):
         film = replace(bearing, cells=cells)
         return journal.HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
-    return journal.HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=profile)
+    around, along = cells
+    if isinstance(bearing, PadBearing):
+        around *= (len(bearing.arcs) + 1) // 2  # as many on each pad as on one of two
+    return journal.HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=(around, along), profile=profile)
 
 
 def ends_within(bearing: journal.JournalBearing | journal.JFOFilm) -> bool:
@@ -194,6 +200,15 @@ def rest_of_state(
 PROFILE, CELLS = journal.LayeredTemperature(8), (80, 8)
 """Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
+
+def richest_profile(bearing: Any) -> journal.FilmProfile:
+    """Return the profile across the film towards which steps lead.
+
+    The oil beside a wall that takes no heat gets too hot: for tilting pads it is the mean.
+    """
+    return journal.MeanTemperature() if isinstance(bearing, TiltingPadBearing) else PROFILE
+
+
 HALF = (CELLS[0] // 2, CELLS[1] // 2)
 """Cells twice as long."""
 
@@ -237,6 +252,11 @@ class HeatSteps:
     bearing: journal.JournalBearing | journal.JFOFilm
     own: WarmRest
 
+    @property
+    def name(self) -> str:
+        """Where they lead."""
+        return f"steps towards {'T3' if richest_profile(self.bearing).layers > 1 else 'T2'}"
+
     @cached_property
     def taken(self) -> tuple[WarmRest, ...]:
         """The rests after each step."""
@@ -261,7 +281,7 @@ class HeatSteps:
         first = max(float(moves[0]), SMALL * self.bearing.clearance)
         if moves[-1] <= SETTLED * first:
             return ""
-        return f"step {STEPS} towards T3 moves the journal by {moves[-1] / first:.0%} of the first"
+        return f"step {STEPS} moves the journal by {moves[-1] / first:.0%} of the first"
 
     def _steps(self, cells: tuple[int, int]) -> tuple[WarmRest, ...]:
         own, bearing = self.own, self.bearing
@@ -278,7 +298,7 @@ class HeatSteps:
         return tuple(found)
 
     def _film(self, cells: tuple[int, int]) -> journal.HeatedFilm | journal.HeatedJFOFilm:
-        return warm_field(self.bearing, cells, PROFILE)
+        return warm_field(self.bearing, cells, richest_profile(self.bearing))
 
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
         """Return the start by one temperature on these cells, whose own error is none of the heat.
@@ -368,7 +388,7 @@ class RestJudge:
         return self.distance(self.value(own), self.value(other))
 
     def error(self, own: Any, steps: HeatSteps) -> HeatError:
-        """Return how far the quantity of a rest is off by heat."""
+        """Return the error by heat of a quantity of an equilibrium."""
         start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
         coarse, fine, long = bases
         return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
@@ -502,7 +522,9 @@ def assumed_figures(bearing: Any, moved: Callable[[Any], float], *, fields: bool
         except RotorfilmError:
             change = "a change that is not known"
         lines.append(f"{text}: moves the answer by {change}")
-    if fields:
+    if fields and isinstance(bearing, TiltingPadBearing):
+        lines.append("pads of T2: take no heat, which makes the oil too hot by some kelvins")
+    elif fields:
         lines.append(
             f"bush of T2 and T3: steel to {RING:g} times the radius, that gives off what housing_conductance "
             "says; the shaft takes no heat in the mean"

@@ -354,7 +354,7 @@ def _quick(bearing: JournalBearing) -> JournalBearing:
 def film_remarks(
     bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N].
+    """Return the neglected effects that matter, one line each, at a speed [rad/s] and a load [N].
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """

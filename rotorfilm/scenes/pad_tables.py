@@ -52,7 +52,9 @@ def pad_film_name(film: pad_bearings.PadFilm | pad_bearings.PressureDamBearing) 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.LobedBearing, without=("lobes", "film"))
 class PadTable(OiledTable):
-    """The table of a bearing made of pads; a family adds its pads, `data`, `film_key` and `build`.
+    """The table of a lobed, pressure-dam or tilting-pad bearing.
+
+    A family adds its pads, `data`, `film_key` and `build`.
 
     Attributes
     ----------
@@ -117,7 +119,7 @@ class PadTable(OiledTable):
 
 @dataclass(frozen=True, kw_only=True)
 class PadData(Readable):
-    """A bearing made of pads as it was understood.
+    """A lobed, pressure-dam or tilting-pad bearing as it was understood.
 
     Attributes
     ----------
@@ -189,7 +191,7 @@ class DamData(PadData):
 
 
 def echo_of_pads(kind: type[PadData], bearing: AnyPads) -> PadData:
-    """Return what an answer repeats of a bearing made of pads.
+    """Return what an answer repeats of a lobed, pressure-dam or tilting-pad bearing.
 
     Parameters
     ----------
@@ -242,7 +244,7 @@ def pad_numbers(
 
 
 def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each; the arguments are of `pad_numbers`.
+    """Return the neglected effects that matter, one line each; the arguments are of `pad_numbers`.
 
     Of films on an oil it is said at their temperature, and that they warm is not left out.
     """

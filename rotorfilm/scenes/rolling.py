@@ -480,7 +480,7 @@ def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: floa
 def ball_remarks(
     bearing: Balls, speed: float, load: tuple[float, float], oil: RaceOil | None, roughness: float | None
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each; that there is no rest where there is none."""
+    """Return the neglected effects that matter, one line each; that there is no rest where there is none."""
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
             rest = rest_under(bearing, load, speed)

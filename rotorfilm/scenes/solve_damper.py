@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import analysis
-from ..bearings.assemblies import Sprung
+from ..bearings.assemblies import with_springs
 from ..bearings.damper import DamperGroups, JFODamper, damper_groups
 from ..core.errors import ContactError, InputError
 from ..core.model import Array
@@ -79,7 +79,7 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
     added = excitation.unbalance if isinstance(excitation, UnbalanceTable) else 0.0
     damper, stiffness, speed = scene.damper.build(), scene.damper.stiffness, scene.speed
     unbalance = rotor.unbalance or added
-    support: Reaction = Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+    support: Reaction = with_springs(damper, stiffness) if stiffness else damper
     alone = RigidRotor(mass=rotor.mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
     response = analysis.synchronous_orbits(alone, support, unbalance * np.linspace(0.005, 2.0, 400))
     return DamperAnswer(
@@ -99,7 +99,7 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
 RTOL = 1e-6
 
 STEPS_A_TURN = 192
-"""Steps in a turn of a film that conserves its oil: within .2 % of its force."""
+"""Steps in a turn of a film that conserves its oil: within 0.2 % of its force."""
 
 
 @dataclass(frozen=True, kw_only=True)

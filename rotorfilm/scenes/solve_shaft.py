@@ -272,7 +272,7 @@ STIFF = 1e10
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, of a shaft in its bearings at a speed."""
+    """Return the neglected effects that matter, one line each, of a shaft in its bearings at a speed."""
     seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
     stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
     loads = analysis.rotor_equilibrium(rotor, stiff, speed).loads

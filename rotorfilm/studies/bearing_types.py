@@ -31,9 +31,9 @@ DAM = {"depth": 2.0 * CLEARANCE, "end": math.radians(145.0), "share": 0.75}
 def bearing_types(slenderness: float) -> dict[str, Reaction]:
     """Return the types that are bought, by name, for a load along -y: fixed pads first, then tilting ones.
 
-    Journal 100 mm, assembled clearance .1 mm, 20 mPa s. Fixed pads cover 160 deg (two), 100 deg (three) and
-    75 deg (four), lobes have the preload .5. The dam is 2 clearances deep over 75 % of the length, its step
-    at 145 deg. Five tilting pads cover 60 deg each, have central pivots and the preload .3.
+    Journal 100 mm, assembled clearance 0.1 mm, 20 mPa s. Fixed pads cover 160 deg (two), 100 deg (three) and
+    75 deg (four), lobes have the preload 0.5. The dam is 2 clearances deep over 75 % of the length, its step
+    at 145 deg. Five tilting pads cover 60 deg each, have central pivots and the preload 0.3.
 
     Parameters
     ----------

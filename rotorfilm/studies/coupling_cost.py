@@ -124,7 +124,7 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
 
 
 def cost_case() -> tuple[RigidRotor, JournalBearing]:
-    """Return a rotor with strong unbalance on a map film, from rest at eccentricity ratio .7."""
+    """Return a rotor with strong unbalance on a map film, from rest at eccentricity ratio 0.7."""
     bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.05, film=MapFilm())
     rotor = resting_rotor(bearing, ECCENTRICITY_RATIO, unbalance_ratio=UNBALANCE_RATIO)
     return rotor, bearing
@@ -199,7 +199,7 @@ def coupling_limits(
     eccentricity_ratios, simulated_at : sequence of float [1]
         Where theory is asked, and where the scheme is run; a rigid rotor.
     mass_ratios, simulated_ratios : sequence of float [1]
-        The same for a disk on a shaft whose journal has this part of its mass, at eccentricity ratio .7.
+        The same for a disk on a shaft whose journal has this part of its mass, at eccentricity ratio 0.7.
     report : callable, optional
         Told how far the job is.
     """

@@ -64,9 +64,9 @@ def journal_stability(
     """Return the whirl threshold of a rigid rotor by every rung and by the two-dimensional reference.
 
     A row for each rung and eccentricity ratio has speed * sqrt(clearance * mass / load) at the onset of
-    whirl, None where there is none, and what is wrong with it: a threshold up to `HIGHEST` that is off by
-    more than `TOLERANCE`, one that is missing or invented, damping of rank one or unsymmetric, and tension
-    in the film.
+    whirl, None where there is none, and its faults. Faults are a threshold up to `HIGHEST` with an error
+    above `TOLERANCE`, one that is missing or invented, damping of rank one or unsymmetric, and tension in the
+    film.
 
     Parameters
     ----------
@@ -89,7 +89,8 @@ def journal_stability(
     Notes
     -----
     The reference is `AveragedFilm`. Its distance from the same on a grid with half the cells estimates its
-    error; undivided, since the derivatives err by first order as the edge of the ruptured zone jumps.
+    error. It is not divided, since the edge of the ruptured zone jumps and the derivatives are of first
+    order.
     """
     rungs = chosen_rungs(rungs)
     ratios = _required_ratios(eccentricity_ratio)
@@ -216,9 +217,9 @@ PLACES = 8
 class AveragedFilm:
     """A plain `ReynoldsFilm` whose Jacobian is averaged over positions of the journal within a cell.
 
-    The edge of the ruptured zone jumps from node to node, so that the Jacobian, which holds it,
-    errs by first order, with a sign that changes as the journal turns by a cell. The force errs by second
-    order and is extrapolated; the Jacobian is that of the film, not of the extrapolation.
+    The edge of the ruptured zone jumps from node to node, so the Jacobian, which depends on it, has an error
+    of first order. Its sign changes as the journal turns by a cell. The force is of second order and is
+    extrapolated; the Jacobian is that of the film, not of the extrapolation.
 
     Parameters
     ----------

@@ -193,7 +193,7 @@ def _whirling(
 
 
 def journal_extent() -> Iterator[Curve]:
-    """Yield what arcs err by in circular whirl."""
+    """Yield the errors of arcs in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
     whirl = whirl[np.abs(whirl - 0.5) > 0.02]  # no source of pressure there
     exact = journal(journals.MapFilm())
@@ -208,7 +208,7 @@ def journal_extent() -> Iterator[Curve]:
 
 
 def journal_order() -> Iterator[Curve]:
-    """Yield what few functions err by."""
+    """Yield the errors of few functions."""
     ratios = np.linspace(0.05, 0.95, 19)
 
     def force(n: int, m: int | None) -> Array:
@@ -220,7 +220,7 @@ def journal_order() -> Iterator[Curve]:
 
 
 def journal_length() -> Iterator[Curve]:
-    """Yield what the short film errs by."""
+    """Yield the errors of the short film."""
     slenderness = np.geomspace(0.1, 2.0, 14)
     for ratio in (0.2, 0.6, 0.9):
         pairs = [
@@ -234,7 +234,7 @@ def journal_length() -> Iterator[Curve]:
 
 
 def journal_grid() -> Iterator[Curve]:
-    """Yield what coarse grids err by."""
+    """Yield the errors of coarse grids."""
     exact = journal(journals.MapFilm())
 
     def stiffness(model: journals.JournalBearing) -> list[Array]:
@@ -249,7 +249,7 @@ def journal_grid() -> Iterator[Curve]:
 
 
 def journal_linearization() -> Iterator[Curve]:
-    """Yield what stiffness errs by in large displacements, in the worst direction."""
+    """Yield the errors of stiffness in large displacements, in the worst direction."""
     model, parts = journal(journals.MapFilm()), np.geomspace(0.01, 0.8, 20)
     angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
     around = np.array([np.cos(angles), np.sin(angles)])
@@ -284,17 +284,17 @@ QUANTITIES = ("place", "side flow", "friction torque", "stiffness")
 
 
 def supply_load() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the load rises, at one supply pressure."""
+    """Yield the errors of Reynolds rupture as the load rises, at one supply pressure."""
     yield from _supply_curves(LOADS, lambda load: _supply_errors(load, AT_PRESSURE))
 
 
 def supply_pressure() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the supply pressure rises, at one load."""
+    """Yield the errors of Reynolds rupture as the supply pressure rises, at one load."""
     yield from _supply_curves(PRESSURES, lambda pressure: _supply_errors(AT_LOAD, pressure))
 
 
 def supply_starvation() -> Iterator[Curve]:
-    """Yield what Reynolds rupture errs by as the groove gets less oil than it would take, at one load."""
+    """Yield the errors of Reynolds rupture as the groove gets less oil than it would take, at one load."""
     yield from _supply_curves(MISSING, lambda missing: _supply_errors(AT_LOAD, 0.0, 1.0 - missing))
 
 
@@ -355,7 +355,7 @@ def _supply_errors(sommerfeld: float, pressure: float, share: float | None = Non
 
 SUPPLY, HEAT_VISCOSITY, HEAT_SPEED = 45.0 + CELSIUS, 0.03, 100.0 * np.pi
 LOAD = 5e3
-"""It takes the cold journal to an eccentricity ratio of .48 [N]."""
+"""It takes the cold journal to an eccentricity ratio of 0.48 [N]."""
 
 HEAT_CELLS, LAYERS = (48, 4), 6
 
@@ -367,19 +367,19 @@ COMPARED = (HeatModel.SUPPLY, HeatModel.HOUSING, HeatModel.BUSH)
 
 
 def heat_rise() -> Iterator[Curve]:
-    """Yield what the models err by as oil thins more."""
+    """Yield the errors of the models as oil thins more."""
     for model in COMPARED:
         yield model.label, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
 
 
 def heat_peclet() -> Iterator[Curve]:
-    """Yield what the models err by as oil conducts less."""
+    """Yield the errors of the models as oil conducts less."""
     for model in COMPARED:
         yield model.label, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
 
 
 def heat_profile() -> Iterator[Curve]:
-    """Yield what a mean temperature across the film errs by."""
+    """Yield the errors of a mean temperature across the film."""
     case = heat_case(1.0, AT_PECLET)
     # Na/E at this Peclet number, which the geometry and the load decide
     per_rise = _cold_numbers(case).nahme
@@ -457,7 +457,7 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
 
 
 def rotor_time_step() -> Iterator[Curve]:
-    """Yield what steps of each scheme err by."""
+    """Yield the errors of steps of each scheme."""
     matrix = _rotor_matrix(STEP_AT, STEP_MASS)
     shortest = 1.0 / float(np.abs(np.linalg.eigvals(matrix)).max())
     whole = TURNS * 2.0 * np.pi / SPEED
@@ -529,7 +529,7 @@ def _damper_errors(models: Sequence[PorousDamper], better: Sequence[PorousDamper
 
 
 def damper_length() -> Iterator[Curve]:
-    """Yield what the short film errs by, on a solid and on a porous cage."""
+    """Yield the errors of the short film, on a solid and on a porous cage."""
     slenderness = np.geomspace(0.05, 1.5, 12)
     for cage, number in (("solid cage", 0.0), ("porous, Phi = 0.1", 0.1)):
         made = [compared_damper(ld, number) for ld in slenderness.tolist()]
@@ -539,7 +539,7 @@ def damper_length() -> Iterator[Curve]:
 
 
 def damper_cage() -> Iterator[Curve]:
-    """Yield what a cage without depth, or without pores, errs by."""
+    """Yield the errors of a cage without depth, or without pores."""
     numbers = np.geomspace(1e-5, 10.0, 25)
     whole = [compared_damper(0.25, number) for number in numbers.tolist()]
     thin = [replace(one.cage, thin=True) for one in whole if one.cage is not None]
@@ -550,7 +550,7 @@ def damper_cage() -> Iterator[Curve]:
 
 
 def damper_linearization() -> Iterator[Curve]:
-    """Yield what damping at the center errs by in large orbits."""
+    """Yield the errors of damping at the center in large orbits."""
     ratios = np.linspace(0.02, 0.9, 30)
     for slenderness in SLENDERNESSES:
         full = replace(compared_damper(slenderness), film=FiniteSqueeze())
@@ -589,7 +589,7 @@ STEPPERS: dict[str, Callable[[complex], complex]] = {
 
 
 def contact_grid() -> Iterator[Curve]:
-    """Yield what coarse grids err by, upwind and staggered."""
+    """Yield the errors of coarse grids, upwind and staggered."""
     fine, coarse = (_films(published_contact(cells, UpwindScheme())) for cells in REFERENCE)
     right = fine + (fine - coarse) / ((REFERENCE[0] / REFERENCE[1]) ** UpwindScheme.order - 1.0)
     schemes: dict[str, ContactScheme] = {"upwind": UpwindScheme(), "as published": StaggeredScheme()}
@@ -629,14 +629,14 @@ EXTENT = 1.5
 
 
 def bush_flux() -> Iterator[Curve]:
-    """Yield what the closed form errs by."""
+    """Yield the errors of the closed form."""
     for stubbiness in bush_accuracy.STUBBINESSES:
         *_, errors = bush_accuracy.shaft_flux_errors(stubbinesses=(stubbiness,)).values()
         yield f"shaft radius / half length {stubbiness:g}", bush_accuracy.COOLINGS, np.abs(errors)
 
 
 def bush_published() -> Iterator[Curve]:
-    """Yield what the published stage errs by under a growing load."""
+    """Yield the errors of the published stage under a growing load."""
     times, exact = _exact()
     grown = 1.0 + (bush_accuracy.LOADS[1] / bush_accuracy.LOADS[0] - 1.0) * times / bush_accuracy.DURATION
     for steps in STEPS:
@@ -645,7 +645,7 @@ def bush_published() -> Iterator[Curve]:
 
 
 def bush_nodes() -> Iterator[Curve]:
-    """Yield what few nodes err by."""
+    """Yield the errors of few nodes."""
     times, exact = _exact()
     errors = []
     for nodes in NODES:

@@ -23,7 +23,6 @@ from rotorfilm import (
     RigidRotor,
     RubRing,
     ShortFilm,
-    Sprung,
     SqueezeFilmDamper,
     TiltingPadBearing,
     UndefinedDerivativeError,
@@ -34,6 +33,7 @@ from rotorfilm import (
     mount,
     simulate,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.analysis import dynamic_stiffness
 from rotorfilm.analysis.compiled_rotor import film_call
@@ -157,7 +157,7 @@ def test_names_of_states():
 
 
 def test_the_added_mass_of_the_outer_reaction_is_added_to_the_body():
-    outer = Sprung(reaction=DAMPER, stiffness=5e6)
+    outer = with_springs(DAMPER, 5e6)
     added = mass_of(DAMPER, CENTER, CENTER, 0.0)
     assert added[0, 0] > 0.1
     own = coefficients(outer, CENTER, 0.0)
@@ -169,7 +169,7 @@ def test_the_added_mass_of_the_outer_reaction_is_added_to_the_body():
 
 
 def test_the_linearization_is_exact():
-    series = Series(Sprung(reaction=DAMPER, stiffness=5e6), Body(2.0), FILM)
+    series = Series(with_springs(DAMPER, 5e6), Body(2.0), FILM)
     x, u = np.array([2e-5, -3e-5, 2e-3, 1e-3]), np.array([4e-5, -5e-5, 3e-3, -2e-3, SPEED])
     assert_exact(series, x, u)
     assert_exact(Series(SEAL, Body(2.0), SEAL), np.array([*x, 1e-8, 2e-8, -1e-8, 3e-8]), u)
@@ -186,7 +186,7 @@ def test_a_journal_bearing_in_a_sprung_body_rests_where_both_carry_the_load():
     found = equilibrium(series, load, SPEED)
     assert_allclose(found.position, place, rtol=1e-9)
     assert series.clearance == np.inf
-    assert Series(Sprung(reaction=DAMPER, stiffness=6e6), Body(2.0), FILM).clearance == pytest.approx(2.2e-4)
+    assert Series(with_springs(DAMPER, 6e6), Body(2.0), FILM).clearance == pytest.approx(2.2e-4)
     exact = coefficients(FILM, at.position, SPEED)
     one = exact.stiffness + 200j * exact.damping
     whole = one - one @ np.linalg.solve(one + np.diag([6e6, 12e6]) - 2.0 * 200.0**2 * np.eye(2), one)
@@ -195,7 +195,7 @@ def test_a_journal_bearing_in_a_sprung_body_rests_where_both_carry_the_load():
 
 @pytest.mark.parametrize("beside", [False, True])
 def test_the_least_film_of_a_series_is_that_of_its_journal_bearing(beside):
-    load, springs = np.array([3000.0, -15000.0]), Sprung(reaction=DAMPER, stiffness=5e8)
+    load, springs = np.array([3000.0, -15000.0]), with_springs(DAMPER, 5e8)
     alone, series = equilibrium(FILM, load, SPEED), Series(springs, Body(2.0), FILM)
     assert alone.minimum_film < 2e-5
     ring = RubRing(gap=5e-4, stiffness=1e7, radius=0.05)
@@ -207,7 +207,7 @@ def test_the_least_film_of_a_series_is_that_of_its_journal_bearing(beside):
 
 def test_the_least_film_of_a_series_is_that_of_its_damper_where_this_is_nearer_to_its_wall():
     load = np.array([0.0, -200.0])
-    soft = Series(Sprung(reaction=DAMPER, stiffness=2e6), Body(2.0), FILM)
+    soft = Series(with_springs(DAMPER, 2e6), Body(2.0), FILM)
     found = equilibrium(soft, load, SPEED)
     assert equilibrium(FILM, load, SPEED).minimum_film > DAMPER.clearance - 1e-4
     assert_allclose(found.minimum_film, DAMPER.clearance - 1e-4, rtol=1e-8)
@@ -228,7 +228,7 @@ def test_the_least_film_on_pads_in_a_sprung_body_is_that_of_the_pads():
     load = [0.0, -500.0]
     alone, series = (
         equilibrium(pads, load, SPEED),
-        Series(Sprung(reaction=DAMPER, stiffness=5e8), Body(2.0), pads),
+        Series(with_springs(DAMPER, 5e8), Body(2.0), pads),
     )
     found = equilibrium(series, load, SPEED)
     assert_allclose([found.minimum_film, found.eccentricity_ratio],
@@ -313,7 +313,7 @@ def test_a_damper_without_springs_carries_no_load():
 
 
 def test_a_ruptured_damper_has_a_rest_and_no_derivative_there():
-    series = Series(Sprung(reaction=RUPTURED, stiffness=5e6), Body(2.0), RING)
+    series = Series(with_springs(RUPTURED, 5e6), Body(2.0), RING)
     place = np.array([4e-5, -2e-5])
     assert_allclose(rest_state(series, place, SPEED), [*(0.8 * place), 0.0, 0.0], rtol=1e-10, atol=1e-18)
     with pytest.raises(UndefinedDerivativeError):
@@ -330,7 +330,7 @@ def test_where_the_outer_film_cannot_carry_there_is_no_rest():
 def test_small_motion_in_time_is_that_of_the_eigenvalues(outer):
     """A ring on springs in a full film: the exponential of the mounted system; a ruptured one just runs."""
     film = {"full": DAMPER, "ruptured": RUPTURED}[outer]
-    series = Series(Sprung(reaction=film, stiffness=5e6), Body(2.0), RING)
+    series = Series(with_springs(film, 5e6), Body(2.0), RING)
     rotor = RigidRotor(mass=30.0, speed=SPEED, gravity=(0.0, 0.0), position=(3e-8, -6e-8))
     run = simulate(rotor, series, duration=0.02, samples=9, rtol=1e-10)
     if outer == "ruptured":
@@ -444,35 +444,35 @@ def test_motion_of_parallel_reactions_is_that_of_both():
 # Beside springs, by direction.
 
 
-@pytest.mark.parametrize("springs", [(3e6, 5e6), ((3e6, 4e5), (-2e5, 5e6))])
-def test_springs_by_direction_are_those_of_a_linear_bearing(springs):
-    sprung = Sprung(reaction=FILM, stiffness=springs)
-    matrix = np.diag(springs) if np.ndim(springs) == 1 else np.array(springs)
-    both = Parallel((FILM, LinearBearing(stiffness=matrix)))
+@pytest.mark.parametrize("springs", [3e6, (3e6, 5e6), ((3e6, 4e5), (-2e5, 5e6))])
+def test_springs_add_their_pull_to_a_film(springs):
+    held = with_springs(FILM, springs)
+    matrix = np.array(springs) if np.ndim(springs) == 2 else springs * np.eye(2)
     q, v = np.array([3e-5, -4e-5]), np.array([1e-3, 2e-3])
-    assert_allclose(sprung.force(q, v, SPEED), both.force(q, v, SPEED), rtol=1e-13)
-    assert_allclose(sprung.jacobian(q, v, SPEED), both.jacobian(q, v, SPEED), rtol=1e-13)
-    assert_allclose(sprung.prepare()(*q, *v, SPEED), both.force(q, v, SPEED), rtol=1e-13)
-    x, y, slopes = sprung.prepare_tangent()(*q, *v, SPEED)
-    assert_allclose([x, y], both.force(q, v, SPEED), rtol=1e-13)
-    assert_allclose(np.reshape(slopes, (2, 5)), both.jacobian(q, v, SPEED), rtol=1e-13)
-    assert sprung.native() is None
-    rotor = RigidRotor(mass=20.0, speed=SPEED)
-    runs = [simulate(rotor, one, duration=0.02, samples=5, rtol=1e-10) for one in (sprung, both)]
-    assert_allclose(runs[0]["x"], runs[1]["x"], atol=1e-13)
+    force, slopes = FILM.force(q, v, SPEED) - matrix @ q, FILM.jacobian(q, v, SPEED)
+    slopes[:, :2] -= matrix
+    assert_allclose(held.force(q, v, SPEED), force, rtol=1e-13)
+    assert_allclose(held.jacobian(q, v, SPEED), slopes, rtol=1e-13)
+    assert_allclose(held.prepare()(*q, *v, SPEED), force, rtol=1e-13)
+    x, y, found = held.prepare_tangent()(*q, *v, SPEED)
+    assert_allclose([x, y], force, rtol=1e-13)
+    assert_allclose(np.reshape(found, (2, 5)), slopes, rtol=1e-13)
+    assert held.inputs == FILM.inputs
+    assert held.outputs == FILM.outputs
+    assert held.native() is None
 
 
 def test_springs_by_direction_have_a_kernel_in_c():
-    assert compiled_force(Sprung(reaction=FILM, stiffness=(3e6, 5e6))) is not None
-    assert compiled_force(Sprung(reaction=FILM, stiffness=3e6)) is not None
-    assert film_call(Sprung(reaction=FILM, stiffness=(3e6, 5e6))).address
+    assert compiled_force(with_springs(FILM, (3e6, 5e6))) is not None
+    assert compiled_force(with_springs(FILM, 3e6)) is not None
+    assert film_call(with_springs(FILM, (3e6, 5e6))).address
 
 
 def test_circular_orbits_refuse_springs_that_differ():
     with pytest.raises(InputError):
         synchronous_orbits(
             RigidRotor(mass=20.0, speed=SPEED, gravity=(0.0, 0.0)),
-            Sprung(reaction=replace(DAMPER, density=0.0), stiffness=(3e6, 5e6)),
+            with_springs(replace(DAMPER, density=0.0), (3e6, 5e6)),
         )
 
 
@@ -506,13 +506,22 @@ WRONG = [
     (lambda: Parallel((RING, WARM)), r"reactions\[1\] must have a temperature"),
     (lambda: Parallel((RING,)), "reactions must be two at least, got 1"),
     (lambda: Parallel((RING, "seal")), r"reactions\[1\] must be a Reaction"),
-    (lambda: Sprung(reaction=SEAL, stiffness=1e6), "reaction must be a Reaction such as a PorousDamper"),
-    (lambda: Sprung(reaction=FILM, stiffness=(1e6, -1e6)), "stiffness must be positive in every direction"),
     (
-        lambda: Sprung(reaction=FILM, stiffness=((1e6, 3e6), (3e6, 1e6))),
+        lambda: with_springs(SEAL, 1e6),
+        "reaction must be a Reaction such as a PorousDamper",
+    ),
+    (
+        lambda: with_springs(FILM, (1e6, -1e6)),
+        "stiffness must be positive in every direction",
+    ),
+    (
+        lambda: with_springs(FILM, ((1e6, 3e6), (3e6, 1e6))),
         "must be positive in every",
     ),
-    (lambda: Sprung(reaction=FILM, stiffness=(1e6, 1e6, 1e6)), r"stiffness must be one, 2 or 2 x 2 numbers"),
+    (
+        lambda: with_springs(FILM, (1e6, 1e6, 1e6)),
+        r"stiffness must be a number or 2 x 2 numbers",
+    ),
     (lambda: Series(RING, Body(1.0), RING).output(0.0, [0.0], np.zeros(5)), r"x must have shape \(4,\)"),
     (lambda: Parallel((RING, SEAL)).output(0.0, [0.0], np.zeros(5)), r"x must have shape \(2,\)"),
     (lambda: Parallel((RING, SEAL)).output(0.0, np.zeros(2), [0.0]), r"u must have shape \(5,\) for x, y"),
@@ -525,13 +534,11 @@ def test_what_breaks_a_rule_is_named(make, said):
         make()
 
 
-def test_a_film_that_is_sprung_has_no_states_of_its_own():
+def test_a_film_with_states_has_them_beside_springs():
     from rotorfilm.bearings import BushReaction, f4k20_bush
 
     worn = BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=8, extent=1.4, retardation=2e-4)
-    with pytest.raises(InputError, match="reaction must have no states"):
-        Sprung(reaction=worn, stiffness=1e6)
-    both = Parallel((worn, LinearBearing(stiffness=1e6)))
+    both = with_springs(worn, 1e6)
     assert not states_rest(both)
     assert len(both.states) == len(worn.states)
     q = np.array([0.0, -4.6e-4])

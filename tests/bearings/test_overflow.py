@@ -17,7 +17,7 @@ REACTIONS = [
     rf.LobedBearing(**PADS, lobes=rf.lobe_set("elliptical")),
     rf.SqueezeFilmDamper(**FILM, density=850.0),
     rf.PorousDamper(**FILM, cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13)),
-    rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6), stiffness=2e6),
+    rf.with_springs(rf.LinearBearing(stiffness=1e6), 2e6),
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.TabulatedBearing(speeds=[0.0, 1e308], stiffness=1e6 * np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
     rf.RubRing(gap=2e-4, stiffness=1e7, radius=0.05, friction_coefficient=0.1),

@@ -20,7 +20,6 @@ from rotorfilm import (
     PorousDamper,
     RigidRotor,
     ShortFilm,
-    Sprung,
     TabulatedBearing,
     as_reaction,
     closed_loop,
@@ -34,6 +33,7 @@ from rotorfilm import (
     simulate,
     synchronous_orbits,
     whirl_threshold,
+    with_springs,
 )
 from rotorfilm.bearings import OwnReaction
 from rotorfilm.bearings.formulas import ORDER, differences
@@ -175,9 +175,7 @@ def test_springs_and_orbits_take_it_as_a_damper():
     damper = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=4e-4)
     own = as_reaction(lambda x, y, vx, vy, w: damper.force((x, y), (vx, vy)), clearance=1e-4, name="damper")
     rotor = RigidRotor(mass=10.0, speed=400.0, unbalance=3e-4, gravity=(0.0, 0.0))
-    ours, theirs = (
-        synchronous_orbits(rotor, Sprung(reaction=film, stiffness=2.56e5)).at(3e-4) for film in (own, damper)
-    )
+    ours, theirs = (synchronous_orbits(rotor, with_springs(film, 2.56e5)).at(3e-4) for film in (own, damper))
     assert [o.eccentricity_ratio for o in ours] == pytest.approx([o.eccentricity_ratio for o in theirs])
 
 
@@ -280,7 +278,7 @@ def test_beyond_the_clearance_nobody_asks_the_function():
         PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=4e-4),
         LinearBearing(stiffness=2e6, damping=300.0),
         TabulatedBearing(speeds=[100.0], stiffness=[np.eye(2)], damping=[np.eye(2)]),
-        Sprung(reaction=SHORT, stiffness=1e6),
+        with_springs(SHORT, 1e6),
         OWN,
     ],
     ids=lambda bearing: type(bearing).__name__,

@@ -54,7 +54,7 @@ def test_auto_says_why(capsys):
     )
     text = capsys.readouterr().out
     assert "unstable: at t = 0 s the coupling grows by a factor of" in text
-    assert "the cheapest that will do" in text
+    assert "the cheapest that is good enough" in text
     assert "SI-exp3, order 3" in text
 
 

@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from rotorfilm import PorousDamper, RigidRotor, Sprung, synchronous_orbits
+from rotorfilm import PorousDamper, RigidRotor, synchronous_orbits, with_springs
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.families import FAMILIES, table_of
 from rotorfilm.scenes.new_scene import new_scene
@@ -54,7 +54,7 @@ def test_a_damper_answers_with_its_orbits(run, tmp_path):
     assert code == 0
     film = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=0.01)
     rotor = RigidRotor(mass=10.0, speed=628.3185307179587, unbalance=2e-4, gravity=(0.0, 0.0))
-    orbits = synchronous_orbits(rotor, Sprung(reaction=film, stiffness=2e6)).at(2e-4)
+    orbits = synchronous_orbits(rotor, with_springs(film, 2e6)).at(2e-4)
     found = json.loads(out)["orbits"]
     assert [one["transmissibility"] for one in found] == pytest.approx(
         [one.transmissibility for one in orbits]

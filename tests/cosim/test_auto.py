@@ -30,7 +30,7 @@ def test_the_cheapest_scheme_that_will_do_is_taken(degrees, tolerance, expected)
     assert found.scheme.label == expected
     assert found.choice.scheme == found.scheme
     *others, taken = found.choice.trials
-    assert taken.reason.startswith("stable, off by")
+    assert taken.reason.startswith("stable, an error of")
     assert all(trial.reason.startswith(("not accurate", "unstable", "macro_step")) for trial in others)
     own = found.trajectory
     exact = simulate(rotor, bearing, duration=own.time[-1], times=own.time, rtol=1e-9)

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from studies.master_cases import BEARING, CLEARANCE, EXPLICIT, IMPLICIT, RAMP, ROTOR, SPEED, STEP, rotor_at
 
-from rotorfilm import Sprung
+from rotorfilm import with_springs
 from rotorfilm.bearings.damper import MapSqueeze, PorousCage, PorousDamper
 from rotorfilm.cosim import cosimulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, mount
@@ -119,7 +119,7 @@ def test_a_damper_at_rest_counts_as_held():
     film = PorousDamper(
         radius=0.05, length=0.02, clearance=CLEARANCE, viscosity=0.02, cage=cage, film=MapSqueeze()
     )
-    damper = Sprung(reaction=film, stiffness=5e6)
+    damper = with_springs(film, 5e6)
     rotor = RigidRotor(mass=20.0, speed=SPEED, unbalance=2e-4, gravity=(0.0, 0.0))
     runs = [
         cosimulate(rotor, damper, macro_step=4 * STEP, duration=100 * STEP, scheme=scheme)

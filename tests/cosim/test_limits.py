@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotorfilm import FullFilm, PartialResultError, Sprung
+from rotorfilm import FullFilm, PartialResultError, with_springs
 from rotorfilm.bearings.damper import PorousDamper
 from rotorfilm.cosim import (
     GaussSeidel,
@@ -127,7 +127,11 @@ def damper():
     damping = -np.asarray(film.jacobian(rotor.position, (0.0, 0.0), 300.0))[:, 2:4]
     stiffness = 1e-4 * np.linalg.eigvalsh(damping).max() ** 2 / rotor.mass
     held = replace(rotor, static_force=(stiffness * 6e-5, 0.0))
-    return held, Sprung(reaction=film, stiffness=stiffness), np.linalg.eigvalsh(damping).max() / rotor.mass
+    return (
+        held,
+        with_springs(film, stiffness),
+        np.linalg.eigvalsh(damping).max() / rotor.mass,
+    )
 
 
 # On a damper the schemes are linear recursions of the velocity v' = -c v, with limits in closed form:

@@ -19,10 +19,10 @@ from rotorfilm import (
     PorousDamper,
     RadialFeed,
     RigidRotor,
-    Sprung,
     cosimulate,
     export_fmu,
     simulate,
+    with_springs,
 )
 from rotorfilm.bearings import MapSqueeze
 from rotorfilm.fmu import check_fmu
@@ -32,7 +32,7 @@ CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 DAMPER = PorousDamper(
     radius=0.05, length=0.025, clearance=1e-4, viscosity=1.2e-3, cage=CAGE, film=MapSqueeze()
 )
-SUPPORT = Sprung(reaction=DAMPER, stiffness=2.56e5)
+SUPPORT = with_springs(DAMPER, 2.56e5)
 ROTOR = RigidRotor(
     mass=10.0, speed=400.0, unbalance=4e-4, gravity=(0.0, 0.0), position=(3e-5, 0.0), velocity=(0.0, 0.012)
 )
@@ -113,7 +113,7 @@ def test_springs_and_viscosity_are_tunable(version, opened):
     instance.initialize([reference[name] for name in MOTION], state.tolist())
     instance.step(0.0, 1e-3)
     instance.set([reference["stiffness"], reference["viscosity"]], [3e6, 2e-3])
-    expected = Sprung(reaction=replace(DAMPER, viscosity=2e-3), stiffness=3e6).force(state[:2], state[2:])
+    expected = with_springs(replace(DAMPER, viscosity=2e-3), 3e6).force(state[:2], state[2:])
     found = instance.get([reference[name] for name in FORCES])
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
@@ -218,31 +218,31 @@ def test_what_has_no_map_runs_in_python(tmp_path):
     journal = JournalBearing(**dimensions)
     for model in (PorousDamper(**dimensions), Twin(**dimensions, film=MapSqueeze())):
         assert model.native() is None
-        assert Sprung(reaction=model, stiffness=1.0).native() is None
+        assert with_springs(model, 1.0).native() is None
         with pytest.raises(FmuError, match="must have a kernel in the C library"):
             export_fmu(model, tmp_path / "d.fmu", backend="native")
     assert journal.native() is not None
-    assert Sprung(reaction=journal, stiffness=1.0).native() is None
+    assert with_springs(journal, 1.0).native() is None
     with pytest.raises(InputError, match="feed must be None"):
         replace(DAMPER, extent=FullFilm(), feed=RadialFeed(inflow=0.1))
 
 
 def test_springs_add_up():
-    both = Sprung(reaction=SUPPORT, stiffness=1e5).native()
+    both = with_springs(SUPPORT, 1e5).native()
     assert {p.name: p.value for p in both.parameters}["stiffness"] == pytest.approx(3.56e5)
 
 
-@pytest.mark.parametrize("model", [SUPPORT, Sprung(reaction=FINITE, stiffness=1e5)], ids=["short", "finite"])
+@pytest.mark.parametrize("model", [SUPPORT, with_springs(FINITE, 1e5)], ids=["short", "finite"])
 def test_data_of_a_python_fmu_hold_the_table(model, tmp_path, monkeypatch, kept):
     # Made anew, so that it keeps no film of a table that was made before: two tables differ by round-off.
-    model = replace(model, reaction=replace(model.reaction))
+    model = replace(model, reactions=(replace(model.reactions[0]), model.reactions[1]))
     data = encode(model)
     # Nothing to find, nothing to make.
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "absent"))
     again = decode(data, {name: name for name in class_modules(model)})
-    assert again.reaction.film.table is not None
+    assert again.reactions[0].film.table is not None
     state = motions(1)[0]
     np.testing.assert_array_equal(again.force(state[:2], state[2:]), model.force(state[:2], state[2:]))
     with pytest.raises(InputError, match="table must be that of the damper"):
-        replace(again.reaction, cage=replace(CAGE, permeability=5e-13))
+        replace(again.reactions[0], cage=replace(CAGE, permeability=5e-13))
     assert not (tmp_path / "absent").exists()

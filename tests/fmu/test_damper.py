@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, cosimulate, export_fmu, simulate
+from rotorfilm import PorousCage, PorousDamper, RigidRotor, cosimulate, export_fmu, simulate, with_springs
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 DAMPER = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=1.2e-3, cage=CAGE)
-SUPPORT = Sprung(reaction=DAMPER, stiffness=2.56e5)
+SUPPORT = with_springs(DAMPER, 2.56e5)
 ROTOR = RigidRotor(
     mass=10.0, speed=400.0, unbalance=4e-4, gravity=(0.0, 0.0), position=(3e-5, 0.0), velocity=(0.0, 0.012)
 )

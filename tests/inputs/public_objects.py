@@ -120,7 +120,7 @@ MADE = [
         viscosity=4e-4,
         cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13),
     ),
-    rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6, damping=1.0), stiffness=2e6),
+    rf.with_springs(rf.LinearBearing(stiffness=1e6, damping=1.0), 2e6),
     rf.bearings.Body(mass=2.0, inertia=0.01),
     rf.FrequencyDependentReaction(
         A=np.full((2, 1, 1), -300.0),
@@ -214,12 +214,11 @@ MADE = [
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
     rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT),
-    rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT, axial=True),
+    rf.MomentCarryingBalls(bearing=ANGULAR_CONTACT, freedoms=rf.bearings.rolling.BALL_FREEDOMS),
     rf.bearings.MomentCarryingJournal(
         bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
     ),
     rf.VariableComplianceBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
-    rf.FiveDegreeBalls(bearing=ANGULAR_CONTACT),
     rf.bearings.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),
     rf.bearings.Waviness(inner=True, lobes=9, radial_amplitude=1e-7, axial_amplitude=2e-8, phase=0.3),
     rf.BearingPair(

@@ -11,11 +11,11 @@ from rotorfilm import (
     FilmContactError,
     FullFilm,
     InputError,
+    Parallel,
     PorousCage,
     PorousDamper,
     RadialFeed,
     RigidRotor,
-    Sprung,
     UndefinedDerivativeError,
     closed_loop,
     equilibrium,
@@ -23,6 +23,7 @@ from rotorfilm import (
     simulate,
     small_motion_transmissibility,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.analysis import orbit_system, transmitted_ratio
 from rotorfilm.bearings.damper.squeeze_films import mean_permeability
@@ -31,8 +32,8 @@ MASS, SPEED, K = 10.0, 400.0, 2.56e5
 DIMENSIONS = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 4e-3}
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-12, grading=0.1, thin=True)
 FULL = PorousDamper(**DIMENSIONS, cage=CAGE, extent=FullFilm())
-SUPPORT = Sprung(reaction=FULL, stiffness=K)
-PI = replace(SUPPORT, reaction=PorousDamper(**DIMENSIONS, cage=CAGE))
+SUPPORT = with_springs(FULL, K)
+PI = with_springs(PorousDamper(**DIMENSIONS, cage=CAGE), K)
 ROTOR = RigidRotor(mass=MASS, speed=SPEED, unbalance=1e-3 * MASS * 1e-4, gravity=(0.0, 0.0))
 
 
@@ -40,7 +41,7 @@ ROTOR = RigidRotor(mass=MASS, speed=SPEED, unbalance=1e-3 * MASS * 1e-4, gravity
 @pytest.mark.parametrize("inflow", [0.0, 0.02])
 def test_small_motion_transmissibility_is_the_closed_form(inflow):
     feed = RadialFeed(inflow=inflow) if inflow else None
-    support = replace(SUPPORT, reaction=replace(FULL, feed=feed))
+    support = with_springs(replace(FULL, feed=feed), K)
     leak = 12.0 * 0.01 * mean_permeability(0.1)
     Bs = 4e-3 * 0.05 * 0.025**3 / (MASS * SPEED * 1e-12)
     cv = np.pi * Bs / (1.0 + leak)
@@ -131,11 +132,11 @@ def test_what_has_no_coefficients_is_refused():
 
 
 def test_film_that_couples_the_axes_is_refused():
-    class Coupled(Sprung):
+    class Coupled(Parallel):
         def prepared_jacobian(self, position, velocity, speed):
             jacobian = super().prepared_jacobian(position, velocity, speed)
             jacobian[0, 1] += 1e6
             return jacobian
 
     with pytest.raises(InputError, match="stiffness at the center must be isotropic without cross coupling"):
-        small_motion_transmissibility(ROTOR, Coupled(reaction=FULL, stiffness=K))
+        small_motion_transmissibility(ROTOR, Coupled(SUPPORT.reactions))

@@ -18,10 +18,10 @@ from rotorfilm import (
     ShortFilm,
     SpeedProfile,
     SplittingFilm,
-    Sprung,
     SqueezeFilmDamper,
     equilibrium,
     simulate,
+    with_springs,
 )
 from rotorfilm.bearings import MapSqueeze
 from rotorfilm.native.resource import carried_library
@@ -41,7 +41,7 @@ BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1
 WIDE = JournalBearing(radius=0.05, length=0.05, clearance=1.2e-4, viscosity=0.05)
 SHORT = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 DAMPER = SqueezeFilmDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.01, film=MapSqueeze())
-HEAVY = Sprung(reaction=replace(DAMPER, density=850.0), stiffness=1e6)
+HEAVY = with_springs(replace(DAMPER, density=850.0), 1e6)
 SEALED = replace(DAMPER, density=850.0, extent=FullFilm(), film=FiniteSqueeze(), seals=EndSeal(leakage=2e-10))
 """It adds 35 kg."""
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)

@@ -22,9 +22,9 @@ from rotorfilm import (
     PorousDamper,
     RadialFeed,
     ShortSqueeze,
-    Sprung,
     ValidityWarning,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.bearings import MapSqueeze
 from rotorfilm.cli.answer_printing import print_question
@@ -173,8 +173,9 @@ def test_a_lost_blade_is_answered_as_it_runs():
     with pytest.raises(InputError, match="blade_loss"):
         asked(replace(found, excitation=None), "peak_displacement", 0.1).ask()
     models = damper_models(finite)
-    film = replace(models.support.reaction, film=FiniteMapSqueeze())
-    run = simulate_peak(models, Sprung(reaction=film, stiffness=models.support.stiffness))
+    damper, springs = models.support.reactions
+    film = replace(damper, film=FiniteMapSqueeze())
+    run = simulate_peak(models, with_springs(film, springs.stiffness))
     assert answer.value == pytest.approx(run, rel=1.5 * answer.error_estimate + 1e-4)
 
 
@@ -206,7 +207,7 @@ def test_contact_is_no_number_but_a_statement():
     thin = scene(FULL, SCENE.replace("5 mPa s", "0.2 mPa s"))
     solid = asked(with_loss(thin, 1e-2), "peak_displacement", 0.5).ask()
     assert not solid.met
-    assert solid.message.startswith("no rung can be trusted; the closest may be nonlinear, 768 steps")
+    assert solid.message.startswith("no model can be trusted; the closest may be nonlinear, 768 steps")
     assert (
         "it may touch the wall" in solid.rungs[-1].reason or "leave the clearance" in solid.rungs[-1].reason
     )
@@ -276,7 +277,7 @@ def test_fed_full_film_has_the_film_of_finite_length_above_it():
 @pytest.mark.parametrize("film", [MapSqueeze(), ShortSqueeze()])
 def test_tangent_of_a_sprung_damper_is_its_force_and_jacobian(film):
     damper = PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=1e-3, film=film)
-    support = Sprung(reaction=damper, stiffness=3e5)
+    support = with_springs(damper, 3e5)
     state = np.array([3e-5, -2e-5]), np.array([1e-3, 4e-3])
     x, y, slopes = prepared_tangent(support)(*state[0], *state[1], 100.0)
     assert_allclose((x, y), support.force(*state, 100.0), rtol=1e-12)

@@ -88,7 +88,7 @@ def test_rung_known_to_be_worse_than_a_refused_one_is_skipped():
 def test_where_no_rung_meets_the_tolerance_the_closest_answers_and_says_so():
     answer = walk("wear", ladder(Made("a", 1e-2), Made("b", 1e-5), Made("c", 1e-4)), 1e-9)
     assert (answer.met, answer.model, answer.value) == (False, "b", 1.0 + 1e-5)
-    assert answer.message == "no rung meets the tolerance 1e-09; the closest is b, off by 1e-05"
+    assert answer.message == "no model meets the tolerance 1e-09; the closest is b, with an error of 1e-05"
     assert answer.next_model is None
 
 
@@ -139,7 +139,7 @@ def test_steps_are_not_refined_where_that_no_longer_helps():
         "skipped",
         "refused",
     ]
-    assert answer.rungs[3].reason == "finer steps do not help: b is off by 0.3, c by 0.3"
+    assert answer.rungs[3].reason == "finer steps do not help: b has an error of 0.3, c of 0.3"
     assert [rung.asked for rung in rungs] == [1, 1, 1, 0, 1]
 
 
@@ -188,7 +188,7 @@ def test_a_contradiction_by_a_rung_in_doubt_leaves_no_trust():
     rungs = ladder(Apart("cheap", 1.5, 0.03), Apart("rich", 1.0, 0.1, doubt="not linear"))
     answer = walk("wear", rungs, 1e-3)
     assert answer.model == "rich"
-    assert answer.message == "no rung can be trusted; the closest may be rich: not linear"
+    assert answer.message == "no model can be trusted; the closest may be rich: not linear"
 
 
 def test_angles_and_errors_of_schemes_are_compared_as_the_ladder_says():

@@ -109,7 +109,7 @@ def test_an_impossible_tolerance_is_answered_honestly():
     answer = asked("eccentricity_ratio", 1e-9).ask()
     assert not answer.met
     assert answer.next_model is None
-    assert answer.message.startswith("no rung meets the tolerance 1e-09; the closest is map")
+    assert answer.message.startswith("no model meets the tolerance 1e-09; the closest is map")
     assert 1e-9 < answer.error_estimate < 1e-5
     assert answer.value == pytest.approx(bundled_scene().describe().equilibrium.eccentricity_ratio)
     skipped = [report for report in answer.rungs if report.verdict == "skipped"]
@@ -282,7 +282,7 @@ def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path,
     path = ROOT / "examples" / "question.toml"
     code, shown = run(str(path), "--explain")
     assert code in (0, None)
-    for word in ("the ladder, the cheapest rung first", "short film", "refused", "chosen", "why not"):
+    for word in ("the ladder, the cheapest model first", "short film", "refused", "chosen", "why not"):
         assert word in shown.out
     strict = tmp_path / "strict.toml"
     text = (ROOT / "examples" / "friswell.toml").read_text(encoding="utf-8")
@@ -290,8 +290,8 @@ def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path,
     strict.write_text(f"{text}\n{question}", encoding="utf-8")
     code, shown = run(str(strict))
     assert code == 1
-    assert "no rung meets the tolerance 1e-09" in shown.err
-    assert "NOT met by any rung" in shown.out
+    assert "no model meets the tolerance 1e-09" in shown.err
+    assert "NOT met by any model" in shown.out
     code, shown = run(str(ROOT / "examples" / "friswell.toml"), "--explain")
     assert code == 2
     assert "--explain needs a scene with a [question]" in shown.err

@@ -330,7 +330,7 @@ def test_an_impossible_tolerance_is_answered_by_the_finest_model(quantity, model
     assert answer.model == model
     # of eighth of the file's elements, each of fourth order
     assert 1e-12 < answer.error_estimate < 1e-8
-    assert answer.message.startswith("no rung meets the tolerance 1e-13; the closest is ")
+    assert answer.message.startswith("no model meets the tolerance 1e-13; the closest is ")
 
 
 def test_coupling_stays_one_element_of_finer_meshes():

@@ -93,7 +93,7 @@ def test_orbit_has_the_conservation_of_oil_in_its_estimate_and_says_so():
     answer = scene_of(HOLE, quantity="unbalance_amplitude", tolerance=0.5, further=rotor).ask()
     assert answer.met
     assert "conservation of oil" in answer.rungs[0].method
-    assert any("no rung of this question follows the oil" in remark for remark in answer.remarks)
+    assert any("no model of this question follows the oil" in remark for remark in answer.remarks)
     assert not any("JFO" in rung.name for rung in answer.rungs)
     with pytest.raises(InputError, match=r"journal\.film must be a quasi-static film law .* for unbalance"):
         scene_of(HOLE + '\nfilm = { name = "jfo" }', quantity="unbalance_amplitude", further=rotor).ask()
@@ -121,7 +121,7 @@ def test_temperature_of_a_film_fed_by_a_hole_is_that_of_its_own_flow():
 def test_open_grooves_under_pressure_are_not_judged_and_unfed_bearings_are_told():
     open_ends = TOP.replace(", length = 0.04", "") + '\nsupply_pressure = "1 bar"'
     fed = ladder_of(scene_of(open_ends, quantity="eccentricity_ratio"))
-    assert any("conservation of oil: not judged, grooves with a supply" in one for one in fed.remarks)
+    assert any("conservation of oil: not checked, grooves with a supply" in one for one in fed.remarks)
     plain = ladder_of(scene_of("viscosity = 0.02", quantity="side_flow"))
     assert any(one.startswith("supply: the bearing has none") for one in plain.remarks)
 

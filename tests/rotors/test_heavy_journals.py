@@ -26,7 +26,7 @@ FULL = DAMPERS["full"]
 
 
 def sprung(damper):
-    return rf.Sprung(reaction=damper, stiffness=STIFFNESS)
+    return rf.with_springs(damper, STIFFNESS)
 
 
 def rotor(unbalance=1e-4, **more):

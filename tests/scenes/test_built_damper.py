@@ -17,9 +17,9 @@ from rotorfilm import (
     InputError,
     RigidRotor,
     SceneError,
-    Sprung,
     SqueezeFilmDamper,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings import JudgedDamper
@@ -121,11 +121,11 @@ def test_answer_is_the_orbit_of_the_library_and_estimates_tell_what_each_rung_le
         seals=EndSeal(leakage=4e-10),
     )
     rotor = RigidRotor(mass=0.9, speed=found.speed, unbalance=4e-6, gravity=(0.0, 0.0))
-    (orbit,) = synchronous_orbits(rotor, Sprung(reaction=film, stiffness=1e6)).at(4e-6)
+    (orbit,) = synchronous_orbits(rotor, with_springs(film, 1e6)).at(4e-6)
     rungs = ladder_of(found).rungs
     answers = {rung.name: rung.answer(None) for rung in rungs}
     assert_allclose(answers["finite film"].value, orbit.transmissibility, rtol=1e-9)
-    judge = Sprung(reaction=JudgedDamper(damper=film, frequency=found.speed), stiffness=1e6)
+    judge = with_springs(JudgedDamper(damper=film, frequency=found.speed), 1e6)
     (truth,) = synchronous_orbits(rotor, judge).at(4e-6)
     for rung in rungs:
         value = answers[rung.name].value

@@ -19,8 +19,8 @@ from rotorfilm import (
     RadialFeed,
     SceneError,
     ShortSqueeze,
-    Sprung,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.bearings import AxialFeed, MapSqueeze, PublishedSqueeze
 from rotorfilm.scenes import bundled_scene, parse_scene, run_damper
@@ -114,7 +114,7 @@ def test_film_of_finite_length_on_a_map(tmp_path, monkeypatch):
 
 
 def test_springs_of_a_scene():
-    assert scene(SPRINGS).damper.support() == Sprung(
+    assert scene(SPRINGS).damper.support() == with_springs(
         reaction=replace(PLAIN, film=MapSqueeze()), stiffness=2.56e5
     )
 

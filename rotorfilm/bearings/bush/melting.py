@@ -40,7 +40,7 @@ class ExactShaft:
 
 @dataclass(frozen=True)
 class ApproximateShaft:
-    """Q_1 as published, by the closed form (2.13): .6 to 2.9 % high for cooling .02 to .3."""
+    """Q_1 as published, by the closed form (2.13): 0.6 to 2.9 % high for cooling 0.02 to 0.3."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
         """Return Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""
@@ -312,7 +312,7 @@ class MeltingLaw(NamedTuple):
 
 
 FUNCTIONS = 16
-"""Chebyshev functions of the flux: Q_1 to 1e-8 for stubbiness .1 to 1."""
+"""Chebyshev functions of the flux: Q_1 to 1e-8 for stubbiness 0.1 to 1."""
 
 CUTOFF = 2000.0
 """Where the numerical part of the Galerkin integrals ends, in u/mu; the tail is added in closed form."""
@@ -364,7 +364,7 @@ def exact_flux(cooling: float, stubbiness: float) -> float:
 def approximate_flux(cooling: float, stubbiness: float) -> float:
     """Return the mean flux into the shaft by the closed form (2.12)-(2.13) of the source.
 
-    It is .6 to 2.9 % high for lambda = .02 to .3 and mu = .1 to 1, because (2.11) replaces the kernel.
+    It is 0.6 to 2.9 % high for lambda = 0.02 to 0.3 and mu = 0.1 to 1, because (2.11) replaces the kernel.
 
     Parameters
     ----------

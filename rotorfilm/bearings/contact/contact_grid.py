@@ -328,7 +328,7 @@ class StaggeredScheme:
     """Film thickness at the corners of the cells, as published: second order, blind to the checkerboard.
 
     After Panovko (2011), who deflects the surface by a midpoint rule; here the kernel is integrated exactly,
-    without which the film thickness lacks .65 cells times the pressure. An alternating pressure leaves no
+    without which the film thickness lacks 0.65 cells times the pressure. An alternating pressure leaves no
     trace in the film of the cells, so nothing damps it where the pressure gradient carries no flow.
 
     Parameters
@@ -476,9 +476,9 @@ CORE = 0.85
 def checkerboard(pressure: Array, grid: ContactGrid, load: float) -> float:
     """Return the alternating part of the pressure / its rms, by the median over the core of the contact.
 
-    The sixth difference along x, over 64, passes what alternates from cell to cell and suppresses what is
-    smooth with the sixth power of the spacing, so the answer tends to 0 on fine grids unless the scheme is
-    blind to the alternating mode. The median leaves out a pressure spike, which is steep on a few cells.
+    The sixth difference along x, divided by 64, keeps what alternates from cell to cell. It suppresses what
+    is smooth with the sixth power of the spacing. So it tends to 0 on fine grids unless the scheme is blind
+    to the alternating mode. The median leaves out a pressure spike, which is steep on a few cells.
 
     Parameters
     ----------

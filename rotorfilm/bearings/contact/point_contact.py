@@ -71,10 +71,10 @@ ALTERNATING = 0.025
 class PointContact:
     """Elastohydrodynamic contact of a ball rolling on a plane, in units of the Hertzian contact.
 
-    Lengths in the plane are in Hertzian radii a, pressures in the Hertzian maximum p_H, film thickness and
-    approach in a^2/(2 R), time in 2 a/(u1 + u2), u1 and u2 being the surface speeds in the frame of the
-    contact; loads in the Hertzian load 2 pi p_H a^2/3. `RollingBall` converts from SI. Equations, accuracy
-    and errata of the source: `docs/contact.md`.
+    Lengths in the plane are in Hertzian radii a, film thickness and approach in a^2/(2 R). Pressures are in
+    the Hertzian maximum p_H, and loads in the Hertzian load 2 pi p_H a^2/3. Time is in 2 a/(u1 + u2), where
+    u1 and u2 are the surface speeds in the frame of the contact. `RollingBall` converts from SI. Equations,
+    accuracy and errata of the source: `docs/contact.md`.
 
     A ball in a groove touches on an ellipse whose longer half-axis lies across the rolling. All units are
     then made of the half-axis along it and of the radius R of curvature along it, and the Hertzian load is
@@ -203,9 +203,9 @@ class PointContact:
         Parameters
         ----------
         start : ContactState or ContactRun
-            From `stationary`, `state` or an earlier run. A run that is not complete, with the other arguments
-            of the first time, goes on to its end, to the last bit as if it had not been interrupted;
-            snapshots from before are missing where it was read from a file, which does not hold them.
+            From `stationary`, `state` or an earlier run. A run that is not complete. With the same other
+            arguments it continues to its end, and the result is bit for bit that of an uninterrupted run. If
+            it was read from a file, earlier snapshots are missing, since the file does not hold them.
         duration : float [1]
             Of the run as a whole.
         W : float [1]
@@ -592,7 +592,7 @@ class ContactStiffness(Readable):
 def dynamic_stiffness(contact: PointContact, frequency: ArrayLike) -> ContactStiffness:
     """Return stiffness and damping of a contact under the unit load over the frequency.
 
-    One dense linear solution each: .05 s on 40 x 40 cells, a second on 64 x 64.
+    One dense linear solution each: 0.05 s on 40 x 40 cells, a second on 64 x 64.
 
     Parameters
     ----------

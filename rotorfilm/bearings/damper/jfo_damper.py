@@ -150,7 +150,7 @@ class JFODamper(MassConserving):
     remembers the last turn, and what fills it again is the supply. There is a force on a centered circular
     orbit, steady in axes that turn with it, or at rest; any other motion wants its past. That is what
     `simulate` steps through with the rotor, and `damper_turn` for a motion that repeats itself: the damper is
-    a Stepped model too. On 72 x 16 cells the force is .7 % above its limit.
+    a Stepped model too. On 72 x 16 cells the force is 0.7 % above its limit.
 
     Parameters
     ----------
@@ -411,7 +411,7 @@ def jfo_orbit(scaled: ScaledFilm, state: ConservedState, eccentricity_ratio: flo
 class ExtrapolatedDamper(StaticReaction):
     """Force and slopes on centered circular orbits, extrapolated from two grids, one half as fine.
 
-    From 72 x 16 cells within .02 % of the force (median), .4 % (90 of 100), to eccentricity ratio .93.
+    From 72 x 16 cells within 0.02 % of the force (median), 0.4 % (90 of 100), to eccentricity ratio 0.93.
 
     Parameters
     ----------
@@ -457,7 +457,7 @@ class ExtrapolatedDamper(StaticReaction):
 
 
 FEWEST_STEPS = 24
-"""Of a turn: with 96 the force of a damper is within .5 %, with 192 within .2 %."""
+"""Of a turn: with 96 the force of a damper is within 0.5 %, with 192 within 0.2 %."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -530,7 +530,7 @@ def damper_turn(
     ----------
     damper : JFODamper
     position : array_like, shape (2, n) [m]
-        Of the rotor at n equal times of a turn, at least 24; 192 are good for .2 % of the force.
+        Of the rotor at n equal times of a turn, at least 24; 192 are good for 0.2 % of the force.
     speed : float [rad/s]
         Turns of the motion in 2 pi seconds, positive: with the rotor's unbalance, its speed.
     most_turns : int

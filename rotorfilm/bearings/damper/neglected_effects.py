@@ -141,10 +141,10 @@ class JudgedDamper(SharedReaction):
 
 
 SECOND = (-3.74e-4, 4.7e-3, 1.3e-3)
-"""Coefficients of g by powers of eps^2: within 1e-4 to eps = .9 and Re 10."""
+"""Coefficients of g by powers of eps^2: within 1e-4 to eps = 0.9 and Re 10."""
 
 NODES = 1440
-"""Around a film that is cut off: within 1e-3 of its force to eps = .9."""
+"""Around a film that is cut off: within 1e-3 of its force to eps = 0.9."""
 
 
 def neglected_force(

@@ -233,10 +233,11 @@ def circle_integrals(E: Array, leak: Array) -> tuple[Array, ...]:
     Notes
     -----
     h^3 + c = (h - h_1)(h - h_2)(h - h_3), and 1 - h_k + eps cos(theta) = (1 + x_k zeta)(1 + x_k/zeta)/(2 p_k)
-    on zeta = exp(i theta), with x_k = eps p_k, p_k = 1/(a_k + S_k), a_k = 1 - h_k, S_k^2 = a_k^2 - E. So
-    1/(h^3 + c) is the spectrum of an autoregressive process of third order with coefficients x_k, and its
-    harmonics are the autocovariances, rational in p_k: no partial fractions, which cancel as c -> 0, and no
-    1/eps.
+    on zeta = exp(i theta), with x_k = eps p_k, p_k = 1/(a_k + S_k), a_k = 1 - h_k, S_k^2 = a_k^2 - E.
+
+    So 1/(h^3 + c) is the spectrum of an autoregressive process of third order with coefficients x_k. Its
+    harmonics are the autocovariances, rational in p_k. There are no partial fractions, which lose digits as
+    c -> 0, and no 1/eps.
     """
     kappa = np.cbrt(leak).reshape(-1, *(1,) * E.ndim)
     p1, S1 = _pole(E, kappa)
@@ -462,9 +463,9 @@ class ClippedSqueezeFilm:
 
         p = ends(Z) + sum over the groups of shape(Z) (w.u + feed/weight)/(h^3 + leak),
 
-    and F = -(3/2) times the integral of max(p, 0) u over theta and Z. Gauss-Legendre nodes along the axis;
-    around it, cells cut where the pressure vanishes (the force is within 1e-3), so the derivative of the
-    force is the integral of the derivative.
+    and F = -(3/2) times the integral of max(p, 0) u over theta and Z. Along the axis there are Gauss-Legendre
+    nodes. Around it cells are cut where the pressure vanishes (the force is within 1e-3), so the derivative
+    of the force is the integral of the derivative.
 
     Parameters
     ----------

@@ -170,7 +170,7 @@ class SegmentedDamper:
 
 
 def slow_frequency(height: float, viscosity: float, density: float) -> float:
-    """Return a frequency [rad/s] so low that the mass, the slope of the force, errs by its square, 1e-8.
+    """Return a frequency [rad/s] at which the mass, the slope of the force, has an error of 1e-8.
 
     Parameters
     ----------
@@ -254,7 +254,7 @@ def require_inertia_range(reynolds: float, *, cavitated: bool) -> None:
     if reynolds > well:
         warn_user(
             f"squeeze Reynolds number must not exceed {well:g} for the inertia of a {kind} film, got "
-            f"{reynolds:.4g}: at {far:g} the force on an orbit is off by {error}"
+            f"{reynolds:.4g}: at {far:g} the force on an orbit has an error of {error}"
         )
 
 

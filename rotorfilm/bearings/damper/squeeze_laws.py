@@ -222,9 +222,9 @@ NODES = np.polynomial.legendre.leggauss(40)
 class ZoneInertia:
     """Pressure of the inertia on the half circle towards which the rotor moves, as if the zone stayed so.
 
-    In truth the pressure of the inertia moves the edge of the film. On a circular orbit the rule errs by 0,
-    0.5, 2.6, 8 % of the force at eccentricity ratio 0.2 and by 0, 0.7, 4.6, 18 % at 0.5, for squeeze Reynolds
-    numbers of 0.5, 2, 5, 10.
+    In truth the pressure of the inertia moves the edge of the film. On a circular orbit the rule has an error
+    of 0, 0.5, 2.6 and 8 % of the force at eccentricity ratio 0.2, and of 0, 0.7, 4.6 and 18 % at 0.5, for
+    squeeze Reynolds numbers of 0.5, 2, 5 and 10.
 
     Parameters
     ----------
@@ -668,7 +668,7 @@ class EndSeal:
 
     Damping and added mass of a sealed damper are set by its seals, not by its film, and no seal is known to
     better than some tenths: its uncertainty belongs to every answer. An O-ring is tight (leakage 0), with a
-    stiffness of its own that `Sprung` adds.
+    stiffness of its own that `with_springs` adds.
 
     Parameters
     ----------

@@ -358,7 +358,7 @@ STARTS = (0.3, 0.0, 0.8)
 """How far beyond the half circle the search for both ends starts, in L/D [rad]."""
 
 RESIDUAL = 1e-4
-"""Slope of the pressure that an end may keep; the potential errs by its third power."""
+"""Slope of the pressure that an end may keep; the error of the potential is its third power."""
 
 FARTHEST = 1.5
 """How far an end of the film may lie from where the squeeze vanishes [rad]."""

@@ -97,9 +97,9 @@ class Grid(NamedTuple):
     film : ndarray, shape (N,)
         Share of half the length that is film between a line and the next one.
     place, wall : ndarray, shape (2 M + 3,), or None
-        Of cells over the whole length, widths and conductances then being those of all of it: the axial
-        coordinates, from -1 to 1, of the end, of faces and nodes in turn, and of the end, and the gap of the
-        centered journal there, in clearances.
+        For cells over the whole length: the axial coordinates from -1 to 1 of one end, of faces and nodes in
+        turn, and of the other end. With them is the gap of the centered journal there, in clearances. Widths
+        and conductances are then those of the whole length.
     """
 
     span: np.ndarray
@@ -541,7 +541,7 @@ class RingKernel(FilmKernel):
 
 
 def richardson(fine: Array, coarse: Array, order: int = ORDER) -> Array:
-    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
+    """Return the extrapolation of a value of the given order, from a grid and one with half its cells."""
     return fine + (fine - coarse) / (2.0**order - 1.0)
 
 

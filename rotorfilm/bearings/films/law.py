@@ -202,8 +202,8 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
     """Return d force / d (eccentricity, source), shape (2, 4, B), of a polar law.
 
     With F = Q f(chi, phi, Q^T w), Q = (e_t, e_r) and J the quarter turn, F_w = Q f_g Q^T and
-    F_e = Q f_chi e_r^T + (J F - F_w J w + Q f_phi) e_t^T / chi, where f_g = -A - A_turn g (dt/dg)^T and
-    f_phi = -A_attitude g, which only a film has that is held in the bearing.
+    F_e = Q f_chi e_r^T + (J F - F_w J w + Q f_phi) e_t^T / chi, where f_g = -A - A_turn g (dt/dg)^T. Only a
+    film that is held in the bearing has f_phi = -A_attitude g.
     """
     g, Q = frame.source, frame.axes
     squared = np.einsum("bi,bi->b", g, g)
@@ -609,7 +609,7 @@ class FilmLosses(NamedTuple):
     shear_streamers : ndarray, shape (...) [1]
         Sigma of the streamers in the ruptured zone.
     shear_gap : ndarray, shape (...) [1]
-        Sigma of a gap that is full all round, but for the openings.
+        Sigma of a gap that is full all around, except in the openings.
     side_flow : ndarray, shape (...) [1/s]
         Flow out of both ends of the film / (clearance radius length), without that straight out of openings.
     inflow : ndarray, shape (openings, ...) [1/s]
@@ -649,7 +649,7 @@ def kernel_losses(
 
 
 def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
-    """Return Sigma of a gap that is full all round but for the openings, at eccentricities (2, ...)."""
+    """Return Sigma of a gap that is full all around, except in the openings, at eccentricities (2, ...)."""
     chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
     parts = [
         span.film * (gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away))

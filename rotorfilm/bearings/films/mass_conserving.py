@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from ctypes import byref
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -681,7 +683,20 @@ class ConservedFilm:
         return np.where(film, own + behind + before, 0.0) * cells.width
 
 
-@lru_cache(maxsize=64)
+def once_for_each(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Return a function of one object that is called once for each, and forgets those that are gone."""
+    known: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
+
+    def made(of: Any) -> Any:
+        found = known.get(of)
+        if found is None:
+            found = known[of] = make(of)
+        return found
+
+    return made
+
+
+@once_for_each
 def shape_of(film: ConservedFilm) -> Any:
     """Return a film as C reads it, made once."""
     cells, supply = film.cells, film.supply

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from ctypes import byref, c_int64
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from numbers import Number
 from typing import Any, NamedTuple
 
@@ -39,6 +39,7 @@ from .mass_conserving import (
     in_c,
     oil_outflow,
     oil_response,
+    once_for_each,
     report_search,
     require_conserved_cells,
     shape_of,
@@ -343,7 +344,7 @@ class ConservedFilmState(NamedTuple):
         return dict(zip(ROWS, self.numbers[HEAD:].reshape(len(ROWS), *self.cells), strict=True))
 
 
-@lru_cache(maxsize=64)
+@once_for_each
 def _film_in_c(scaled: ScaledFilm) -> Any:
     """Return a film in SI units as the compiled library steps it."""
     if scaled.film.fluidity is not None:
@@ -435,7 +436,7 @@ class MassConserving(ConservedAtRest):
 
     A film is a Stepped model: the input u is the motion of the journal at the end of a step. On the way there
     it goes along the cubic with the positions and velocities of both ends, in inner steps of a turn/192 and
-    .02 clearances at most, halved where the film is not found. Outputs belong to the end of the last step,
+    0.02 clearances at most, halved where the film is not found. Outputs belong to the end of the last step,
     mean flows to the whole of it. They have the differences of the inner steps, so that in steps of any
     length, to round-off,
 

@@ -91,10 +91,10 @@ class JournalBearing(FilmReaction, WarmBearing):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
-        temperature nor cooling, the clearance is not below the radius, openings overlap or are longer than
-        the bearing, there is a supply without an opening, or the film cannot represent length/diameter, pads
-        or openings.
+        If a dimension is not finite and positive, or the clearance is not below the radius. If there is not
+        exactly one of viscosity and oil, or an oil has neither temperature nor cooling. If openings overlap
+        or are longer than the bearing, or there is a supply without an opening. If the film cannot represent
+        length/diameter, pads or openings.
 
     Warns
     -----
@@ -513,10 +513,11 @@ def bearing_losses(
 
     Notes
     -----
-    With E = position, F the force on the journal and M = viscosity speed (R^3 L/c) Sigma the torque on the
-    journal is M + (E x F)_z/2 and that on the bush M - (E x F)_z/2: the difference balances the moment of the
-    force. The pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply pressure
-    pushes through the film, so that the power is speed M - F . W + supply_pressure (inflow - arriving).
+    Let E be the position, F the force on the journal, and M = viscosity speed (R^3 L/c) Sigma. The torque on
+    the journal is M + (E x F)_z/2, and that on the bush M - (E x F)_z/2. The difference balances the moment
+    of the force. The pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply
+    pressure pushes through the film, so that the power is speed M - F . W + supply_pressure (inflow -
+    arriving).
     """
     require_inside(position, bearing.clearance)
     e, w = bearing.kinematics(position, velocity, speed)

@@ -74,9 +74,9 @@ def fed_film(
 ) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
     """Return the film whose openings feed it, its solution for a journal at rest [m], and its flow.
 
-    In a bearing with openings a film starts at an opening or where the streamers fill the gap again, not from
-    nothing: a node at its start that would take more than they bring is left empty, as often as that helps.
-    A film whose empty nodes are `settled` is taken as it is.
+    In a bearing with openings a film starts at an opening, or where the streamers fill the gap again. A node
+    at its start that would take more oil than they bring is left empty, as often as this helps. A film whose
+    empty nodes are `settled` is taken as it is.
     """
     cells = film.cells
     while True:

@@ -79,9 +79,10 @@ class GrooveMapTable(BoundedTable):
     flows : ndarray, shape (2, 2, openings, cells_x + 5, cells_e)
         Those of the flows out of the openings, and into them.
     bounds : ndarray, shape (bands, 5)
-        Largest errors with the journal at rest, found when the map was made (`groove_bounds`): up to which
-        eccentricity ratio, of the force relative to it, of K and C relative to their largest entry, of the
-        shear and of the flow of fresh oil relative to them. None of them where nothing is known.
+        Largest errors with the journal in equilibrium, found when the map was made (`groove_bounds`). A row
+        has the eccentricity ratio up to which it holds, and the relative errors of the force, of K and C
+        (relative to their largest entry), of the shear, and of the flow of fresh oil. None of them where
+        nothing is known.
 
     Raises
     ------

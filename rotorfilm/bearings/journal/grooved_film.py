@@ -42,7 +42,7 @@ class GroovedMapFilm(KernelFilm):
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
     in a plain bearing: by name it is needed for its parameters only.
 
-    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made
+    A map belongs to one L/D, 0.05 to 20, and one set of openings, wherever they are turned to. It is made
     from some 10^4 solutions of the two-dimensional film on first use, which takes some seconds on all cores,
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.

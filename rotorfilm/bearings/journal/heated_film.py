@@ -219,9 +219,9 @@ class HeatRounds:
     ) -> State:
         """Return what a round has found, in SI units.
 
-        `done` is the journal's position and speed, the state before, the temperature of the viscosity and the
-        film; `pumped` the supply's power [W]; what the film says without its heat, and of a state of another
-        kind its own fields, are given by name.
+        `done` is the journal's position and speed, the state before, the temperature of the viscosity, and
+        the film. `pumped` is the supply's power [W]. Results of the film without its heat, and the fields of
+        another kind of state, are given by name.
         """
         position, speed, before, temperature, film = done
         T_s, power = self.supply_temperature, warm.heat.made - pumped

@@ -95,8 +95,8 @@ class JFOFilm(MassConserving):
     from position and speed for a journal at rest, or in slow motion, only; in a vibration stiffness and
     damping depend on its frequency. `equilibrium` and `coefficients` take it as they take any bearing.
 
-    Lines stay in the bearing, uniform between the edges of openings. 144 x 10 cells are within .7 % of the
-    force to eccentricity ratio .9, in about one ms.
+    Lines stay in the bearing, uniform between the edges of openings. 144 x 10 cells are within 0.7 % of the
+    force to eccentricity ratio 0.9, in about one ms.
 
     Parameters
     ----------

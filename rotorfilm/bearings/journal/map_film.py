@@ -36,16 +36,16 @@ class MapFilm(KernelFilm):
     -dF/dw is symmetric, and the force is smooth through the center. Evaluated in C with exact derivatives
     (`native/films/map_kernel.h`).
 
-    Error of a force with the packaged table, 99 % of random states to eccentricity ratio .999: 2e-4; 2e-3 for
-    static journals at .999. Beyond the last node, .999, J goes on as the film at the wall
-    (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for
-    static journals to .99999. The table of a film that has another limit goes on as a power of X, with an
-    unknown error.
+    The packaged table has a force error of 2e-4 (99 % of random states up to eccentricity ratio 0.999), and
+    of 2e-3 for static journals at 0.999. Beyond the last node, 0.999, J goes on as the film at the wall
+    (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, 0.2 % for static
+    journals to 0.99999. The table of a film that has another limit goes on as a power of X, with an unknown
+    error.
 
     Parameters
     ----------
     table : MapTable, optional
-        The potential of a plain bearing; by default the table of the package. It holds length/diameter .1
+        The potential of a plain bearing; by default the table of the package. It holds length/diameter 0.1
         to 4; a bearing outside gets a table of its own at its first force, in about half a minute, kept
         in memory (`bearing_table`, which is also the way to save one). A bearing with openings gets a
         `GroovedMapFilm`, which takes up to a minute at the first force and is kept on disk.
@@ -180,13 +180,13 @@ def bearing_table(slenderness: float) -> MapTable:
     Parameters
     ----------
     slenderness : float [1]
-        Length / diameter, .001 to 20.
+        Length / diameter, 0.001 to 20.
 
     Returns
     -------
     MapTable
-        Largest error of a force in nine directions, length/diameter .05 and 8: 3e-4 at eccentricity ratio
-        .95, 7e-4 at .985, 3e-3 at .995 and .999.
+        Largest error of a force in nine directions, length/diameter 0.05 and 8: 3e-4 at eccentricity ratio
+        0.95, 7e-4 at 0.985, 3e-3 at 0.995 and 0.999.
 
     Raises
     ------

@@ -81,7 +81,7 @@ class TiltedJournal:
 class MomentCarryingJournal(TiltedJournal, StaticReaction):
     """A journal bearing that feels the tilt of its shaft: a Reaction to x, y, tilt_x and tilt_y.
 
-    The film is the two-dimensional one of the bearing, solved over the whole length: with e = (x, y)/c and
+    The film is the two-dimensional one of the bearing, solved over the whole length. With e = (x, y)/c and
     tau = (tilt_y, -tilt_x) length/(2 c), the gap is H = 1 - (e + Z tau).n at Z = 2 z/length from -1 to 1, and
 
         moment_x = -integral of z f_y dz,    moment_y = integral of z f_x dz

@@ -49,11 +49,11 @@ class ReynoldsFilm(KernelFilm):
     zone and the lines at their place: exact in the source, and of second order, as the force, in the
     eccentricity. The damping matrix is symmetric and positive semidefinite.
 
-    The lines of the grid crowd at the minimum film and follow it, so moving the journal, or turning the
-    bearing by other than a multiple of the spacing, changes the error of the force: its differences over less
-    than a spacing are no derivative where the journal leaves a wall that it nearly touches. 96 x 8 cells are
-    within 1 % of the force for L/D from 0.1 to 4 at eccentricity ratios to 0.9, and of about twice that to
-    0.99, in some 0.5 ms.
+    The lines of the grid are dense at the minimum film and follow it. So the error of the force changes if
+    the journal moves, or if the bearing is turned by other than a multiple of the spacing. Where the journal
+    leaves a wall that it nearly touches, differences over less than a spacing are no derivative. 96 x 8 cells
+    are within 1 % of the force for L/D from 0.1 to 4 at eccentricity ratios to 0.9, and of about twice that
+    to 0.99, in some 0.5 ms.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ class ReynoldsFilm(KernelFilm):
     def extrapolated(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
         """Return the Richardson extrapolation of the force, (2, ...), and the error estimate, (...).
 
-        The estimate for `force` is |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3; the latter is
+        The estimate for `force` is |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3. The latter is
         about ten times closer than `force`, but the edge of the ruptured zone jumps from node to node and
         keeps it from converging faster than at second order.
         """
@@ -156,9 +156,9 @@ class ReynoldsFilm(KernelFilm):
         Openings that touch are one; a circumferential groove is the last one.
 
         Beside openings that end within the bearing the film begins where Reynolds' equation says, and the
-        side flow is more than that of `JFOFilm`, which conserves the oil: by 10 to 36 % with grooves of 80 %
-        of the length, by 64 % with a hole (`benchmarks/conserved.py`). The inflow of such openings is of
-        first order, because of their corners.
+        side flow is more than that of `JFOFilm`, which conserves the oil. The difference is 10 to 36 % with
+        grooves of 80 % of the length, and 64 % with a hole (`benchmarks/conserved.py`). The inflow of such
+        openings is of first order, because of their corners.
 
         Raises
         ------
@@ -282,8 +282,8 @@ class ShortFilm(KernelFilm):
     adds nothing to the derivative and the damping matrix is symmetric. In closed form, with exact
     derivatives, in C (`native/films/short_kernel.h`).
 
-    Against the converged film on the same arc, at random states of large motion, the force is off by 6 %
-    (median) and 28 % (90th percentile) at length / diameter 0.25, and by 23 % and 97 % at 0.5. A bearing
+    Against the converged film on the same arc, at random states of large motion, the force has an error of
+    6 % (median) and 28 % (90th percentile) at length / diameter 0.25, and of 23 % and 97 % at 0.5. A bearing
     beyond `slenderness_limit` warns.
     """
 

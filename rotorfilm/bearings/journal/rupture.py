@@ -444,7 +444,7 @@ def _slope(
     value, total = _dot(b, S_end), np.sum(root**2, axis=1)
 
     def boundary(gamma: Array, X: Array, S: Array) -> Array:
-        """Return dR when an end moves outward, but for the motion of the point where R is taken."""
+        """Return dR when an end moves outward, without the motion of the point where R is taken."""
         pull = _dot(c, X) * (np.cos(gamma - turn) - _dot(b, X)) - k2 * _dot(c, S) * _dot(b, S)
         return (1.0 + chi * np.cos(gamma)) ** -3.0 * (pull - _dot(b, S) / total)
 

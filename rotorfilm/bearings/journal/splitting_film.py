@@ -372,9 +372,11 @@ def spectral_response(
 ) -> PolarResponse:
     """Return A and its derivatives, each of shape (1, 2, 2), from the eigenpairs of one arc.
 
-    The chi-derivative changes the weight H^3 by 3 cos gamma / H. Ends that move take the trial functions with
-    them, at a rate v linear in gamma: then H^3 v d(log H^3)/dgamma -+ H^3 v' is the change of the weights of
-    f'^2 and f^2, and (sin, cos) changes by its derivative of v (sin, cos).
+    The chi-derivative changes the weight H^3 by 3 cos gamma / H.
+
+    Ends that move take the trial functions with them, at a rate v that is linear in gamma. Then the weights
+    of f'^2 and f^2 change by H^3 v d(log H^3)/dgamma -+ H^3 v', and (sin, cos) by the derivative of
+    v (sin, cos).
     """
     dgamma = nodes.weight[0] * nodes.film[0] ** 3
     f, slope = trial_functions(degree, nodes.gamma.shape[1])

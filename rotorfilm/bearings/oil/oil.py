@@ -282,7 +282,7 @@ class Oil:
     law : ViscosityLaw
         Dynamic viscosity over temperature.
     reference_density : float [kg/m3]
-        Density at 15 degrees Celsius; it falls by .064 % of that per kelvin.
+        Density at 15 degrees Celsius; it falls by 0.064 % of that per kelvin.
     fixed_heat_capacity : float [J/(kg K)], optional
         Heat capacity, the same at all temperatures; by default that of a mineral oil of this density,
         (1683 + 3.39 T)/sqrt(reference_density/999), T in degrees Celsius.

@@ -117,9 +117,10 @@ def lobe_set(
     Parameters
     ----------
     name : str
-        `elliptical` (arcs 10-170 and 190-350 deg), `three_lobe` (middles at 90, 210, 330 deg, 100 deg each),
-        `four_lobe` (0, 90, 180, 270 deg, 75 deg each), `offset_halves` (as elliptical, the least film at the
-        trailing ends), or `tapered_land` (as three_lobe, narrowing all along each pad).
+        `elliptical` has the arcs 10 to 170 and 190 to 350 deg. `three_lobe` has middles at 90, 210 and
+        330 deg, 100 deg each, and `four_lobe` at 0, 90, 180 and 270 deg, 75 deg each. `offset_halves` is as
+        elliptical, with the least film at the trailing ends. `tapered_land` is as three_lobe, where the film
+        narrows over the whole pad.
     preload : float [1]
         Of each lobe.
     extent : float [rad], optional

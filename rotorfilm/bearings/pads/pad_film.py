@@ -52,9 +52,9 @@ class PadFilm(Protocol):
 class PadMapFilm:
     """The film of a pad by its map: that of a fine grid, five hundred times as fast as `PadGridFilm()`.
 
-    Its force is within 1e-3 of that of the grid in 9 of 10 states and within 5e-3 in 99 of 100, of itself, or
-    of 5 % of the largest force at that place where the source of the film drives less. Errors are largest
-    where the journal nearly touches; `PadMapTable.bound` tells them.
+    Its force is within 1e-3 of that of the grid in 9 of 10 states, and within 5e-3 in 99 of 100. These errors
+    are relative to the force, or to 5 % of the largest force at that position where the force is smaller.
+    Errors are largest where the journal nearly touches; `PadMapTable.bound` tells them.
 
     The force is the gradient of a tabulated potential (`native/films/map_kernel.h`), so that the damping
     matrix is symmetric and the derivatives are exact. All pads of one extent and length/diameter share a map,
@@ -83,9 +83,9 @@ class PadMapFilm:
         Parameters
         ----------
         extent : float [rad]
-            Angle that the pad covers, .1 to 3.1.
+            Angle that the pad covers, 0.1 to 3.1.
         slenderness : float [1]
-            Length / diameter, .05 to 20.
+            Length / diameter, 0.05 to 20.
         report : callable, optional
             Called with the fraction done, 0 to 1, and a text while a map is being made.
 
@@ -257,9 +257,9 @@ def pad_table(
     Parameters
     ----------
     extent : float [rad]
-        Angle that the pad covers, .1 to 3.1; rounded to nine digits.
+        Angle that the pad covers, 0.1 to 3.1; rounded to nine digits.
     slenderness : float [1]
-        Length / diameter, .05 to 20; rounded to nine digits.
+        Length / diameter, 0.05 to 20; rounded to nine digits.
     resolution : PadResolution, optional
         A coarser one is made sooner.
     report : callable, optional

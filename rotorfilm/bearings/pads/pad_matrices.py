@@ -22,7 +22,7 @@ class PadMatrices(Readable):
     """Stiffness, damping and mass of journal and pads together at rest: M p'' + C p' + K p = 0.
 
     The coordinates p are x, y of the journal, the tilts q_1 .. q_N of the pads as lengths, and on springs the
-    places s_1 .. s_N of their pivots, negative outward. A pad without film has rows of zeros, but for its
+    places s_1 .. s_N of their pivots, negative outward. A pad without film has rows of zeros, except for its
     spring.
 
     Attributes

@@ -53,9 +53,10 @@ class PadMapTable(BoundedTable):
     losses : ndarray, shape (3, cells over X + 5, cells over theta)
         Spline coefficients of shear and flow at rest (`grid_losses`).
     bounds : ndarray, shape (bands, 5)
-        Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
-        the force, and of K and C, relative to what is said there, of the shear at rest, and of flows at rest
-        relative to what enters a concentric pad.
+        Largest errors, found when the map was made (`pad_bounds`). A row has the least film / clearance from
+        which it holds, and the errors of the force, of K and C, of the shear in equilibrium, and of flows in
+        equilibrium. `pad_bounds` tells what they are relative to; flows are relative to the inflow of a
+        concentric pad.
 
     Raises
     ------

@@ -185,9 +185,9 @@ class PressureDamBearing(PadBearing, KernelReaction):
 
     Notes
     -----
-    With d the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, D the depth of
-    the recess over c_p, H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p - (speed/2) z^ x e and
-    z from the middle, 0, to the end, 1, of the bearing,
+    Let d be the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, and D the
+    depth of the recess divided by c_p. With H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p -
+    (speed/2) z^ x e and z from the middle, 0, to the end, 1, of the bearing,
 
         (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
 

@@ -15,10 +15,6 @@ if TYPE_CHECKING:
         face_to_face as face_to_face,
         tandem as tandem,
     )
-    from .ball_cage import (
-        FiveDegreeBalls as FiveDegreeBalls,
-        VariableComplianceBalls as VariableComplianceBalls,
-    )
     from .ball_element import (
         FRICTION_LIMITS,
         MOST_PRESSURE,
@@ -39,7 +35,11 @@ if TYPE_CHECKING:
         lubricated_balls as lubricated_balls,
         race_films as race_films,
     )
-    from .moment_carrying_balls import MomentCarryingBalls as MomentCarryingBalls
+    from .moment_carrying_balls import (
+        BALL_FREEDOMS as BALL_FREEDOMS,
+        MomentCarryingBalls as MomentCarryingBalls,
+        VariableComplianceBalls as VariableComplianceBalls,
+    )
     from .palmgren_balls import (
         PalmgrenBalls as PalmgrenBalls,
         load_integrals as load_integrals,

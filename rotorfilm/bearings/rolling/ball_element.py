@@ -658,12 +658,12 @@ class StaticBalls:
 class RunningBalls:
     """Balls with centrifugal force and gyroscopic moment, held by friction at both races.
 
-    A ball rolls along its orbit without slip. Its spin about the contact normals and its slip across the way
-    that it rolls follow from the balance of its gyroscopic moment with the friction of both contacts, each of
-    which has the potential mu Q sqrt(v0^2 + slip^2 + (3/8 a E spin)^2): the limit surface of an ellipse
-    (Goyal, Ruina and Papadopoulos, Wear 143, 1991) with v0 = slide_to_roll_ratio * orbit radius * speed/2
-    (the rolling speed of both races). The balance is smooth. With a small ratio it tends to race control
-    by the contact that resists spin more; where friction cannot hold the moment the ball slides.
+    A ball rolls along its orbit without slip. Its spin about the contact normals and its slip across the
+    rolling direction follow from the balance of its gyroscopic moment with the friction of both contacts.
+    Each contact has the potential mu Q sqrt(v0^2 + slip^2 + (3/8 a E spin)^2). This is the limit surface of
+    an ellipse (Goyal, Ruina and Papadopoulos, Wear 143, 1991) with v0 = slide_to_roll_ratio * orbit radius *
+    speed/2 (the rolling speed of both races). The balance is smooth. With a small ratio it tends to race
+    control by the contact that resists spin more; where friction cannot hold the moment the ball slides.
 
     Parameters
     ----------

@@ -145,8 +145,9 @@ class RaceFilm:
     def slow_damping(self) -> float:
         """Damping of slow motions c0 [N s/m], by a formula fitted to solutions of the film.
 
-        c0 = .0619 k_H t0 (V/.1)^(.537 - .0244 ln(V/.1)) (Q0/15)^.342: 6 % for the ellipticity 4 and Roelands'
-        law, V from .005 to 5 and Q0 from 6 to 40; the ellipticities 2 to 8 are off by 5 % more.
+        c0 = 0.0619 k_H t0 (V/0.1)^(0.537 - 0.0244 ln(V/0.1)) (Q0/15)^0.342, with an error of 6 % for the
+        ellipticity 4 and the law of Roelands, V from 0.005 to 5 and Q0 from 6 to 40. For ellipticities 2 to 8
+        the error is 5 % larger.
 
         Warns
         -----
@@ -385,7 +386,7 @@ class LubricatedBalls:
     A, B, C, D : ndarray
         State space of one ball: what its films add to the force [N] over the approach of its grooves [m].
     shares : ndarray, shape (balls,) [1]
-        By which balls multiply that: 1 but for what centrifugal force changes in the stiffness of contacts.
+        Factor of each ball on it: 1, except for the change of the contact stiffness by centrifugal force.
     damping_error : float [1]
         Largest error of its damping, over the largest damping.
 

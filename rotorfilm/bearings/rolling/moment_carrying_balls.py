@@ -1,7 +1,8 @@
-"""A ball bearing under a flexible shaft: force and moment over displacement and tilt, and over z."""
+"""A ball bearing as a reaction of any freedoms, with its cage at rest or turning."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,16 +10,21 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import ConvergenceError, InputError, require_kind, require_number
+from ...core.errors import ConvergenceError, InputError, require_finite, require_number
 from ...core.inputs import quantities
-from ...core.model import Array
+from ...core.model import Array, Linearization
 from ...core.port import require_place
-from ...native import Status
+from ...core.signals import PLANAR, Signal, checked_freedoms, signals_of
+from ...native import NativeSpec, Status
 from ...native.ball_kernel import DEGREES, ROW, BallsAt
-from ..reaction import StaticReaction
+from ..reaction import StaticReaction, input_vector, state_of
 from .ball_element import BallElement, require_balls
 
-_ALL = ("x", "y", "z", "tilt_x", "tilt_y")
+BALL_FREEDOMS = ("x", "y", "z", "tilt_x", "tilt_y")
+"""All that a ball bearing may react to."""
+
+CAGE, SHAFT = DEGREES + 1, DEGREES + 2
+"""Columns of the angles of cage and shaft among the slopes of a wrench."""
 
 
 @quantities
@@ -26,24 +32,24 @@ _ALL = ("x", "y", "z", "tilt_x", "tilt_y")
 class MomentCarryingBalls(StaticReaction):
     """A ball bearing, or a pair, that holds a shaft in place and against tilt: a Reaction.
 
-    Its freedoms are x, y, tilt_x and tilt_y, for shafts without axial motion: z is given, or follows from the
-    axial load of the bearing at every place. With `axial` they are all five.
-
-    It goes into a station with `feels_tilt=True` of a `ShaftRotor`, with `axial` of one that has `axial=True`
-    too, for rests, modes, responses and `simulate`.
+    With x, y, tilt_x and tilt_y it is for shafts without axial motion: z is given, or follows from the axial
+    load of the bearing at every place. It goes into a station with `feels_tilt=True` of a `ShaftRotor`, with
+    z of one that has `axial=True` too, for rests, modes, responses and `simulate`.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-        Its `tilt`, and with `axial` its `axial_displacement`, are those of the shaft against the housing
-        where the rotor is straight: a misalignment. Its `damping` acts along x and y only.
-    axial : bool
-        Whether z is a freedom too. The bearing then has no `axial_load`: the shaft has it.
+        Its `tilt`, and with z its `axial_displacement`, are those of the shaft against the housing where the
+        rotor is straight: a misalignment; those of motions that are no freedoms are held. Its `damping` acts
+        along x and y only.
+    freedoms : tuple of str
+        x, y and others of `BALL_FREEDOMS`. With z the bearing has no `axial_load`: the shaft has it.
 
     Raises
     ------
     InputError
-        If the bearing is of another kind, or has an axial load although z is a freedom.
+        If the bearing is of another kind, or has an axial load although z is a freedom; if the freedoms are
+        others, or lack x or y.
 
     Examples
     --------
@@ -56,21 +62,21 @@ class MomentCarryingBalls(StaticReaction):
     """
 
     bearing: BallElement
-    axial: bool = False
+    freedoms: tuple[str, ...] = ("x", "y", "tilt_x", "tilt_y")
 
     def __post_init__(self) -> None:
         require_balls(self.bearing)
-        require_kind("axial", self.axial, bool, "True or False")
-        if self.axial and self.bearing.axial_load is not None:
+        freedoms = checked_freedoms(self.freedoms)
+        if not {*PLANAR} <= {*freedoms} <= {*BALL_FREEDOMS}:
+            raise InputError(
+                f"freedoms must be x, y and others of {', '.join(BALL_FREEDOMS)}, got {self.freedoms!r}"
+            )
+        object.__setattr__(self, "freedoms", freedoms)
+        if "z" in freedoms and self.bearing.axial_load is not None:
             raise InputError(
                 "bearing must have no axial_load where z is a freedom of the shaft, which has that load, "
                 f"got {self.bearing.axial_load!r}"
             )
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """x, y, tilt_x, tilt_y, or with z."""
-        return tuple(_ALL[k] for k in self._moving)
 
     @property
     def clearance(self) -> float:
@@ -102,11 +108,8 @@ class MomentCarryingBalls(StaticReaction):
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape."""
-        n, shown = len(self._moving), np.ix_(self._moving, [*self._moving, DEGREES])
-        found = self._each(lambda at: self.bearing.with_axial(at.slopes)[shown], (n, n + 1), position, speed)
-        by_rate = np.zeros((n, n, *speed.shape))
-        by_rate[range(2), range(2)] = -self.bearing.damping
-        return np.concatenate([found[:, :n], by_rate, found[:, n:]], axis=1)
+        n = len(self._moving)
+        return self._each(lambda at: self._by_input(at)[0], (n, 2 * n + 1), position, speed)
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
         """Return where the shaft rests under forces [N] and moments [N m] of its freedoms, shape (n,).
@@ -118,7 +121,7 @@ class MomentCarryingBalls(StaticReaction):
         EquilibriumError
             If the balls cannot carry the load: as of `BallBearing.rest`, or under race control.
         """
-        if self.axial:
+        if len(self._moving) == DEGREES:
             found: Array | None = self.bearing.rest(np.asarray(load, dtype=float), speed).displacement
         else:
             found = self.bearing.rest_along(self._moving, load, speed)
@@ -141,42 +144,168 @@ class MomentCarryingBalls(StaticReaction):
         ConvergenceError
             If the balls cannot carry the axial load at this place.
         """
-        values = require_place(self, place, "place")
-        speed, found = require_number("speed", speed), self._offset.copy()
-        found[self._moving] += values
-        if self.bearing.axial_load is not None:
-            found[2] = self._axial_place(found, speed)
-        return found
+        values, speed = require_place(self, place, "place"), require_number("speed", speed)
+        return self._displaced(values, speed, (0.0, 0.0))
+
+    def balls_at(self, place: Array, speed: float, turned: tuple[float, float] = (0.0, 0.0)) -> BallsAt:
+        """Return the balls with the shaft at a place (n,), cage and shaft turned by angles [rad]."""
+        motion = self._displaced(place, speed, turned)
+        at = self.bearing.kernel.at(motion, speed, *turned)
+        if at.status:
+            self.bearing.explain(at, motion, speed)
+        return at
 
     @cached_property
     def _moving(self) -> list[int]:
         """Which of x, y, z, tilt_x, tilt_y are freedoms."""
-        return list(range(DEGREES)) if self.axial else [0, 1, 3, 4]
+        return [BALL_FREEDOMS.index(name) for name in self.freedoms]
 
     @cached_property
     def _offset(self) -> Array:
         """Displacement of the inner rings where the rotor is straight."""
         return np.array([0.0, 0.0, self.bearing.axial_displacement, *self.bearing.tilt])
 
-    def _axial_place(self, displacement: Array, speed: float) -> float:
-        """Return z [m] where the axial load holds the shaft."""
-        x, y, _, *turned = displacement.tolist()
-        state, tilt = (x, y, 0.0, 0.0, speed), (turned[0], turned[1])
-        z, status = self.bearing.kernel.axial_place(*state, tilt=tilt)
+    def _displaced(self, place: Array, speed: float, turned: tuple[float, float]) -> Array:
+        """Return the displacement (5,); z that of the axial load, where there is one."""
+        found, bearing, (cage, shaft) = self._offset.copy(), self.bearing, turned
+        found[self._moving] += place
+        if bearing.axial_load is None:
+            return found
+        x, y, _, *tilts = found.tolist()
+        state, tilt = (x, y, 0.0, 0.0, speed), (tilts[0], tilts[1])
+        found[2], status = bearing.kernel.axial_place(*state, tilt=tilt, cage=cage, shaft=shaft)
         if status > Status.OUTSIDE:
-            got = f"{self.bearing.axial_load!r} N at ({x!r}, {y!r}) m, {tilt!r} rad, {speed!r} rad/s"
+            got = f"{bearing.axial_load!r} N at ({x!r}, {y!r}) m, {tilt!r} rad, {speed!r} rad/s"
             raise ConvergenceError(
-                self.bearing.why_no_rest(
-                    "axial_load", got, lambda kernel: kernel.axial_place(*state, tilt=tilt)[1]
+                bearing.why_no_rest(
+                    "axial_load",
+                    got if turned == (0.0, 0.0) else f"{got}, cage angle {cage!r} rad",
+                    lambda kernel: kernel.axial_place(*state, tilt=tilt, cage=cage, shaft=shaft)[1],
                 )
             )
-        return z
+        return found
+
+    def _by_input(self, at: BallsAt) -> tuple[Array, Array]:
+        """Return derivatives by places, rates and speed, (n, 2 n + 1), and by both angles, (n, 2)."""
+        slopes = self.bearing.with_axial(at.slopes)[self._moving]
+        n = len(slopes)
+        by_rate = np.zeros((n, n))
+        by_rate[range(2), range(2)] = -self.bearing.damping
+        by_input = np.hstack([slopes[:, self._moving], by_rate, slopes[:, DEGREES:CAGE]])
+        return by_input, slopes[:, CAGE : SHAFT + 1]
 
     def _each(
         self, told: Callable[[BallsAt], Array], shape: tuple[int, ...], position: Array, speed: Array
     ) -> Array:
         """Return what is told of the balls at each state, shape (*shape, *batch)."""
         states = np.concatenate([position, speed[None]]).reshape(len(position) + 1, -1).T
-        balls = (self.bearing.at(self.displacement(one[:-1], one[-1]), one[-1]) for one in states)
+        balls = (self.balls_at(one[:-1], float(one[-1])) for one in states)
         found = np.reshape([told(at) for at in balls], (len(states), *shape))
         return np.moveaxis(found, 0, -1).reshape(*shape, *speed.shape)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class VariableComplianceBalls(MomentCarryingBalls):
+    """A ball bearing, or a pair, with the angles of cage and shaft as states: a Reaction and a Dynamic.
+
+    The cage turns with a fixed share of the speed; waves of the inner ring turn with the shaft. The force
+    swings with the ball-pass frequency, balls * cage_ratio * speed, and is smooth between two of its events,
+    at which a ball comes under load or leaves it. With all freedoms it is a kernel of the C library, and an
+    FMU without Python.
+
+    Parameters
+    ----------
+    bearing : BallBearing or BearingPair
+        Its cage angle is that at t = 0.
+    freedoms : tuple of str
+        As of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load given.
+    cage_ratio : float or None [1]
+        Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` tells it; by default
+        (1 - D cos(angle)/pitch_diameter)/2 at the free contact angle.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+
+    Examples
+    --------
+    >>> bearing = BallBearing(
+    ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6
+    ... )
+    >>> round(VariableComplianceBalls(bearing=bearing).ratio, 4)
+    0.3965
+    """
+
+    freedoms: tuple[str, ...] = PLANAR
+    cage_ratio: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 0.0 < self.ratio < 1.0:
+            raise InputError(f"cage_ratio must be above 0 and below 1, got {self.cage_ratio!r}")
+
+    @property
+    def ratio(self) -> float:
+        """Speed of the cage over that of the shaft."""
+        return self.bearing.cage_ratio if self.cage_ratio is None else self.cage_ratio
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """How far cage and shaft have turned."""
+        turned = "by which the {} has turned".format
+        return signals_of(*((f"{part}_angle", "rad", 1.0, turned(part)) for part in ("cage", "shaft")))
+
+    @property
+    def initial_state(self) -> Array:
+        """Nothing has turned."""
+        return np.zeros(2)
+
+    def rest_state(self, position: ArrayLike, speed: float) -> Array:
+        """Return the angles that cage and shaft start with, wherever the shaft is: they never rest."""
+        return self.initial_state
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return forces [N] and moments [N m] for u = (places, rates, speed)."""
+        force = self._turned(x, u).wrench[self._moving]
+        force[:2] -= self.bearing.damping * state_of(self, u)[1][:2]
+        return force
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the speeds of cage and shaft [rad/s]."""
+        speed = float(input_vector(u, self.freedoms)[-1])
+        return np.array([self.ratio * speed, speed])
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives; where z follows from an axial load, with that."""
+        D, C = self._by_input(self._turned(x, u))
+        B = np.zeros((2, D.shape[1]))
+        B[:, -1] = self.ratio, 1.0
+        return Linearization(np.zeros((2, 2)), B, C, D)
+
+    def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the approach of each ball to the inner ring [m]: it changes sign where the load does."""
+        return np.array(self._turned(x, u).each["gap"])
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel `five_degree_balls`, with growth and damping as parameters; else None."""
+        if type(self) is not VariableComplianceBalls or self.freedoms != BALL_FREEDOMS:
+            return None
+        _, _, z, about_x, about_y = self._offset.tolist()
+        return self.bearing.spec(
+            "five_degree_balls",
+            ("damping", "N.s/m", self.bearing.damping, "damping beside the balls along x and y"),
+            ("cage_ratio", "1", self.ratio, "speed of the cage over that of the shaft"),
+            ("axial_displacement", "m", z, "place of the inner rings along z where the shaft is at 0"),
+            ("tilt_x_offset", "rad", about_x, "their tilt there about +x"),
+            ("tilt_y_offset", "rad", about_y, "their tilt there about +y"),
+        )
+
+    def _turned(self, x: ArrayLike, u: ArrayLike) -> BallsAt:
+        """Return the balls with cage and shaft turned."""
+        angles, (place, _, speed) = require_finite("x", x), state_of(self, u)
+        if angles.shape != (2,):
+            raise InputError(f"x must have shape (2,) for the angles of cage and shaft, got {angles.shape}")
+        cage, shaft = (math.remainder(angle, 2.0 * math.pi) for angle in angles.tolist())
+        return self.balls_at(place, float(speed), (cage, shaft))

@@ -70,7 +70,7 @@ class PalmgrenBalls(StaticReaction):
 
     @property
     def clearance(self) -> float:
-        """Radial way [m] to about 4200 MPa, .007 of the ball diameter."""
+        """Radial way [m] to about 4200 MPa, 0.007 of the ball diameter."""
         return REACH * self.ball_diameter
 
     @property

@@ -142,8 +142,8 @@ def _encode_function(value: FunctionType, name: str) -> dict[str, str]:
     ):
         raise FmuError(
             f"{name} must be a function that 'def' defines at the top of an importable module, because the "
-            f"FMU carries that module's source, got {module}.{qualname}: write it into a file of its own and "
-            "import it from there, its parameters as fields of a frozen dataclass with __call__"
+            f"FMU carries that module's source, got {module}.{qualname}. Write it into a file of its own and "
+            "import it from there. Make its parameters fields of a frozen dataclass with __call__"
         )
     return {"function": f"{module}:{qualname}"}
 

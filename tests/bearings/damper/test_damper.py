@@ -18,8 +18,8 @@ from rotorfilm import (
     PorousDamper,
     RadialFeed,
     Reaction,
-    Sprung,
     ValidityWarning,
+    with_springs,
 )
 from rotorfilm.bearings import AxialFeed, Complementarity, PublishedSqueeze, damper_groups
 from rotorfilm.bearings.damper.squeeze_films import mean_permeability
@@ -280,9 +280,9 @@ def test_bad_dampers_are_named(change, match):
             lambda: AxialFeed(start_pressure="a", end_pressure=0.0),
             "start_pressure: quantity must be a number",
         ),
-        (lambda: Sprung(reaction=PI, stiffness=0.0), "stiffness must be finite and positive, got 0.0"),
+        (lambda: with_springs(PI, 0.0), "stiffness must be finite and positive, got 0.0"),
         (
-            lambda: Sprung(reaction=4, stiffness=1.0),
+            lambda: with_springs(4, 1.0),
             "reaction must be a Reaction such as a PorousDamper, got 4",
         ),
         (lambda: damper_groups(PI, mass=0.0, speed=1.0), "mass must be finite and positive"),
@@ -302,7 +302,7 @@ def test_contact_is_named():
 
 
 def test_springs_act_beside_the_film():
-    sprung = Sprung(reaction=PI, stiffness=2e5)
+    sprung = with_springs(PI, 2e5)
     assert isinstance(sprung, Reaction)
     q, v = np.array([3e-5, -4e-5]), np.array([0.01, 0.02])
     assert_allclose(sprung.force(q, v), PI.force(q, v) - 2e5 * q, rtol=1e-14)

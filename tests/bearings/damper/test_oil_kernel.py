@@ -59,9 +59,9 @@ def test_inertia_without_a_kernel_is_refused_by_loops_in_c():
 @pytest.mark.parametrize("stiffness", [1e6, (1e6, 2e6)])
 def test_springs_pass_on_where_the_mass_is(stiffness):
     damper = rf.SqueezeFilmDamper(**SIZE, **CASES["finite"])
-    call = call_with_added_mass(rf.Sprung(reaction=damper, stiffness=stiffness))
+    call = call_with_added_mass(rf.with_springs(damper, stiffness))
     assert call.mass == call_with_added_mass(damper).mass != MASSLESS
     light = rf.SqueezeFilmDamper(**SIZE, **CASES["tight, no inertia"])
-    assert call_with_added_mass(rf.Sprung(reaction=light, stiffness=stiffness)).mass == MASSLESS
+    assert call_with_added_mass(rf.with_springs(light, stiffness)).mass == MASSLESS
     with pytest.raises(InputError, match="reaction must have its added mass in C"):
         call_with_added_mass(rf.Parallel((damper, damper)))

@@ -20,10 +20,10 @@ from rotorfilm import (
     RadialFeed,
     RigidRotor,
     ShortSqueeze,
-    Sprung,
     UndefinedDerivativeError,
     ValidityWarning,
     synchronous_orbits,
+    with_springs,
 )
 from rotorfilm.bearings import HalfSommerfeld, MapSqueeze, layer_modes
 from rotorfilm.bearings.damper import squeeze_map as squeeze_potential, squeeze_map as squeeze_table
@@ -208,7 +208,7 @@ def test_orbits_on_a_map_are_those_of_the_film():
     rotor = RigidRotor(mass=10.0, speed=400.0, unbalance=3e-4, gravity=(0.0, 0.0))
     film = replace(SHORT, viscosity=4.096e-4)
     found = [
-        synchronous_orbits(rotor, Sprung(reaction=damper, stiffness=2.56e5))
+        synchronous_orbits(rotor, with_springs(damper, 2.56e5))
         for damper in (film, replace(film, film=MapSqueeze()))
     ]
     for a, b in zip(found[0].folds, found[1].folds, strict=True):

@@ -13,11 +13,11 @@ from rotorfilm import (
     LobedBearing,
     Pad,
     ReynoldsFilm,
-    Sprung,
     TiltingPadBearing,
     coefficients,
     equilibrium,
     lobe_set,
+    with_springs,
 )
 from rotorfilm.bearings import PadGridFilm, PadMapFilm
 from rotorfilm.bearings.pads import PadResolution
@@ -194,7 +194,7 @@ def test_minimum_film_is_the_least_on_the_arcs():
 
 def test_springs_beside_leave_the_wall_to_the_lobes():
     of = bearing(lobe_set("elliptical", preload=0.5))
-    sprung, zero = Sprung(reaction=of, stiffness=1e6), np.zeros(2)
+    sprung, zero = with_springs(of, 1e6), np.zeros(2)
     sideways = np.array([0.8 * CLEARANCE, 0.0])
     assert sprung.minimum_film(sideways) == of.minimum_film(sideways)
     assert sprung.force(sideways, zero, SPEED) == pytest.approx(

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import rotorfilm as rf
 from rotorfilm import EquilibriumError, InputError, MomentCarryingBalls, Reaction
+from rotorfilm.bearings.rolling import BALL_FREEDOMS
 from rotorfilm.core.port import freedoms_of, require_terminals, rest_place, small_motion, static_force
 
 ALL, RADIAL = [0, 1, 2, 3, 4], [0, 1, 3, 4]
@@ -59,7 +60,7 @@ def slopes_by_differences(held: MomentCarryingBalls, u: np.ndarray, steps: np.nd
 @pytest.mark.parametrize("name", [*FIVE, "given z", "thrust", "deep groove", "pair under thrust"])
 def test_derivatives_are_differences_of_sixth_order(name: str) -> None:
     held = (
-        MomentCarryingBalls(bearing=FIVE[name], axial=True)
+        MomentCarryingBalls(bearing=FIVE[name], freedoms=BALL_FREEDOMS)
         if name in FIVE
         else MomentCarryingBalls(bearing=FOUR[name])
     )
@@ -102,7 +103,7 @@ def test_four_freedoms_are_those_of_the_wrench_with_z_eliminated(bearing: rf.Bal
 @pytest.mark.closed_form
 @pytest.mark.parametrize("bearing", FIVE.values(), ids=FIVE)
 def test_five_freedoms_rest_where_the_bearing_rests(bearing: rf.BallBearing) -> None:
-    held = MomentCarryingBalls(bearing=bearing, axial=True)
+    held = MomentCarryingBalls(bearing=bearing, freedoms=BALL_FREEDOMS)
     load, speed = np.array([60.0, -200.0, 350.0, 0.5, -0.3]), 1200.0
     at = bearing.rest(load, speed)
     place = at.displacement - [0.0, 0.0, bearing.axial_displacement, *bearing.tilt]
@@ -127,7 +128,7 @@ def test_four_freedoms_rest_under_forces_and_moments(bearing: rf.BallBearing, sp
 
 @pytest.mark.closed_form
 def test_balls_without_inertia_have_a_symmetric_stiffness() -> None:
-    held = MomentCarryingBalls(bearing=FIVE["static"], axial=True)
+    held = MomentCarryingBalls(bearing=FIVE["static"], freedoms=BALL_FREEDOMS)
     for place in places(held, 20).T:
         stiffness = -held.jacobian(place, np.zeros(5), 700.0)[:, :5] / np.outer(SIZE, SIZE)
         assert np.abs(stiffness - stiffness.T).max() < 1e-12 * np.abs(stiffness).max()
@@ -143,7 +144,7 @@ def test_balls_without_inertia_have_a_symmetric_stiffness() -> None:
 def test_z_as_a_freedom_at_rest_is_z_under_the_axial_load() -> None:
     """With the thrust on the shaft, five freedoms rest where four rest with the thrust of the bearing."""
     four = MomentCarryingBalls(bearing=replace(SINGLE, axial_load=400.0))
-    five = MomentCarryingBalls(bearing=SINGLE, axial=True)
+    five = MomentCarryingBalls(bearing=SINGLE, freedoms=BALL_FREEDOMS)
     side, speed = np.array([20.0, -80.0, 0.3, 0.0]), 1000.0
     place = four.rest_place(side, speed)
     whole = five.rest_place(np.insert(side, 2, 400.0), speed)
@@ -156,9 +157,9 @@ def test_z_as_a_freedom_at_rest_is_z_under_the_axial_load() -> None:
 
 @pytest.mark.closed_form
 def test_place_and_tilt_of_the_bearing_are_offsets_of_the_housing() -> None:
-    five = MomentCarryingBalls(bearing=PUSHED, axial=True)
+    five = MomentCarryingBalls(bearing=PUSHED, freedoms=BALL_FREEDOMS)
     straight = MomentCarryingBalls(
-        bearing=replace(PUSHED, axial_displacement=0.0, tilt=(0.0, 0.0)), axial=True
+        bearing=replace(PUSHED, axial_displacement=0.0, tilt=(0.0, 0.0)), freedoms=BALL_FREEDOMS
     )
     place, still = np.array([1e-6, -2e-6, 3e-6, 1e-5, 4e-5]), np.zeros(5)
     there = place + np.array([0.0, 0.0, 8e-6, 2e-5, -1e-5])
@@ -166,11 +167,10 @@ def test_place_and_tilt_of_the_bearing_are_offsets_of_the_housing() -> None:
 
 
 def test_it_is_a_reaction_of_the_port_for_batches_too() -> None:
-    for bearing, axial, freedoms in (
-        (PAIR, False, ("x", "y", "tilt_x", "tilt_y")),
-        (PAIR, True, ("x", "y", "z", "tilt_x", "tilt_y")),
+    for held, freedoms in (
+        (MomentCarryingBalls(bearing=PAIR), ("x", "y", "tilt_x", "tilt_y")),
+        (MomentCarryingBalls(bearing=PAIR, freedoms=BALL_FREEDOMS), ("x", "y", "z", "tilt_x", "tilt_y")),
     ):
-        held = MomentCarryingBalls(bearing=bearing, axial=axial)
         assert isinstance(held, Reaction)
         assert freedoms_of(held) == held.freedoms == freedoms
         require_terminals("held", held)
@@ -193,10 +193,10 @@ def test_it_is_a_reaction_of_the_port_for_batches_too() -> None:
 
 def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(InputError, match=r"bearing must have no axial_load where z is a freedom.*got 60\.0"):
-        MomentCarryingBalls(bearing=replace(PAIR, axial_load=60.0), axial=True)
-    with pytest.raises(InputError, match="axial must be True or False, got 1"):
-        MomentCarryingBalls(bearing=PAIR, axial=1)
-    five, four = MomentCarryingBalls(bearing=PAIR, axial=True), MomentCarryingBalls(bearing=PAIR)
+        MomentCarryingBalls(bearing=replace(PAIR, axial_load=60.0), freedoms=BALL_FREEDOMS)
+    with pytest.raises(InputError, match="freedoms must be x, y and others of"):
+        MomentCarryingBalls(bearing=PAIR, freedoms=("z", "tilt_x"))
+    five, four = MomentCarryingBalls(bearing=PAIR, freedoms=BALL_FREEDOMS), MomentCarryingBalls(bearing=PAIR)
     with pytest.raises(InputError, match=r"position must have shape \(5, \.\.\.\), got shape \(4,\)"):
         five.force(np.zeros(4), np.zeros(5), 1.0)
     with pytest.raises(
@@ -210,4 +210,6 @@ def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(InputError, match="velocity must be finite"):
         four.jacobian(np.zeros(4), [0.0, math.nan, 0.0, 0.0], 1.0)
     with pytest.raises(EquilibriumError, match="load must press the balls on the shoulders of their rings"):
-        MomentCarryingBalls(bearing=SINGLE, axial=True).rest_place([0.0, 0.0, -50.0, 0.0, 0.0], 100.0)
+        MomentCarryingBalls(bearing=SINGLE, freedoms=BALL_FREEDOMS).rest_place(
+            [0.0, 0.0, -50.0, 0.0, 0.0], 100.0
+        )

@@ -9,7 +9,6 @@ import pytest
 from rotorfilm import (
     BallBearing,
     Dynamic,
-    FiveDegreeBalls,
     InputError,
     Model,
     OperatingPoint,
@@ -23,6 +22,7 @@ from rotorfilm import (
     variable_compliance,
 )
 from rotorfilm.bearings import Waviness
+from rotorfilm.bearings.rolling import BALL_FREEDOMS
 from rotorfilm.core import Switched
 
 WAVES = (
@@ -46,6 +46,15 @@ PAIR = back_to_back(replace(THRUST, axial_load=None), distance=0.02, preload=200
 bearings = pytest.mark.parametrize("bearing", [THRUST, DEEP, PAIR], ids=["thrust", "deep groove", "pair"])
 
 
+def five_degrees(bearing):
+    """A bearing with all its freedoms, and the angles of its cage and of the shaft."""
+    return VariableComplianceBalls(bearing=replace(bearing, axial_load=None), freedoms=BALL_FREEDOMS)
+
+
+def motion(place, speed):
+    return np.array([*place, *[0.0] * 5, speed])
+
+
 def slopes(call, at, steps):
     columns = []
     for k, step in enumerate(steps):
@@ -58,12 +67,13 @@ def slopes(call, at, steps):
 
 @bearings
 def test_derivatives_of_five_degrees_and_both_angles(bearing):
-    model = FiveDegreeBalls(bearing=bearing)
-    u = np.array([2e-6, -7e-6, 5e-6, 1e-4, -2e-4, 1e-3, 2e-3, 900.0, 0.3, 1.1])
-    steps = [1e-9, 1e-9, 1e-9, 1e-7, 1e-7, 1e-5, 1e-5, 0.1, 1e-5, 1e-5]
-    expected = slopes(lambda v: model.output(0.0, [], v), u, steps)
+    model = five_degrees(bearing)
+    u = np.array([2e-6, -7e-6, 5e-6, 1e-4, -2e-4, 1e-3, 2e-3, 1e-3, 1e-2, 1e-2, 900.0, 0.3, 1.1])
+    steps = [1e-9, 1e-9, 1e-9, 1e-7, 1e-7, *[1e-5] * 5, 0.1, 1e-5, 1e-5]
+    expected = slopes(lambda v: model.output(0.0, v[11:], v[:11]), u, steps)
     size = np.abs(expected).max(axis=0)
-    found = model.linearization(0.0, [], u).D
+    at = model.linearization(0.0, u[11:], u[:11])
+    found = np.hstack([at.D, at.C])
     np.testing.assert_array_less(np.abs(found - expected).max(axis=0), 2e-7 * size + 1e-6)
     assert isinstance(model, Model)
 
@@ -85,49 +95,48 @@ def test_derivatives_of_a_turning_cage(bearing):
 @pytest.mark.closed_form
 def test_the_force_is_the_slope_of_a_potential():
     """Static balls, with waves, have a potential whose slopes are their force."""
-    model = FiveDegreeBalls(
-        bearing=replace(DEEP, waviness=(Waviness(inner=False, lobes=8, radial_amplitude=1e-6),))
-    )
-    u = np.array([2e-6, -9e-6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0])
+    model = five_degrees(replace(DEEP, waviness=(Waviness(inner=False, lobes=8, radial_amplitude=1e-6),)))
+    place, x = np.array([2e-6, -9e-6]), [0.2, 0.0]
     row = DEEP.rows[0]
     K = (row[9] ** (-2.0 / 3.0) + row[10] ** (-2.0 / 3.0)) ** -1.5
 
     def potential(v):
-        psi = v[8] + 2.0 * math.pi / 8.0 * np.arange(8)
+        psi = x[0] + 2.0 * math.pi / 8.0 * np.arange(8)
         way = row[3] + v[0] * np.cos(psi) + v[1] * np.sin(psi) + 1e-6 * np.cos(8.0 * psi)
         return 0.4 * K * np.sum(np.maximum(way - row[7] - row[8], 0.0) ** 2.5)
 
     h = 1e-9
     for k in range(2):
-        d = h * np.eye(10)[k]
-        force = -(potential(u + d) - potential(u - d)) / (2.0 * h)
-        assert model.output(0.0, [], u)[k] == pytest.approx(force, rel=1e-5, abs=1e-4)
+        d = h * np.eye(2)[k]
+        force = -(potential(place + d) - potential(place - d)) / (2.0 * h)
+        assert model.output(0.0, x, motion([*place, 0.0, 0.0, 0.0], 0.0))[k] == pytest.approx(
+            force, rel=1e-5, abs=1e-4
+        )
 
 
 def test_a_full_turn_of_the_cage_by_a_pitch_changes_nothing():
-    model = FiveDegreeBalls(bearing=replace(THRUST, waviness=()))
-    u = model.inputs_at([2e-6, -7e-6, 8e-6, 1e-4, 0.0], 900.0)
-    turned = model.inputs_at([2e-6, -7e-6, 8e-6, 1e-4, 0.0], 900.0, cage_angle=THRUST.pitch)
-    np.testing.assert_allclose(model.output(0.0, [], turned), model.output(0.0, [], u), rtol=1e-12, atol=1e-9)
-    plain = replace(THRUST, waviness=()).wrench([2e-6, -7e-6, 8e-6, 1e-4, 0.0], 900.0)
-    np.testing.assert_allclose(model.output(0.0, [], u), plain)
+    bearing = replace(THRUST, waviness=(), axial_load=None, axial_displacement=3e-6)
+    u = motion([2e-6, -7e-6, 5e-6, -1e-4, 1e-4], 900.0)
+    here, turned = (five_degrees(bearing).output(0.0, [angle, 0.0], u) for angle in (0.0, THRUST.pitch))
+    np.testing.assert_allclose(turned, here, rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(here, bearing.wrench([2e-6, -7e-6, 8e-6, 1e-4, 0.0], 900.0))
 
 
 @pytest.mark.closed_form
 def test_waves_of_the_inner_ring_turn_with_the_shaft():
     """Cage and shaft turned by the same angle: the whole bearing is turned."""
-    model = FiveDegreeBalls(bearing=replace(DEEP, waviness=WAVES[:1], internal_clearance=-4e-6))
+    model = five_degrees(replace(DEEP, waviness=WAVES[:1], internal_clearance=-4e-6))
     q, angle = np.array([2e-6, -3e-6]), 0.7
     R = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    there = model.inputs_at([*(R @ q), 0.0, 0.0, 0.0], 0.0, cage_angle=angle, shaft_angle=angle)
-    here = model.output(0.0, [], model.inputs_at([*q, 0.0, 0.0, 0.0], 0.0))
-    np.testing.assert_allclose(model.output(0.0, [], there)[:2], R @ here[:2], rtol=1e-9)
+    there = model.output(0.0, [angle, angle], motion([*(R @ q), 0.0, 0.0, 0.0], 0.0))
+    here = model.output(0.0, [0.0, 0.0], motion([*q, 0.0, 0.0, 0.0], 0.0))
+    np.testing.assert_allclose(there[:2], R @ here[:2], rtol=1e-9)
 
 
 def test_a_linear_system_of_five_degrees_at_rest():
     rest = PAIR.rest([0.0, -200.0, 100.0, 0.5, 0.0], 1500.0)
-    model = FiveDegreeBalls(bearing=PAIR)
-    system = linearize(model, OperatingPoint(u=model.inputs_at(rest.displacement, 1500.0)))
+    model = five_degrees(replace(PAIR, tilt=(0.0, 0.0)))
+    system = linearize(model, OperatingPoint(x=[0.0, 0.0], u=motion(rest.displacement, 1500.0)))
     np.testing.assert_allclose(system.D[:, :5], -rest.stiffness, rtol=1e-9, atol=1e-3)
     assert system.input_labels[:5] == ["x", "y", "z", "tilt_x", "tilt_y"]
     assert system.output_labels == ["force_x", "force_y", "force_z", "moment_x", "moment_y"]
@@ -177,9 +186,11 @@ def test_cage_ratio_is_that_of_the_balls():
             "cage_ratio must be above 0 and below 1, got 1.5",
         ),
         (lambda: VariableComplianceBalls(bearing=3), "bearing must be a BallBearing or a BearingPair"),
-        (lambda: FiveDegreeBalls(bearing=3), "bearing must be a BallBearing or a BearingPair"),
-        (lambda: FiveDegreeBalls(bearing=DEEP).output(0.0, [], [0.0]), r"u must have shape \(10,\)"),
-        (lambda: FiveDegreeBalls(bearing=DEEP).inputs_at([0.0], 1.0), r"displacement must have shape \(5,\)"),
+        (lambda: five_degrees(DEEP).output(0.0, [0.0, 0.0], [0.0]), r"u must have shape \(11,\)"),
+        (
+            lambda: VariableComplianceBalls(bearing=DEEP, freedoms=("x", "z")),
+            "freedoms must be x, y and others",
+        ),
         (
             lambda: VariableComplianceBalls(bearing=DEEP).output(0.0, [0.0], [0.0] * 5),
             r"x must have shape \(2,\)",

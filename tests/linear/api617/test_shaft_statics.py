@@ -105,7 +105,7 @@ def test_stations_of_seals_hold_nothing():
 def test_what_carries_a_load():
     """A seal does not, nor two of them; springs or a bearing beside one do."""
     light, spring = replace(SEAL, added_mass=False), rf.LinearBearing(stiffness=1e8)
-    carrying = [spring, rf.Sprung(reaction=light, stiffness=1e7), rf.Parallel((spring, SEAL))]
+    carrying = [spring, rf.with_springs(light, 1e7), rf.Parallel((spring, SEAL))]
     assert [carries_load(one) for one in (*carrying, SEAL, rf.Parallel((SEAL, light)))] == [
         *(True, True, True),
         *(False, False),

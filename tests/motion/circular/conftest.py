@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung
+from rotorfilm import PorousCage, PorousDamper, RigidRotor, with_springs
 
 RADIUS, LENGTH, CLEARANCE, MASS, SPEED = 0.05, 0.025, 1e-4, 10.0, 400.0
 
@@ -23,7 +23,7 @@ def support():
         damper = PorousDamper(
             radius=RADIUS, length=LENGTH, clearance=CLEARANCE, viscosity=viscosity, cage=cage, **more
         )
-        return Sprung(reaction=damper, stiffness=MASS * (spring * SPEED) ** 2) if spring else damper
+        return with_springs(damper, MASS * (spring * SPEED) ** 2) if spring else damper
 
     return build
 

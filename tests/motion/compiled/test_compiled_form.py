@@ -24,13 +24,13 @@ from rotorfilm import (
     ShaftRotor,
     ShortFilm,
     SpeedProfile,
-    Sprung,
     Station,
     mount,
     periodic_orbit,
     reduce_rotor,
     simulate,
     simulate_rotor,
+    with_springs,
 )
 from rotorfilm.analysis.compiled_rotor import compiled_form
 from rotorfilm.bearings import HalfSommerfeld, MapSqueeze
@@ -53,7 +53,7 @@ SMOOTH = {
     "map": MAP,
     "short": JournalBearing(**SIZES, film=ShortFilm()),
     "linear": LinearBearing(stiffness=((5e6, 1e6), (-1e6, 5e6)), damping=3e3),
-    "sprung": Sprung(reaction=MAP, stiffness=1e6),
+    "sprung": with_springs(MAP, 1e6),
     "grooved map": OPEN["grooved map"],
 }
 DAMPER = PorousDamper(
@@ -105,7 +105,7 @@ def test_both_routes_agree_on_grids(name):
 
 
 def test_both_routes_agree_on_a_damper_that_is_run_up_between_springs():
-    support = Sprung(reaction=DAMPER, stiffness=2e6)
+    support = with_springs(DAMPER, 2e6)
     profile = SpeedProfile(times=(0.0, 0.1), speeds=(50.0, 400.0))
     rotor = rigid(speed=profile, gravity=(0.0, 0.0))
     own, other = both(rotor, support, duration=0.12, samples=41, rtol=1e-7)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings, strategies as st
 
-from rotorfilm import JournalBearing, LinearBearing, Parallel, PorousDamper, RubRing, ShortFilm, Sprung
+from rotorfilm import JournalBearing, LinearBearing, Parallel, PorousDamper, RubRing, ShortFilm, with_springs
 from rotorfilm.analysis.compiled_rotor import JournalFilms, film_call
 from rotorfilm.bearings import MapSqueeze
 from rotorfilm.core.port import compiled_force
@@ -36,8 +36,8 @@ BEARINGS = {
     "map": MAP,
     "short": SHORT,
     "linear": SPRING,
-    "sprung": Sprung(reaction=MAP, stiffness=1e6),
-    "damper": Sprung(reaction=DAMPER, stiffness=1e6),
+    "sprung": with_springs(MAP, 1e6),
+    "damper": with_springs(DAMPER, 1e6),
     "beside": Parallel((MAP, SPRING, MAP)),
     "one freedom each": Parallel(SIDES),
     "called back": OwnBearing(**SIZES),
@@ -85,7 +85,7 @@ def test_wall_is_a_status(name):
 
 
 @pytest.mark.parametrize(
-    "bearing", [MAP, SPRING, DAMPER, RING, Sprung(reaction=MAP, stiffness=1e6), Parallel((MAP, RING))]
+    "bearing", [MAP, SPRING, DAMPER, RING, with_springs(MAP, 1e6), Parallel((MAP, RING))]
 )
 def test_a_subclass_which_may_differ_is_not_compiled(bearing):
     kind = type(bearing)

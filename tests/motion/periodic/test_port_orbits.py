@@ -14,7 +14,7 @@ from rotorfilm.analysis.harmonic_balance import Balance, lengthened, solve
 from rotorfilm.analysis.periodic_orbit import CONVERGED, _driven, finished, series_of
 from rotorfilm.analysis.port_orbits import PortRotor
 from rotorfilm.bearings import f4k20_bush
-from rotorfilm.bearings.rolling import MomentCarryingBalls, back_to_back
+from rotorfilm.bearings.rolling import BALL_FREEDOMS, MomentCarryingBalls, back_to_back
 
 STEEL = rf.ElasticMaterial(young_modulus=2.11e11, shear_modulus=8.12e10, density=7810.0)
 FILM = rf.JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
@@ -91,7 +91,9 @@ def test_a_shaft_moves_axially_and_tilts_in_ball_bearings_on_its_orbit():
     single = rf.BallBearing(
         balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=0.4363, damping=200.0
     )
-    held = MomentCarryingBalls(bearing=back_to_back(single, distance=0.02, preload=150.0), axial=True)
+    held = MomentCarryingBalls(
+        bearing=back_to_back(single, distance=0.02, preload=150.0), freedoms=BALL_FREEDOMS
+    )
     rotor = shaft(
         elements=rf.ShaftElement(length=0.3, outer_diameter=0.02, material=STEEL).split(4),
         disks=(rf.Disk(node=1, mass=3.0, polar_inertia=0.01, diametral_inertia=0.005),),

@@ -19,10 +19,10 @@ SEAL = rf.AnnularSeal(
 )
 FILMS = {
     "damper": DAMPER,
-    "sprung": rf.Sprung(reaction=DAMPER, stiffness=1e6),
+    "sprung": rf.with_springs(DAMPER, 1e6),
     "counted": counted_calls(DAMPER),
     "seal": SEAL,
-    "sprung seal": rf.Sprung(reaction=SEAL, stiffness=1e6),
+    "sprung seal": rf.with_springs(SEAL, 1e6),
     "damper and seal": rf.Parallel((DAMPER, SEAL)),
 }
 

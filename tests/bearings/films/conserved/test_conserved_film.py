@@ -1,5 +1,8 @@
 """The film around a journal: another code, symmetries, both searches, conservation, orders."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
@@ -153,3 +156,12 @@ def test_steps_conserve_oil_and_come_to_the_steady_film(film_of):
         assert stored == pytest.approx(flows.inflow.sum() - flows.out, abs=1e-12)
         now, guess = state.content, state.solution.full
     np.testing.assert_allclose(film.force(state), film.force(solved(film, e)), rtol=1e-6)
+
+
+def test_films_that_are_gone_are_forgotten(film_of):
+    film = film_of(TWO)
+    solved(film, polar(0.4, -1.0))
+    known = weakref.ref(film)
+    del film
+    gc.collect()
+    assert known() is None
