@@ -12,7 +12,7 @@ QUESTIONS = sorted((PACKAGE / "questions").rglob("*.py"))
 CANDIDATES = [
     PACKAGE / "scenes" / "film_rungs.py",
     PACKAGE / "scenes" / "damper_films.py",
-    PACKAGE / "scenes" / "contact_motions.py",
+    PACKAGE / "scenes" / "contact.py",
     PACKAGE / "core" / "answers.py",
 ]
 

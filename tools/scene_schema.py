@@ -20,7 +20,7 @@ from rotorfilm import Scene
 from rotorfilm.core import DISPLAY_UNITS, UNITS
 from rotorfilm.core.limits import TEXT
 from rotorfilm.scenes import reading as readers, reading as tables
-from rotorfilm.scenes.schema import SCHEMA
+from rotorfilm.scenes.shared_tables import SCHEMA
 
 ROOT = Path(__file__).parents[1]
 FILE = ROOT / "rotorfilm" / "scenes" / "data" / "scene.schema.json"

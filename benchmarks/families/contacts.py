@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 from rotorfilm import ConvergenceError, InputError
 from rotorfilm.bearings.contact import ContactGrid, FixedSteps, RollingBall, SineLoad
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.contact_motions import DrivenBall, contact_motion
+from rotorfilm.scenes.contact import DrivenBall, contact_motion
 
 from .drawn import Drawn, Truth, log_uniform
 
@@ -151,7 +151,7 @@ def _resting(scene: Scene, inlet: float, cells: int) -> float:
 
 
 def _moving(scene: Scene, inlet: float, cells: int, steps: int) -> float:
-    """Return the extreme over the motion that the question means (`scenes.contact_motions`)."""
+    """Return the extreme over the motion that the question means (`scenes.contact`)."""
     made, contact = _contact(scene, inlet, cells)
     shaken = contact_motion(scene)
     run = contact.simulate(

@@ -201,10 +201,7 @@ def damper_rows(answer: DamperAnswer) -> list[tuple[str, str]]:
             f"{groups.squeeze_number:.5g}, {groups.permeability_number:.5g}",
         ),
         ("spring ratio, unbalance ratio", f"{groups.spring_ratio:.5g}, {groups.unbalance_ratio:.5g}"),
-        (
-            "K, C of an orbit of clearance/100",
-            f"{small.stiffness:.6g} N/m, {small.damping:.6g} N s/m",
-        ),
+        ("K, C of an orbit of clearance/100", f"{small.stiffness:.6g} N/m, {small.damping:.6g} N s/m"),
         *[("orbit", _orbit(orbit)) for orbit in answer.orbits],
         *([] if answer.orbits else [("orbit", "none: the rotor hits the wall")]),
         ("jumps", folds or "none"),

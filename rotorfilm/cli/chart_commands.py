@@ -9,6 +9,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
+from .. import charts, studies
 from ..core.errors import visible
 from ..core.frames import write_csv
 from ..core.limits import CHART_STATES, CONTACT_CELLS
@@ -19,8 +20,6 @@ from .command import Argument, CommandOutput, Option, Settings, load_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ..studies import StudyResult
 
 DPI = 110
 OUT = Path("rotorfilm-charts")
@@ -78,9 +77,7 @@ def write_chart(
 
 def write_picture(out: Path, stem: str, axes: Sequence[Axes], kind: str = "chart") -> Files:
     """Write a picture; return the row that names it."""
-    from ..charts import save
-
-    return [(kind, str(save(axes[0], out / f"chart_{stem}.png", dpi=DPI)))]
+    return [(kind, str(charts.save(axes[0], out / f"chart_{stem}.png", dpi=DPI)))]
 
 
 def number(entry: object) -> str:
@@ -88,14 +85,12 @@ def number(entry: object) -> str:
     return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
 
 
-def write_study(out: Path, result: StudyResult, data: object = None) -> Files:
+def write_study(out: Path, result: studies.StudyResult, data: object = None) -> Files:
     """Write chart and table of a study, and data as JSON if there are any; return the rows that name them."""
-    from ..charts import plot_study
-
-    return write_chart(out, result.study, result.columns(), plot_study(result), data)
+    return write_chart(out, result.study, result.columns(), charts.plot_study(result), data)
 
 
-def shown_study(result: StudyResult, files: Files) -> Callable[[], None]:
+def shown_study(result: studies.StudyResult, files: Files) -> Callable[[], None]:
     """Return what prints a study: a row for each rung, below the name of its case if it has one."""
     headings, rows = COLUMNS[result.study], []
     for case, rungs in groupby(result.rungs, key=lambda rung: rung.case):
@@ -111,7 +106,7 @@ def shown_study(result: StudyResult, files: Files) -> Callable[[], None]:
     return partial(show_table, ("model", *headings), rows, [*remarks, *files])
 
 
-def said_study(out: Path, result: StudyResult) -> CommandOutput:
+def said_study(out: Path, result: studies.StudyResult) -> CommandOutput:
     """Write a study, and return what is said of it."""
     return CommandOutput(result, shown_study(result, write_study(out, result)))
 
@@ -127,9 +122,10 @@ def journal(
     motion: Motion = "large",
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
-    from .. import studies
+    """Error of the force against its cost, for every journal film: chart_journal.png and .csv.
 
+    Example: rotorfilm chart journal --ld 0.5 --json
+    """
     ranges = studies.LARGE if motion == "large" else studies.SMALL
     found = studies.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
     return said_study(out, found)
@@ -138,9 +134,10 @@ def journal(
 def pads(
     report: Report, ld: Slenderness = 0.5, states: States = 100, seed: Seed = 1978, out: Folder = OUT
 ) -> CommandOutput:
-    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv."""
-    from .. import studies
+    """Error of the force against its cost, for maps and grids of pads: chart_pads.png and .csv.
 
+    Example: rotorfilm chart pads --ld 0.5 --json
+    """
     return said_study(out, studies.pad_accuracy(ld, states=states, seed=seed, report=report))
 
 
@@ -151,9 +148,10 @@ def damper(
     states: States = 200,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
-    from .. import studies
+    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json.
 
+    Example: rotorfilm chart damper --ld 0.25 --permeability 0.001
+    """
     result = studies.damper_accuracy(ld, permeability, states=states, report=report)
     return CommandOutput(result, shown_study(result, write_study(out, result, result)))
 
@@ -165,16 +163,18 @@ def contact(
     ] = 64,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
-    from .. import studies
+    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes.
 
+    Example: rotorfilm chart contact --cells 48 --json
+    """
     return said_study(out, studies.contact_precision(cells, report=report))
 
 
 def bush(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
-    from .. import studies
+    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft.
 
+    Example: rotorfilm chart bush --json
+    """
     result = studies.bush_tiers(report=report)
     files, shaft = write_study(out, result), result.notes["shaft"]
     *_, errors = shaft.values()
@@ -186,8 +186,10 @@ def bush(report: Report, out: Folder = OUT) -> CommandOutput:
 
 
 def heat(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
-    from .. import charts, studies
+    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute.
+
+    Example: rotorfilm chart heat --out rotorfilm-charts
+    """
     from ..studies.heat_accuracy import heated_film
 
     result = studies.heat_accuracy(report=part_of(report, 0.0, 0.7))
@@ -207,9 +209,10 @@ def rolling(
     seed: Seed = 1907,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost."""
-    from .. import charts, studies
+    """Ball bearings: loads, contact angles, stiffness over speed and preload, swing; error against cost.
 
+    Example: rotorfilm chart rolling --speed '30000 rpm'
+    """
     top = parse_quantity(speed, "rad/s")
     speeds = [k * top / (POINTS - 1) for k in range(POINTS)]
     curves = studies.ball_curves(studies.usual_bearing(), speeds, report=part_of(report, 0.0, 0.5))
@@ -231,9 +234,10 @@ def rolling(
 
 
 def cosim(report: Report, out: Folder = OUT) -> CommandOutput:
-    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
-    from .. import charts, studies
+    """Stability limits of the coupling schemes, and their error against film calls: takes minutes.
 
+    Example: rotorfilm chart cosim --json
+    """
     limits = studies.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = studies.coupling_cost(report=part_of(report, 0.6, 1.0))
     files = write_chart(out, "cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
@@ -246,8 +250,10 @@ def cosim(report: Report, out: Folder = OUT) -> CommandOutput:
 
 
 def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> CommandOutput:
-    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
-    from .. import charts, studies
+    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv.
+
+    Example: rotorfilm chart stability --ld 0.5 --json
+    """
     from ..charts.whirl_verdicts import verdicts
     from ..studies.journal_stability import by_film
 
@@ -268,9 +274,10 @@ def limits(
     ] = None,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
-    from .. import charts, studies
+    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds.
 
+    Example: rotorfilm chart limits --physics journal --physics damper
+    """
     atlas = studies.limits_atlas(physics, report=report)
     table = atlas.columns()
     files = write_chart(out, "limits", table, charts.plot_limit_summary(atlas), table)
@@ -289,9 +296,10 @@ def bearings(
     mass: Annotated[str, Option(help="Mass of the rigid rotor that a bearing carries.")] = "250 kg",
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load."""
-    from .. import charts, studies
+    """Types of bearings side by side: K and C over the Sommerfeld number, whirl threshold over the load.
 
+    Example: rotorfilm chart bearings --ld 0.5 --mass '250 kg'
+    """
     film = studies.bearing_coefficients(ld, report=part_of(report, 0.0, 0.3))
     carried = parse_quantity(mass, "kg")
     whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
@@ -322,8 +330,10 @@ def scene(
     changes: Settings = None,
     out: Folder = OUT,
 ) -> CommandOutput:
-    """Estimated error against cost of all models that could answer a scene, and the one that does."""
-    from ..charts import plot_scene_ladder
+    """Estimated error against cost of all models that could answer a scene, and the one that does.
+
+    Example: rotorfilm chart scene examples/question.toml
+    """
     from ..questions.walk import all_models
 
     loaded = load_scene(file, changes)
@@ -335,7 +345,7 @@ def scene(
         for r in result.rungs
         if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
     ]
-    axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance).draw()
+    axes = charts.plot_scene_ladder(points, title=title, tolerance=result.tolerance).draw()
     files = write_chart(out, file.stem, result.columns(), axes)
     rows = [
         (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), number(r.cost), r.reason)
@@ -346,8 +356,9 @@ def scene(
 
 
 def page(out: Folder = OUT) -> CommandOutput:
-    """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
-    from ..charts import write_page
+    """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else.
 
-    path = str(write_page(out))
+    Example: rotorfilm chart page --out rotorfilm-charts
+    """
+    path = str(charts.write_page(out))
     return CommandOutput({"page": path}, partial(console.print_rows, "", [("page", path)]))

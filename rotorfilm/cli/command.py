@@ -13,7 +13,7 @@ import math
 import os
 import sys
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
@@ -85,18 +85,15 @@ class Group(NamedTuple):
     Attributes
     ----------
     text : str
-        Its help.
-    commands : mapping of str to str
-        Examples, without the name of the program, by `module.function` of this folder.
-    example : str
-        Of the group.
+        Its help, with an example.
+    commands : sequence of str
+        As `module.function` of this folder.
     slow : bool
         Whether the commands take long from the beginning, so that the bar shows at once.
     """
 
     text: str
-    commands: Mapping[str, str]
-    example: str
+    commands: Sequence[str]
     slow: bool = False
 
     @property
@@ -179,12 +176,13 @@ JSON = inspect.Parameter(
 class Parser(argparse.ArgumentParser):
     """A parser whose complaints are those of the program."""
 
-    def __init__(self, program: str, usage: str, text: str, example: str) -> None:
+    def __init__(self, program: str, usage: str, documented: str) -> None:
+        text, _, example = inspect.cleandoc(documented).replace("%", "%%").partition("\n\nExample: ")
         super().__init__(
             prog=program,
             usage=f"{program} {usage}",
-            description=inspect.cleandoc(text).replace("%", "%%"),
-            epilog=f"Example: rotorfilm {example}".replace("%", "%%"),
+            description=text,
+            epilog=f"Example: {' '.join(example.split())}",
             formatter_class=partial(argparse.RawDescriptionHelpFormatter, max_help_position=28),
             allow_abbrev=False,
         )
@@ -210,7 +208,7 @@ def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> 
     followed = parameters.pop("report", None) is not None
     arguments = [get_args(each.annotation)[1] for each in parameters.values()]
     usage = " ".join(["[OPTIONS]", *(each.metavar for each in arguments if each.positional)])
-    parser = Parser(program, usage, function.__doc__ or "", group.commands[home])
+    parser = Parser(program, usage, function.__doc__ or "")
     taking = {flag for each in (*parameters.values(), JSON) for flag in _add(parser, each)}
     given = vars(parser.parse_args(list(_joined(words, taking))))
     as_json = given.pop("json")

@@ -21,7 +21,10 @@ def demo(
     report: Report,
     out: Annotated[Path, Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
 ) -> CommandOutput:
-    """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
+    """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts.
+
+    Example: rotorfilm demo --out rotorfilm-demo
+    """
     report(0.0, "packages")
     from ..scenes import bundled_scene
     from ..scenes.demo import plain_results, run_demo

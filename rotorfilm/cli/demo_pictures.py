@@ -8,16 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..charts import (
-    new_figure,
-    plot_coupling_error,
-    plot_journal_stability,
-    plot_locus,
-    plot_orbits,
-    plot_study,
-    plot_thresholds,
-    save,
-)
+from .. import charts
 from ..core.port import clearance_of
 from ..core.results import Trajectory
 from ..scenes.demo import ECCENTRICITY_RATIOS, DemoResult, demo_rungs
@@ -30,21 +21,21 @@ OVERVIEW_SIZE, OVERVIEW_DPI = (14.0, 11.2), 100
 def draw_demo(result: DemoResult, folder: Path) -> list[Path]:
     """Write the charts of a demonstration as PNG into an existing folder; return their paths."""
     return [
-        save(_draw_overview(result), folder / "demo.png", dpi=OVERVIEW_DPI),
-        save(_draw_orbits(result), folder / "orbit.png"),
-        save(_draw_locus(result), folder / "locus.png"),
-        save(
-            plot_journal_stability(result.stability, point=_working_point(result))[0],
+        charts.save(_draw_overview(result), folder / "demo.png", dpi=OVERVIEW_DPI),
+        charts.save(_draw_orbits(result), folder / "orbit.png"),
+        charts.save(_draw_locus(result), folder / "locus.png"),
+        charts.save(
+            charts.plot_journal_stability(result.stability, point=_working_point(result))[0],
             folder / "stability.png",
         ),
-        save(plot_study(result.accuracy)[0], folder / "accuracy.png"),
-        save(_draw_coupling(result), folder / "coupling.png"),
+        charts.save(charts.plot_study(result.accuracy)[0], folder / "accuracy.png"),
+        charts.save(_draw_coupling(result), folder / "coupling.png"),
     ]
 
 
 def _draw_overview(result: DemoResult) -> Axes:
     """Draw orbits and their error beside the whirl threshold and the force error of every film."""
-    figure = new_figure(size=OVERVIEW_SIZE)
+    figure = charts.new_figure(size=OVERVIEW_SIZE)
     (orbits, coupling), (stability, accuracy) = figure.subplots(2, 2, height_ratios=(1.0, 1.25))
     compared = result.accuracy
     slenderness = compared.conditions["length/diameter [1]"]
@@ -54,10 +45,10 @@ def _draw_overview(result: DemoResult) -> Axes:
     orbits.set_title("Orbit of the journal center")
     _draw_coupling(result, coupling)
     coupling.set_title("Co-simulation error against macro step")
-    plot_thresholds(result.stability, point=_working_point(result), axes=stability)
+    charts.plot_thresholds(result.stability, point=_working_point(result), axes=stability)
     stability.set(title="Whirl threshold of a rigid rotor (unstable above)", xlabel="eccentricity ratio [1]")
     accuracy.set_title("Error of the force against its cost")
-    plot_study(result.accuracy, axes=accuracy)
+    charts.plot_study(result.accuracy, axes=accuracy)
     return orbits
 
 
@@ -73,14 +64,16 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
         verdict = " (refused)" if run.refused else ""
         orbits[f"coupled, {math.degrees(run.macro_angle):.3g} deg{verdict}"] = run.trajectory
     center = result.answer.equilibrium.position
-    return plot_orbits(orbits, clearance=clearance_of(result.scene.bearing), center=center).draw(axes)[0]
+    return charts.plot_orbits(orbits, clearance=clearance_of(result.scene.bearing), center=center).draw(axes)[
+        0
+    ]
 
 
 def _draw_locus(result: DemoResult) -> Axes:
     ratios = np.array(ECCENTRICITY_RATIOS)
     families = {rung.name: FilmFamily(rung.family) for rung in demo_rungs()}
     curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
-    return plot_locus(curves, families=families).draw()[0]
+    return charts.plot_locus(curves, families=families).draw()[0]
 
 
 def _draw_coupling(result: DemoResult, axes: Axes | None = None) -> Axes:
@@ -88,4 +81,4 @@ def _draw_coupling(result: DemoResult, axes: Axes | None = None) -> Axes:
     angles = np.array([run.macro_angle for run in runs])
     errors = np.array([run.orbit_error for run in runs])
     refused = np.array([bool(run.refused) for run in runs])
-    return plot_coupling_error(angles, errors, refused, limit=result.critical_macro_angle, axes=axes)
+    return charts.plot_coupling_error(angles, errors, refused, limit=result.critical_macro_angle, axes=axes)

@@ -31,6 +31,8 @@ def build(
     """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it.
 
     So is a rotor on a damper whose oil has mass.
+
+    Example: rotorfilm fmu build examples/friswell.toml --out fmus --fmi 3.0
     """
     from ..scenes.export_scene import export_scene, export_scene_system
 
@@ -38,13 +40,7 @@ def build(
     with inside(scene):
         if loaded.has_film and loaded.damper is None:
             loaded.film_table.make_map(report)
-        made = export_scene(
-            loaded,
-            out,
-            version=fmi,
-            backend=backend,
-            platforms=platforms,
-        )
+        made = export_scene(loaded, out, version=fmi, backend=backend, platforms=platforms)
         files = {name: str(path) for name, path in made.items()}
         if ssp:
             made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)
@@ -53,7 +49,10 @@ def build(
 
 
 def check(file: FmuFile) -> CommandOutput:
-    """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails."""
+    """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails.
+
+    Example: rotorfilm fmu check film.fmu
+    """
     from ..fmu import check_fmu
 
     items = check_fmu(file)
@@ -70,7 +69,10 @@ def _check_row(check: str, passed: bool | None, figure: float | None, remark: st
 
 
 def info(file: FmuFile) -> CommandOutput:
-    """Show what an FMU says of itself: version, interfaces, platforms, variables."""
+    """Show what an FMU says of itself: version, interfaces, platforms, variables.
+
+    Example: rotorfilm fmu info film.fmu --json
+    """
     from ..fmu import describe_fmu
 
     found = describe_fmu(file)

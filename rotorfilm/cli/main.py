@@ -16,57 +16,36 @@ from .command import BAD_INPUT, FAILED, Group, Parser, function_of, run_command
 # A command's module is imported when it is called, and a package that takes long inside the command.
 
 
-COMMANDS = {
-    "solve_command.solve": 'solve examples/question.toml --explain --set "journal.clearance=80 um"',
-    "run_command.run": "run examples/blade_loss.toml --out motion.csv",
-    "sweep_command.sweep": 'sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
-    '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc',
-    "run_command.cosim": "cosim examples/friswell.toml --scheme si-exp3 "
-    '--set "cosimulation.macro_angle=5 deg"',
-    "solve_command.new": "new tilting_pad --out bearing.toml",
-    "solve_command.schema": "schema --out scene.schema.json",
-    "demo_command.demo": "demo --out rotorfilm-demo",
-}
-"""Commands with their examples, in the order of the help; each is a function of a module of this folder."""
+COMMANDS = (
+    *("solve_command.solve", "run_command.run", "sweep_command.sweep", "run_command.cosim"),
+    *("solve_command.new", "solve_command.schema", "demo_command.demo"),
+)
+"""Commands in the order of the help; each is a function of a module of this folder."""
 
-FMU_COMMANDS = {
-    "fmu_commands.build": "fmu build examples/friswell.toml --out fmus --fmi 3.0",
-    "fmu_commands.check": "fmu check film.fmu",
-    "fmu_commands.info": "fmu info film.fmu --json",
-}
-
-CHARTS = {
-    "chart_commands.journal": "chart journal --ld 0.5 --json",
-    "chart_commands.stability": "chart stability --ld 0.5 --json",
-    "chart_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
-    "chart_commands.pads": "chart pads --ld 0.5 --json",
-    "chart_commands.rolling": "chart rolling --speed '30000 rpm'",
-    "chart_commands.contact": "chart contact --cells 48 --json",
-    "chart_commands.scene": "chart scene examples/question.toml",
-    "chart_commands.limits": "chart limits --physics journal --physics damper",
-    "chart_commands.page": "chart page --out rotorfilm-charts",
-    "chart_commands.bush": "chart bush --json",
-    "chart_commands.heat": "chart heat --out rotorfilm-charts",
-    "chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
-    "chart_commands.cosim": "chart cosim --json",
-}
+CHARTS = (
+    *("journal", "stability", "bearings", "pads", "rolling", "contact", "scene", "limits", "page"),
+    *("bush", "heat", "damper", "cosim"),
+)
 
 ALL = Group(
-    "Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation.",
+    """Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation.
+
+    Example: rotorfilm solve examples/question.toml --explain""",
     COMMANDS,
-    "solve examples/question.toml --explain",
 )
 GROUPS = {
     "chart": Group(
-        "Charts of a ladder of models, from the cheapest to the reference: PNG and CSV.",
-        CHARTS,
-        "chart journal --ld 0.5 --out pictures",
+        """Charts of a ladder of models, from the cheapest to the reference: PNG and CSV.
+
+        Example: rotorfilm chart journal --ld 0.5 --out pictures""",
+        [f"chart_commands.{name}" for name in CHARTS],
         slow=True,
     ),
     "fmu": Group(
-        "Build FMUs of a scene, check one, show what is in one.",
-        FMU_COMMANDS,
-        "fmu build examples/friswell.toml --out fmus",
+        """Build FMUs of a scene, check one, show what is in one.
+
+        Example: rotorfilm fmu build examples/friswell.toml --out fmus""",
+        [f"fmu_commands.{name}" for name in ("build", "check", "info")],
     ),
 }
 """Commands behind another word."""
@@ -111,14 +90,14 @@ def _program() -> str:
 
 def _show(program: str, group: Group, words: Sequence[str]) -> None:
     """Show the help of a group, or the version, or say what is wrong with words that are no command."""
-    parser = Parser(program, "COMMAND [OPTIONS]", group.text, group.example)
+    parser = Parser(program, "COMMAND [OPTIONS]", group.text)
     if group is ALL:
         parser.add_argument("--version", action="store_true", help="Print the version and exit.")
     listed = parser.add_subparsers(title="commands", metavar="COMMAND", parser_class=argparse.ArgumentParser)
     for name, home in group.homes.items():
         listed.add_parser(name, help=_summary(function_of(home).__doc__), add_help=False)
     for name, below in GROUPS.items() if group is ALL else ():
-        listed.add_parser(name, help=below.text, add_help=False)
+        listed.add_parser(name, help=_summary(below.text), add_help=False)
     if "version" in parser.parse_args(words) and words:
         sys.stdout.write(f"rotorfilm {installed_version()}\n")
     else:

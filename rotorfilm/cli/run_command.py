@@ -29,9 +29,9 @@ from .command import (
 if TYPE_CHECKING:
     from ..core.results import Trajectory
     from ..scenes import Scene
+    from ..scenes.contact import ContactResponse
     from ..scenes.cosimulate_scene import CosimAnswer
     from ..scenes.rotor_runs import RotorRun
-    from ..scenes.solve_contact import ContactResponse
     from ..scenes.solve_damper import DamperRun
 
 RPM = 30.0 / math.pi
@@ -56,6 +56,8 @@ def run(
     A scene has a [shaft], a [rigid_rotor] on a film or a damper, or a [contact] whose load jumps or swings.
     Where a rotor reaches the wall, or the end of a film's range, the motion until then is shown and
     written, and the command exits with 1.
+
+    Example: rotorfilm run examples/blade_loss.toml --out motion.csv
     """
     loaded = load_scene(scene, changes)
     make_room(out)
@@ -73,9 +75,9 @@ def run(
 
 def _followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
     """Return the motion of what moves in a scene."""
-    from ..scenes.excitation_table import kind_of
+    from ..scenes.contact import run_contact
     from ..scenes.rotor_runs import run_rotor
-    from ..scenes.solve_contact import run_contact
+    from ..scenes.shared_tables import kind_of
     from ..scenes.solve_damper import couple_damper, run_damper
 
     on_contact = scene.contact is not None
@@ -200,7 +202,10 @@ def cosim(
     tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
     out: SignalFile = None,
 ) -> CommandOutput:
-    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
+    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls.
+
+    Example: rotorfilm cosim examples/friswell.toml --scheme si-exp3 --set "cosimulation.macro_angle=5 deg"
+    """
     report(0.0, "packages")
     from ..core.errors import PartialResultError
     from ..scenes.cosimulate_scene import run_scene, scheme_named

@@ -37,6 +37,8 @@ def solve(
 
     Exits with 1 if no model meets the tolerance of the question, or if there is nothing to answer it. Exits
     with 2 for bad input.
+
+    Example: rotorfilm solve examples/question.toml --explain --set "journal.clearance=80 um"
     """
     loaded = load_scene(scene, changes)
     if loaded.question is not None:
@@ -66,7 +68,10 @@ def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Comm
 def schema(
     out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.json")] = None,
 ) -> CommandOutput:
-    """Print the JSON Schema of scene files, by which editors complete and check them."""
+    """Print the JSON Schema of scene files, by which editors complete and check them.
+
+    Example: rotorfilm schema --out scene.schema.json
+    """
     from ..scenes.scene import json_schema
 
     text = json_schema()
@@ -80,6 +85,8 @@ def new(
     """Print a commented scene of a machine element that `rotorfilm solve` answers as it stands.
 
     NAME is journal, lobed_journal, pressure_dam, tilting_pad, ball_bearing, damper, contact, bush or shaft.
+
+    Example: rotorfilm new tilting_pad --out bearing.toml
     """
     from ..scenes.new_scene import new_scene
 

@@ -30,7 +30,11 @@ def sweep(
     workers: Annotated[int | None, Option(help="Processes; by default one for each core.")] = None,
     dask: Annotated[str | None, Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
 ) -> CommandOutput:
-    """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
+    """Solve a scene at all combinations of some values of its keys, into a NetCDF file.
+
+    Example: rotorfilm sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" --vary
+    "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc
+    """
     from ..sweeps import sweep as run
 
     parameters: dict[str, list[Any]] = {}

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .cosim_run import Choice, CoSimulation as CoSimulation, Trial, couple
     from .coupling_loop import (
         CouplingStability,
         CriticalMacroStep,
@@ -14,7 +13,17 @@ if TYPE_CHECKING:
         squeeze_limit,
     )
     from .fmu_slave import FmuSlave
-    from .master import Auto as Auto, choose_scheme, cosimulate as cosimulate, open_fmu, open_rotor
+    from .master import (
+        Auto as Auto,
+        Choice,
+        CoSimulation as CoSimulation,
+        Trial,
+        choose_scheme,
+        cosimulate as cosimulate,
+        couple,
+        open_fmu,
+        open_rotor,
+    )
     from .schemes import (
         Adaptive as Adaptive,
         GaussSeidel as GaussSeidel,

@@ -17,9 +17,9 @@ from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..native.library import master
 from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
+from . import schemes
 from .coupling_loop import Loop
 from .partners import WORK, Partners, Record, require_finite_outputs
-from .schemes import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
 from .slaves import NODES, TO_POWERS, Call, CompiledPartner, Integrated
 from .watch import CHECK, Watch
 
@@ -307,20 +307,23 @@ def _law(row: Array, m: int) -> ForceLaw:
     return ForceLaw(float(row[0]), force, slope, curvature, K.reshape(m, m), C.reshape(m, m), q, v)
 
 
-def plan_of(scheme: Scheme) -> dict[str, int] | None:
+def plan_of(scheme: schemes.Scheme) -> dict[str, int] | None:
     """Return how the loop in C takes a scheme (couple.h); None if it does not, as one that goes back."""
     kind = type(scheme)
-    if isinstance(scheme, GaussSeidel | Jacobi) and kind in (GaussSeidel, Jacobi):
-        named = "RF_JACOBI" if kind is Jacobi else "RF_GAUSS_SEIDEL"
+    if isinstance(scheme, schemes.GaussSeidel | schemes.Jacobi) and kind in (
+        schemes.GaussSeidel,
+        schemes.Jacobi,
+    ):
+        named = "RF_JACOBI" if kind is schemes.Jacobi else "RF_GAUSS_SEIDEL"
         return {"scheme": constant(named), "degree": scheme.degree, "gentle": scheme.degree > 1}
-    if kind in (SIExp, SIExp3):
-        return {"scheme": constant("RF_TANGENTIAL"), "third": kind is SIExp3}
+    if kind in (schemes.SIExp, schemes.SIExp3):
+        return {"scheme": constant("RF_TANGENTIAL"), "third": kind is schemes.SIExp3}
     return None
 
 
 def compiled_run(
     partners: Partners,
-    scheme: Scheme,
+    scheme: schemes.Scheme,
     record: Record,
     watch: Watch,
     macro_step: float,

@@ -19,29 +19,18 @@ from ..core.port import PlanarReaction
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
-from .cosim_run import CoSimulation, coupled, first_possible
+from . import schemes
 from .coupling_loop import coupling_loop, dominant_eigenvalue
+from .master import CoSimulation, coupled, first_possible
 from .partners import Partners
-from .schemes import (
-    MEMORY,
-    GaussSeidel,
-    Jacobi,
-    PartnerInterface,
-    Sample,
-    Scheme,
-    SIExp,
-    SIExp3,
-    StationMotion,
-    Tangents,
-)
 from .slaves import InProcessSlave
 from .watch import quietly
 
-SCHEMES: tuple[Scheme, ...] = (
-    *(GaussSeidel(degree=degree) for degree in range(3)),
-    Jacobi(),
-    SIExp(),
-    SIExp3(),
+SCHEMES: tuple[schemes.Scheme, ...] = (
+    *(schemes.GaussSeidel(degree=degree) for degree in range(3)),
+    schemes.Jacobi(),
+    schemes.SIExp(),
+    schemes.SIExp3(),
 )
 """Those that are left out cost as much and do less.
 
@@ -49,11 +38,11 @@ Newton's takes twice the calls of SI-exp for a larger error; extrapolation in pa
 for a larger error and a shorter limit, and masters in parallel hold their signals.
 """
 
-PILOTS: tuple[tuple[Scheme, float], ...] = (
-    (SIExp3(), math.radians(4.0)),
-    (SIExp(), math.radians(4.0)),
-    (SIExp(), math.radians(1.0)),
-    (SIExp(), math.radians(0.25)),
+PILOTS: tuple[tuple[schemes.Scheme, float], ...] = (
+    (schemes.SIExp3(), math.radians(4.0)),
+    (schemes.SIExp(), math.radians(4.0)),
+    (schemes.SIExp(), math.radians(1.0)),
+    (schemes.SIExp(), math.radians(0.25)),
 )
 """Scheme and macro step of the run that all others are predicted from; the first that is possible."""
 
@@ -106,7 +95,7 @@ class CouplingCase:
         """Return the number of macro steps [rad] in a run."""
         return math.ceil(2.0 * math.pi * self.revolutions / angle * (1.0 - 1e-12))
 
-    def run(self, scheme: Scheme, angle: float, *, gentle: bool = False) -> PilotRun:
+    def run(self, scheme: schemes.Scheme, angle: float, *, gentle: bool = False) -> PilotRun:
         """Return a coupled run at a macro step [rad]; a gentle start has short steps.
 
         Raises
@@ -131,7 +120,7 @@ class CouplingCase:
         own = run.outcome.trajectory
         return inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
 
-    def instability(self, scheme: Scheme, angle: float) -> str:
+    def instability(self, scheme: schemes.Scheme, angle: float) -> str:
         """Return why a run cannot be stable, by linear theory where the rotor starts; empty if it may be."""
         state, step = self.rotor.initial_state, angle / abs(self.rotor.profile.speeds[0])
         try:
@@ -148,11 +137,11 @@ class CouplingCase:
         )
 
     @cached_property
-    def errors(self) -> dict[tuple[Scheme, float], float]:
+    def errors(self) -> dict[tuple[schemes.Scheme, float], float]:
         """Errors of the runs made so far, by scheme and macro step [rad], / clearance."""
         return {}
 
-    def least(self, scheme: Scheme, angle: float) -> float:
+    def least(self, scheme: schemes.Scheme, angle: float) -> float:
         """Return the least error of a scheme at a macro step [rad], by its order from longer ones."""
         met = [(own, error) for (other, own), error in self.errors.items() if other == scheme]
         return max((error * min(1.0, angle / own) ** scheme.order for own, error in met), default=0.0)
@@ -169,12 +158,12 @@ class CouplingCase:
             If the journal cannot be followed even at the shortest step.
         """
 
-        def run(scheme: Scheme, angle: float) -> tuple[PilotRun, float]:
+        def run(scheme: schemes.Scheme, angle: float) -> tuple[PilotRun, float]:
             return self.run(scheme, angle, gentle=True), angle
 
         return first_possible(run, PILOTS, PartialResultError)
 
-    def predicted(self, scheme: Scheme, angle: float) -> float:
+    def predicted(self, scheme: schemes.Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
 
         To leading order: the defect of its force law along the motion of the pilot, propagated, and scaled
@@ -186,7 +175,7 @@ class CouplingCase:
         return float(self._constants[scheme] * ratio**order)
 
     @cached_property
-    def _constants(self) -> dict[Scheme, float]:
+    def _constants(self) -> dict[schemes.Scheme, float]:
         """Errors of all schemes at the pilot's macro step."""
         run = self.pilot[0]
         own = run.outcome.trajectory
@@ -197,13 +186,13 @@ class CouplingCase:
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
         force = self.reaction.force(motion.position, motion.velocity, speed)
         slopes = self.reaction.jacobian(motion.position, motion.velocity, speed)
-        found: dict[Scheme, float] = {}
+        found: dict[schemes.Scheme, float] = {}
         for scheme in SCHEMES:
-            if isinstance(scheme, Jacobi):
-                found[scheme] = PARALLEL * found[GaussSeidel(degree=scheme.degree)]
+            if isinstance(scheme, schemes.Jacobi):
+                found[scheme] = PARALLEL * found[schemes.GaussSeidel(degree=scheme.degree)]
                 continue
             # Only parabolas begin with short steps.
-            met = samples if isinstance(scheme, GaussSeidel) and scheme.degree > 1 else regular
+            met = samples if isinstance(scheme, schemes.GaussSeidel) and scheme.degree > 1 else regular
             defect = force - law_forces(laws_on(met, scheme), motion)
             moved, _ = propagated(self.rotor.mass, motion.dt, slopes, defect)
             found[scheme] = largest(moved, motion.parts) / self.reaction.clearance
@@ -213,24 +202,24 @@ class CouplingCase:
 # Schemes on a motion known beforehand: the force laws that they would have there.
 
 
-class _Replay(PartnerInterface):
+class _Replay(schemes.PartnerInterface):
     """A scheme is given a motion known beforehand, to see its force law."""
 
-    def __init__(self, following: Sample) -> None:
+    def __init__(self, following: schemes.Sample) -> None:
         self._following = following
         self.law: ForceLaw | None = None
 
-    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
+    def drive(self, t: float, dt: float, law: ForceLaw) -> schemes.StationMotion:
         """Keep the law; the motion is the known one."""
         self.law = law
         return self._following.motion
 
-    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
+    def evaluate(self, t: float, dt: float, motion: schemes.StationMotion, derive: bool) -> schemes.Sample:
         """Return the known forces."""
         return self._following
 
 
-def samples_of(reaction: PlanarReaction, run: Trajectory, speed: float) -> list[Sample]:
+def samples_of(reaction: PlanarReaction, run: Trajectory, speed: float) -> list[schemes.Sample]:
     """Return the communication points of a motion at constant speed [rad/s], with the films' derivatives."""
     time, q, v = run.time, run.position, run.velocity
     forces = reaction.force(q, v, np.full(time.size, speed))
@@ -240,24 +229,24 @@ def samples_of(reaction: PlanarReaction, run: Trajectory, speed: float) -> list[
         moving = reaction.jacobian(q[:, 1:], v[:, 1:], np.full(time.size - 1, speed))
         slopes = np.concatenate([np.zeros((2, 5, 1)), moving], axis=2)
     return [
-        Sample(
+        schemes.Sample(
             float(time[n]),
-            StationMotion(q[:, n], v[:, n], speed, {}),
+            schemes.StationMotion(q[:, n], v[:, n], speed, {}),
             forces[:, n],
-            Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
+            schemes.Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
             {},
         )
         for n in range(time.size)
     ]
 
 
-def laws_on(samples: Sequence[Sample], scheme: Scheme) -> list[ForceLaw]:
+def laws_on(samples: Sequence[schemes.Sample], scheme: schemes.Scheme) -> list[ForceLaw]:
     """Return the force laws of a scheme on a known motion."""
     laws = []
     for n in range(len(samples) - 1):
         bench, now = _Replay(samples[n + 1]), samples[n]
         length = samples[n + 1].time - now.time
-        scheme.step(bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, length)
+        scheme.step(bench, samples[max(0, n + 1 - schemes.MEMORY) : n + 1], now.time, length)
         assert bench.law is not None  # every scheme drives the rotor
         laws.append(bench.law)
     return laws

@@ -16,15 +16,7 @@ from fmpy.fmi1 import FMICallException
 from ..core.errors import FilmContactError, FmuError, InputError
 from ..core.model import Array, Linearization
 from ..core.signals import from_fmi_name
-from ..fmu.instance import (
-    DERIVATIVES,
-    STATES,
-    Port,
-    instantiated,
-    nominal_of,
-    provides,
-    variables_of,
-)
+from ..fmu import instance as fmus
 from ..native.structs import constant, structure
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from .slaves import Call, CompiledPartner, Integrated, Slave, Wiring
@@ -52,17 +44,20 @@ class FmuSlave(Slave):
             causality: references_of(description, causality) for causality in ("input", "output")
         }
         self.inputs, self.outputs = (tuple(named) for named in self._references.values())
-        told = variables_of(description, "output")
+        told = fmus.variables_of(description, "output")
         self.units = {local_name(one.name): one.unit for one in told if one.unit}
-        self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
+        self.differentiates, self.restores = (
+            fmus.provides(folder, fmus.DERIVATIVES),
+            fmus.provides(folder, fmus.STATES),
+        )
         slopes = [unknown.variable for unknown in description.derivatives or ()]
         self._slopes = [slope.valueReference for slope in slopes]
         self._states = [slope.derivative.valueReference for slope in slopes]
         self._wiring: Wiring | None = None
-        self._law: Port | None = None
-        self._instance = instantiated(description, folder, exchange)
+        self._law: fmus.Port | None = None
+        self._instance = fmus.instantiated(description, folder, exchange)
         # Values are exchanged in each step: their references are told once.
-        self._ports: dict[tuple[str, ...], Port] = {}
+        self._ports: dict[tuple[str, ...], fmus.Port] = {}
         self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Callable[[], Array]] = {}
         self._output = self._instance.port(list(self._references["output"].values()))
 
@@ -166,7 +161,7 @@ class FmuSlave(Slave):
     def _inputs(self, values: Iterable[str]) -> list[int]:
         return [self._references["input"][name] for name in values]
 
-    def _port(self, names: tuple[str, ...]) -> Port:
+    def _port(self, names: tuple[str, ...]) -> fmus.Port:
         return self._ports.setdefault(names, self._instance.port(self._inputs(names)))
 
     def _calling(self, doing: str, call: Callable[..., Any], *arguments: Any) -> Any:
@@ -190,7 +185,7 @@ class ExchangeRotor(Integrated, FmuSlave):
         super().__init__(description, folder, exchange=True)
         self._kink = np.inf
         slopes = (unknown.variable for unknown in description.derivatives or ())
-        self.nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
+        self.nominals = np.array([fmus.nominal_of(slope.derivative) for slope in slopes])
         self.state, self.base = np.zeros(len(self._states)), np.zeros(len(self.inputs))
         self._input = self._instance.port(list(self._references["input"].values()))
 
@@ -267,7 +262,7 @@ class ExchangeRotor(Integrated, FmuSlave):
 def references_of(description: Any, causality: str) -> dict[str, int]:
     """Return the value references of the real inputs or outputs, by local name."""
     references: dict[str, int] = {}
-    for variable in variables_of(description, causality):
+    for variable in fmus.variables_of(description, causality):
         name = local_name(variable.name)
         if name in references:
             raise InputError(f"{causality} names must differ without their component, got {name!r} twice")

@@ -14,21 +14,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from ..core import signals
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints
 from ..core.port import in_time
-from ..core.signals import (
-    FORCE_OUTPUTS,
-    FREEDOMS,
-    JOURNAL_INPUTS,
-    MASS_OUTPUTS,
-    MOTION_NAMES,
-    PLANAR,
-    force_names,
-    indices,
-    names,
-    units,
-)
 from ..fmu.reference import advance
 from ..native.library import master
 from ..native.spec import HasKernel
@@ -92,11 +81,11 @@ def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
     taken, told = rotor
     for (station, (inputs, outputs)), motion, force in zip(films.items(), motions, forces, strict=True):
         require_planar(inputs, outputs)
-        indices("rotor must have the inputs", taken, force)
-        indices("film must have the outputs", outputs, FORCE_OUTPUTS)
+        signals.indices("rotor must have the inputs", taken, force)
+        signals.indices("film must have the outputs", outputs, signals.FORCE_OUTPUTS)
         require_no_mass(outputs, taken)
-        indices("rotor must have the outputs", told, list(sources(told, station, inputs).values()))
-        indices("rotor must have the outputs", told, motion)
+        signals.indices("rotor must have the outputs", told, list(sources(told, station, inputs).values()))
+        signals.indices("rotor must have the outputs", told, motion)
     return Wiring(
         tuple(films),
         tuple(name for own in forces for name in own),
@@ -107,8 +96,8 @@ def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
 
 def require_planar(inputs: Sequence[str], outputs: Sequence[str]) -> None:
     """Raise InputError where a film has a further freedom than x, y, by the names of its signals."""
-    further = [name for name in FREEDOMS if name not in PLANAR]
-    known = [name for name in (*inputs, *outputs) if name in (*further, *force_names(further))]
+    further = [name for name in signals.FREEDOMS if name not in signals.PLANAR]
+    known = [name for name in (*inputs, *outputs) if name in (*further, *signals.force_names(further))]
     if known:
         raise InputError(
             f"film must react to x and y alone in a co-simulation, got the signals {known}: simulate, and "
@@ -118,18 +107,19 @@ def require_planar(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
     """Raise InputError where a film adds mass that the rotor does not take; names of outputs and inputs."""
-    if MASS_OUTPUTS[0] in film and MASS_OUTPUTS[0] not in rotor:
+    if signals.MASS_OUTPUTS[0] in film and signals.MASS_OUTPUTS[0] not in rotor:
         raise InputError(
-            f"film must not add mass to a rotor without inputs for it, got the outputs {list(MASS_OUTPUTS)}. "
-            "An exchange of accelerations multiplies its error by -mass/rotor mass, and diverges if the oil "
-            "is heavier than the rotor: use mount(rotor, ...), which has both in one FMU"
+            "film must not add mass to a rotor without inputs for it, got the outputs "
+            f"{list(signals.MASS_OUTPUTS)}. An exchange of accelerations multiplies its error by -mass/rotor "
+            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which has both in "
+            "one FMU"
         )
 
 
 def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict[str, str]:
     """Return, for each input of a film, the output of the rotor that feeds it."""
     own = {name: station_name(station, name) for name in inputs}
-    return {name: at if name in MOTION_NAMES or at in outputs else name for name, at in own.items()}
+    return {name: at if name in signals.MOTION_NAMES or at in outputs else name for name, at in own.items()}
 
 
 # What a master asks of its partners, and models in this process as such partners.
@@ -267,8 +257,8 @@ class _Held(Slave):
     restores = True
 
     def __init__(self, model: Model | Stepped) -> None:
-        self.inputs, self.outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
-        self.units = units(model.outputs)
+        self.inputs, self.outputs = tuple(signals.names(model.inputs)), tuple(signals.names(model.outputs))
+        self.units = signals.units(model.outputs)
         self._u = np.zeros(len(self.inputs))
 
     def set(self, values: Mapping[str, float]) -> None:
@@ -393,7 +383,10 @@ class SteppedPartner(_Held):
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(force)/d(motion) of the film whose past is held, shape (n_outputs, n_inputs)."""
-        rows, columns = [FORCE_OUTPUTS.index(n) for n in outputs], [JOURNAL_INPUTS.index(n) for n in inputs]
+        rows, columns = (
+            [signals.FORCE_OUTPUTS.index(n) for n in outputs],
+            [signals.JOURNAL_INPUTS.index(n) for n in inputs],
+        )
         slopes: Array = self._film.slopes(self._state)[np.ix_(rows, columns)]
         return slopes
 
@@ -482,8 +475,8 @@ def kernel_partner(model: Model) -> CompiledPartner | None:
         raise InputError(why.text.decode(errors="replace"))
     own = structure("rf_own").from_address(at)
     sizes = own.sizes.inputs, own.sizes.outputs, own.sizes.states
-    inputs = names(model.inputs) if spec.inputs is None else spec.inputs
-    outputs, first = names(model.outputs), own.sizes.states
+    inputs = signals.names(model.inputs) if spec.inputs is None else spec.inputs
+    outputs, first = signals.names(model.outputs), own.sizes.states
     found = CompiledPartner(
         structure("rf_partner")(kind=constant("RF_IS_KERNEL"), component=at, states=first),
         {name: k for k, name in enumerate(inputs)},

@@ -11,14 +11,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.errors import (
-    ConvergenceError,
-    CouplingWarning,
-    InputError,
-    RotorfilmError,
-    require_finite,
-    warn_user,
-)
+from ..core import errors
 from ..core.model import Array
 from ..core.readable import Readable
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
@@ -102,9 +95,9 @@ def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
     InputError
         If a value is not finite or the shapes do not fit.
     """
-    times, forces = require_finite("time", time), require_finite("force", force)
+    times, forces = errors.require_finite("time", time), errors.require_finite("force", force)
     if times.ndim != 1 or forces.ndim != 2 or forces.shape[1] != times.size:
-        raise InputError(f"force must have shape (k, {times.size}), got {forces.shape}")
+        raise errors.InputError(f"force must have shape (k, {times.size}), got {forces.shape}")
     level = _rms(forces)
     # Second differences of an alternation of amplitude a have the size 4 a.
     swing = np.diff(forces, n=2, axis=1) / 4.0
@@ -215,7 +208,7 @@ class CouplingWatch(Readable):
 @contextmanager
 def quietly() -> Iterator[None]:
     """Silence the warnings of couplings that go to their limit on purpose."""
-    with warnings.catch_warnings(action="ignore", category=CouplingWarning):
+    with warnings.catch_warnings(action="ignore", category=errors.CouplingWarning):
         yield
 
 
@@ -253,7 +246,7 @@ class Watch:
         try:
             tangents = tangents or self._partners.tangents()
             linear = self._partners.linear_rotor(float(self._record.time[point]))
-        except RotorfilmError:
+        except errors.RotorfilmError:
             linear = None
         if tangents is None or linear is None:
             self.checks = False
@@ -351,7 +344,7 @@ class Watch:
     def _judge(self, loop: Loop, ratio: float, t: float) -> None:
         try:
             limit = np.inf if isinstance(self._scheme, Adaptive) else squeeze_limit(self._scheme)
-        except ConvergenceError:  # the run itself will say so
+        except errors.ConvergenceError:  # the run itself will say so
             return
         if not np.isfinite(limit):
             return
@@ -371,7 +364,7 @@ class Watch:
 
     def _warn(self, message: str) -> None:
         if not self._warnings:
-            warn_user(message, CouplingWarning)
+            errors.warn_user(message, errors.CouplingWarning)
         self._warnings.append(message)
 
 

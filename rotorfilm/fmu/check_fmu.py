@@ -18,24 +18,7 @@ from scipy.integrate import DOP853
 from ..core.errors import FmuError, brief
 from ..core.files import read_text
 from ..core.model import Array
-from .instance import (
-    ADJOINT_DERIVATIVES,
-    DERIVATIVES,
-    SERIAL_STATES,
-    STATES,
-    Instance,
-    extracted,
-    instantiated,
-    known_nominals,
-    knowns_of,
-    nominal_of,
-    provides,
-    reals_of,
-    references_of,
-    starts_of,
-    unknowns_of,
-    variables_of,
-)
+from . import instance as fmus
 from .native.platforms import libraries, require_complete_file
 
 REFERENCE_TOLERANCE = 1e-8
@@ -91,7 +74,7 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
     FmuError
         If the file cannot be read.
     """
-    with extracted(path) as (description, folder):
+    with fmus.extracted(path) as (description, folder):
         of = description, folder, _reference(description, folder)
         checks: dict[str, Callable[[], Outcome]] = {
             "description": lambda: _check_description(str(path)),
@@ -129,25 +112,25 @@ def _check_libraries(folder: str) -> Outcome:
 
 
 def _check_derivatives(description: Any, folder: str, reference: Array | None) -> Outcome:
-    if not provides(folder, DERIVATIVES):
+    if not fmus.provides(folder, fmus.DERIVATIVES):
         return None, None, "no directional derivatives"
     worst = _visit(description, folder, reference, derivative_error)
     return worst <= DERIVATIVE_TOLERANCE, worst, "largest deviation from central differences"
 
 
 def _check_adjoint(description: Any, folder: str, reference: Array | None) -> Outcome:
-    if not provides(folder, ADJOINT_DERIVATIVES):
+    if not fmus.provides(folder, fmus.ADJOINT_DERIVATIVES):
         return None, None, "no adjoint derivatives"
     worst = _visit(description, folder, reference, adjoint_error)
     return worst <= 1e-12, worst, "largest deviation from the directional derivatives"
 
 
 def _check_state(description: Any, folder: str) -> Outcome:
-    if description.coSimulation is None or not provides(folder, STATES, SERIAL_STATES):
+    if description.coSimulation is None or not fmus.provides(folder, fmus.STATES, fmus.SERIAL_STATES):
         return None, None, "no FMU states in Co-Simulation"
     with (
-        closing(instantiated(description, folder, False)) as first,
-        closing(instantiated(description, folder, False)) as second,
+        closing(fmus.instantiated(description, folder, False)) as first,
+        closing(fmus.instantiated(description, folder, False)) as second,
     ):
         count = state_differences(description, first, second)
     return count == 0, float(count), "values that differ after restoring and after serializing"
@@ -158,8 +141,8 @@ def _replayed(
 ) -> Outcome:
     if interface is None or reference is None:
         return None, None, "no such interface" if interface is None else "no reference trajectory in the FMU"
-    signals = variables_of(description, "output")
-    expected, nominal = reference[:, -len(signals) :], [nominal_of(signal) for signal in signals]
+    signals = fmus.variables_of(description, "output")
+    expected, nominal = reference[:, -len(signals) :], [fmus.nominal_of(signal) for signal in signals]
     found, largest = replay(description, folder, reference), np.abs(expected).max(axis=0)
     worst = float(np.max(np.abs(found - expected) / np.where(largest > 0.0, largest, nominal), initial=0.0))
     return worst <= REFERENCE_TOLERANCE, worst, "largest deviation from the trajectory inside"
@@ -169,14 +152,14 @@ def _visit(
     description: Any,
     folder: str,
     reference: Array | None,
-    measure: Callable[[Any, Instance, Array], float],
+    measure: Callable[[Any, fmus.Instance, Array], float],
 ) -> float:
     """Return the largest of a measure over some states of the FMU, in Model Exchange if it has it."""
-    inputs = references_of(description, "input")
-    rows = np.array([starts_of(description, "input")])
+    inputs = fmus.references_of(description, "input")
+    rows = np.array([fmus.starts_of(description, "input")])
     if reference is not None:
         rows = reference[:: max(1, len(reference) // 8), 1 : 1 + len(inputs)]
-    with closing(instantiated(description, folder, description.modelExchange is not None)) as instance:
+    with closing(fmus.instantiated(description, folder, description.modelExchange is not None)) as instance:
         instance.initialize(inputs, rows[0].tolist())
         return max(measure(description, instance, row) for row in rows)
 
@@ -191,7 +174,7 @@ def _reference(description: Any, folder: str) -> Array | None:
         table = np.array([[float(cell) for cell in row] for row in rows])
     except (ValueError, csv.Error) as error:
         raise FmuError(f"reference.csv must be names and rows of numbers below them, got {error}") from None
-    signals = [*variables_of(description, "input"), *variables_of(description, "output")]
+    signals = [*fmus.variables_of(description, "input"), *fmus.variables_of(description, "output")]
     if header != ["time", *(variable.name for variable in signals)]:
         raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {brief(header)}")
     if table.shape != (len(rows), len(header)) or not rows or not np.isfinite(table).all():
@@ -208,10 +191,14 @@ DIFFERENCE_STEP = 1e-4
 """Step of the differences in nominal values, where their errors of fourth order and of roundoff balance."""
 
 
-def derivative_error(description: Any, instance: Instance, inputs: Array) -> float:
+def derivative_error(description: Any, instance: fmus.Instance, inputs: Array) -> float:
     """Return the largest deviation of directional derivatives from differences, relative to its row."""
-    unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
-    instance.set(references_of(description, "input"), inputs.tolist())
+    unknowns, knowns, nominal = (
+        fmus.unknowns_of(description),
+        fmus.knowns_of(description),
+        fmus.known_nominals(description),
+    )
+    instance.set(fmus.references_of(description, "input"), inputs.tolist())
     if description.modelExchange is not None:
         instance.move(0.0, _states(description))
     exact, values = _columns(instance, unknowns, knowns), np.abs(instance.get(unknowns))
@@ -222,15 +209,19 @@ def derivative_error(description: Any, instance: Instance, inputs: Array) -> flo
         ],
         axis=1,
     )
-    instance.set(references_of(description, "input"), inputs.tolist())
+    instance.set(fmus.references_of(description, "input"), inputs.tolist())
     # What does not depend on anything has differences of roundoff, to be seen beside its value.
     return _deviation(exact * nominal, moved * nominal, DIFFERENCE_STEP * values)
 
 
-def adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
+def adjoint_error(description: Any, instance: fmus.Instance, inputs: Array) -> float:
     """Return the largest deviation of adjoint from directional derivatives, relative to its row."""
-    unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
-    instance.set(references_of(description, "input"), inputs.tolist())
+    unknowns, knowns, nominal = (
+        fmus.unknowns_of(description),
+        fmus.knowns_of(description),
+        fmus.known_nominals(description),
+    )
+    instance.set(fmus.references_of(description, "input"), inputs.tolist())
     exact = _columns(instance, unknowns, knowns)
     rows = np.array([instance.adjoint([unknown], knowns, [1.0]) for unknown in unknowns])
     return _deviation(exact * nominal, rows * nominal, np.zeros(len(unknowns)))
@@ -243,36 +234,36 @@ def _deviation(exact: Array, other: Array, floor: Array) -> float:
     return float(np.max(largest / np.where(scale > 0.0, scale, 1.0), initial=0.0))
 
 
-def _columns(instance: Instance, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
+def _columns(instance: fmus.Instance, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
     return np.stack([instance.directional(unknowns, [known], [1.0]) for known in knowns], axis=1)
 
 
 def _states(description: Any) -> Array:
     """Return the states for differences: beyond the start values, which may be the end of a range."""
-    nominal = known_nominals(description)[len(references_of(description, "input")) :]
-    return starts_of(description, "local") + 4.0 * DIFFERENCE_STEP * nominal
+    nominal = fmus.known_nominals(description)[len(fmus.references_of(description, "input")) :]
+    return fmus.starts_of(description, "local") + 4.0 * DIFFERENCE_STEP * nominal
 
 
-def _difference(description: Any, instance: Instance, known: int, step: float, inputs: Array) -> Array:
+def _difference(description: Any, instance: fmus.Instance, known: int, step: float, inputs: Array) -> Array:
     """Return the derivative by one known from central differences of fourth order."""
     weights = {-2.0: 1.0, -1.0: -8.0, 1.0: 8.0, 2.0: -1.0}
     states = _states(description)
-    total = np.zeros(len(unknowns_of(description)))
+    total = np.zeros(len(fmus.unknowns_of(description)))
     for shift, weight in weights.items():
         shifted = np.concatenate([inputs, states])
         shifted[known] += shift * step
-        instance.set(references_of(description, "input"), shifted[: len(inputs)].tolist())
+        instance.set(fmus.references_of(description, "input"), shifted[: len(inputs)].tolist())
         if description.modelExchange is not None:
             instance.move(0.0, shifted[len(inputs) :])
-        total += weight * np.array(instance.get(unknowns_of(description)))
+        total += weight * np.array(instance.get(fmus.unknowns_of(description)))
     if description.modelExchange is not None:
         instance.move(0.0, np.array(states))
     return total / (12.0 * step)
 
 
-def state_differences(description: Any, first: Instance, second: Instance) -> int:
+def state_differences(description: Any, first: fmus.Instance, second: fmus.Instance) -> int:
     """Return how many values differ between a run, the same run restored, and it in another instance."""
-    everything = [v.valueReference for v in reals_of(description) if v.causality != "independent"]
+    everything = [v.valueReference for v in fmus.reals_of(description) if v.causality != "independent"]
     experiment = description.defaultExperiment
     step = float(getattr(experiment, "stepSize", None) or 1e-3)
     first.initialize([], [])
@@ -292,7 +283,7 @@ def state_differences(description: Any, first: Instance, second: Instance) -> in
     return sum(a != b for run in runs[1:] for a, b in zip(runs[0], run, strict=True))
 
 
-def _advanced(instance: Instance, references: Sequence[int], step: float) -> list[float]:
+def _advanced(instance: fmus.Instance, references: Sequence[int], step: float) -> list[float]:
     for k in range(3, 6):
         instance.step(k * step, step)
     return instance.get(references)
@@ -322,9 +313,9 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     table : ndarray, shape (n_rows, 1 + n_inputs + ...)
         Columns time and inputs; the inputs of a row are held until the next row.
     """
-    inputs, outputs = references_of(description, "input"), references_of(description, "output")
+    inputs, outputs = fmus.references_of(description, "input"), fmus.references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    with closing(instantiated(description, folder, False)) as instance:
+    with closing(fmus.instantiated(description, folder, False)) as instance:
         instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
@@ -336,10 +327,10 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
 
 def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     """Return the outputs (n_rows, n_outputs) of an FMU in Model Exchange; see `replay_steps`."""
-    inputs, outputs = references_of(description, "input"), references_of(description, "output")
+    inputs, outputs = fmus.references_of(description, "input"), fmus.references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
-    with closing(instantiated(description, folder, True)) as instance:
+    nominal = np.array([fmus.nominal_of(state) for state in fmus.variables_of(description, "local")])
+    with closing(fmus.instantiated(description, folder, True)) as instance:
         next_event = instance.initialize(inputs, values[0].tolist(), float(time[0]))
         x = instance.states(len(nominal))
         rows = [instance.get(outputs)]
@@ -351,7 +342,7 @@ def replay_exchange(description: Any, folder: str, table: Array) -> Array:
 
 
 def _between(
-    instance: Instance, t: float, x: Array, end: float, nominal: Array, next_event: float | None
+    instance: fmus.Instance, t: float, x: Array, end: float, nominal: Array, next_event: float | None
 ) -> tuple[Array, float | None]:
     """Return the state at `end`, and the time of the next event."""
     while next_event is not None and next_event <= end:
@@ -363,7 +354,7 @@ def _between(
     return _integrated(instance, t, x, end, nominal), next_event
 
 
-def _integrated(instance: Instance, t: float, x: Array, end: float, nominal: Array) -> Array:
+def _integrated(instance: fmus.Instance, t: float, x: Array, end: float, nominal: Array) -> Array:
     if not len(x) or end <= t:
         instance.move(end, x)
         return x

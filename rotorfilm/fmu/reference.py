@@ -56,9 +56,8 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
         If the model has no outputs over the first step even with its inputs at rest.
     """
     time = np.linspace(0.0, duration, ROWS)
-    own = _compiled(model, time) if isinstance(model, MountedRotor) and not model.inputs else None
-    if own is not None:
-        return own
+    if isinstance(model, MountedRotor) and not model.inputs and (table := _compiled(model, time)) is not None:
+        return table
     nominal = np.array([signal.nominal for signal in model.inputs])
     cycles = np.arange(1, len(nominal) + 1)
     waves = np.sin(2.0 * np.pi * np.outer(time / duration, cycles) + cycles)

@@ -11,31 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..analysis.equal_steps import scalar_drift
-from ..bearings.bush import (
-    WIDEST,
-    ApproximateShaft,
-    ExactShaft,
-    LocalMelting,
-    MeltingBush,
-    MeltingRule,
-    Path,
-    ShaftHeat,
-    Stage,
-    Wearing,
-    arc_of_wear,
-    end_of_local_wear,
-    end_of_wear,
-    mean_weight,
-    peak_weight,
-    wear_at_nodes,
-    wear_by_one_moment,
-    wear_by_two_moments,
-)
+from ..bearings import bush as bushes
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
 from ..core.model import Array
-from ..scenes.excitation_table import StepLoadTable
-from ..scenes.families import Remark, messages
+from ..scenes.families import messages, remarks_of
+from ..scenes.shared_tables import StepLoadTable
 from .variants import FunctionRung
 
 if TYPE_CHECKING:
@@ -51,9 +32,9 @@ CLOSED_ERROR = 1e-3
 """Order of magnitude of the error of its closed form."""
 
 
-def speed_rung(bush: MeltingBush, load: float) -> FunctionRung:
+def speed_rung(bush: bushes.MeltingBush, load: float) -> FunctionRung:
     """Return the critical speed [rad/s] of the unworn bush under a load [N], by its heat into the shaft."""
-    is_exact = isinstance(bush.shaft_heat, ExactShaft)
+    is_exact = isinstance(bush.shaft_heat, bushes.ExactShaft)
     unit, exact = (
         WorkUnit(f"fluxes into the shaft, {name}", ("fluxes", name))
         for name in ("exact" if is_exact else FLUX, "exact")
@@ -68,7 +49,9 @@ def speed_rung(bush: MeltingBush, load: float) -> FunctionRung:
         if is_exact:
             return ErrorEstimate(EXACT_ERROR, "verified bound of the flux", bound=True)
         at = found.solution
-        change = float(replace(bush, shaft_heat=ExactShaft()).shaft_flux(at.contact_angle)) - at.shaft_flux
+        change = (
+            float(replace(bush, shaft_heat=bushes.ExactShaft()).shaft_flux(at.contact_angle)) - at.shaft_flux
+        )
         error = abs(change) / (at.shaft_flux + change + at.liner_flux)
         return ErrorEstimate(error, "defect of the exact flux", {exact: 1})
 
@@ -92,10 +75,8 @@ def bush_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no bush.
     """
-    if scene.bush is None:
-        raise InputError(f"bush is required for {quantity}, got no such table")
-    bush, load = scene.bush.build(), math.hypot(*scene.static_load)
-    shafts = (ApproximateShaft(), ExactShaft())
+    bush, load = scene.required("bush", quantity).build(), math.hypot(*scene.static_load)
+    shafts = (bushes.ApproximateShaft(), bushes.ExactShaft())
     rungs = tuple(speed_rung(replace(bush, shaft_heat=shaft), load) for shaft in shafts)
     return Ladder(rungs=rungs, unit="rad/s")
 
@@ -123,11 +104,11 @@ class BushRun:
         Times of constant load.
     """
 
-    bush: MeltingBush
-    rule: MeltingRule
+    bush: bushes.MeltingBush
+    rule: bushes.MeltingRule
     melting_heat: float
     speed: float
-    stages: tuple[Stage, ...]
+    stages: tuple[bushes.Stage, ...]
 
     @property
     def radius(self) -> float:
@@ -145,23 +126,23 @@ class BushRun:
     @property
     def local(self) -> bool:
         """Whether each point melts by its own balance."""
-        return isinstance(self.rule, LocalMelting)
+        return isinstance(self.rule, bushes.LocalMelting)
 
     @cached_property
-    def exact(self) -> Wearing:
+    def exact(self) -> bushes.Wearing:
         """With the exact heat into the shaft."""
-        return self._wearing(ExactShaft())
+        return self._wearing(bushes.ExactShaft())
 
     @cached_property
-    def closed(self) -> Wearing:
+    def closed(self) -> bushes.Wearing:
         """With the closed form of the heat into the shaft."""
-        return self._wearing(ApproximateShaft())
+        return self._wearing(bushes.ApproximateShaft())
 
-    def _wearing(self, shaft_heat: ShaftHeat) -> Wearing:
+    def _wearing(self, shaft_heat: bushes.ShaftHeat) -> bushes.Wearing:
         bush = replace(self.bush, shaft_heat=shaft_heat)
-        return Wearing(bush.law, self.speed, self.melting_heat * self.radius)
+        return bushes.Wearing(bush.law, self.speed, self.melting_heat * self.radius)
 
-    def margin(self, bush: Wearing) -> float:
+    def margin(self, bush: bushes.Wearing) -> float:
         """Return speed / critical speed - 1 of the unworn bush, the largest of all stages.
 
         Where each point melts by itself the largest pressure decides, otherwise the mean.
@@ -169,7 +150,7 @@ class BushRun:
         margins = []
         for stage in self.stages:
             alpha = bush.angle(0.0, stage.load_ratio)
-            weight = peak_weight(alpha) if self.local else mean_weight(alpha)
+            weight = bushes.peak_weight(alpha) if self.local else bushes.mean_weight(alpha)
             margins.append(bush.work * stage.load_ratio * float(weight) / float(bush.losses(alpha)) - 1.0)
         return max(margins)
 
@@ -207,20 +188,19 @@ def bush_run(scene: Scene, quantity: str) -> BushRun:
     InputError
         If the scene has no bush, no load, does not turn, or its load does not keep its direction.
     """
-    if scene.bush is None:
-        raise InputError(f"bush is required for {quantity}, got no such table")
+    table = scene.required("bush", quantity)
     if scene.speed == 0.0:
         raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
     load = math.hypot(*scene.static_load)
     if load == 0.0:
         raise InputError(f"operation.load must not be zero for {quantity}, got 0.0")
-    bush = scene.bush.build()
+    bush = table.build()
     return BushRun(
         bush=bush,
-        rule=scene.bush.melting,
-        melting_heat=scene.bush.melting_heat,
+        rule=table.melting,
+        melting_heat=table.melting_heat,
         speed=scene.speed,
-        stages=tuple(Stage(t, force / bush.force_unit) for t, force in _stages(scene, load, quantity)),
+        stages=tuple(bushes.Stage(t, force / bush.force_unit) for t, force in _stages(scene, load, quantity)),
     )
 
 
@@ -315,12 +295,12 @@ def moment_rung(run: BushRun, *, closed: bool, moments: int) -> FunctionRung:
     unit = WorkUnit(f"rates of {name}", ("rates", moments, closed))
 
     def answer(before: RungResult | None) -> RungResult:
-        path = (wear_by_one_moment if moments == 1 else wear_by_two_moments)(own, run.stages)
+        path = (bushes.wear_by_one_moment if moments == 1 else bushes.wear_by_two_moments)(own, run.stages)
         worn = own.settlement(float(path.moment[-1]), float(path.load_ratio[-1]))
         return RungResult(run.require_liner(run.radius * worn), {unit: path.calls}, path)
 
     def judge(found: RungResult, before: RungResult | None) -> ErrorEstimate:
-        path: Path = found.solution
+        path: bushes.Path = found.solution
         is_bound = moments == 2 and not closed
         defect, *slopes = flux_bound(own, path) if is_bound else moments_defect(own, run.exact, path)
         moved, other = (scalar_drift(path.time, defect, slope) for slope in slopes)
@@ -337,7 +317,9 @@ def moment_rung(run: BushRun, *, closed: bool, moments: int) -> FunctionRung:
     return wear_rung(run, name, answer, judge, expected, within=EXACT_ERROR)
 
 
-def moments_defect(own: Wearing, rich: Wearing, path: Path) -> tuple[Array, Array, Array]:
+def moments_defect(
+    own: bushes.Wearing, rich: bushes.Wearing, path: bushes.Path
+) -> tuple[Array, Array, Array]:
     """Return what both moments with the exact flux change of the rates along a run, and slopes of both."""
     alpha = rich.angle(path.moment, path.load_ratio)
     first = rich.first_along(path.moment, path.load_ratio)
@@ -348,7 +330,7 @@ def moments_defect(own: Wearing, rich: Wearing, path: Path) -> tuple[Array, Arra
     return defect, rich.slope(alpha, total, path.load_ratio), own.shaped_slope(alpha, path.load_ratio)
 
 
-def flux_bound(own: Wearing, path: Path) -> tuple[Array, Array, Array]:
+def flux_bound(own: bushes.Wearing, path: bushes.Path) -> tuple[Array, Array, Array]:
     """Return what the verified error of the flux may change of the rates along a run, and two slopes."""
     alpha = own.angle(path.moment, path.load_ratio)
     total = own.total(alpha, path.first)
@@ -357,7 +339,9 @@ def flux_bound(own: Wearing, path: Path) -> tuple[Array, Array, Array]:
     return 2.0 * alpha * flux * path.load_ratio / (total * own.heat), slope, slope
 
 
-def relative(bush: Wearing, load: float, moment: float, moved: float, other: float) -> tuple[float, str]:
+def relative(
+    bush: bushes.Wearing, load: float, moment: float, moved: float, other: float
+) -> tuple[float, str]:
     """Return the error of the settlement, over the better one, for an error of W, and a doubt of it."""
     slope, value = bush.settlement_slope(moment, load), bush.settlement(moment, load)
     better = value + slope * moved
@@ -372,7 +356,7 @@ def end_rung(run: BushRun) -> FunctionRung:
     rich, own, stage = run.exact, run.closed, run.stages[-1]
 
     def answer(before: RungResult | None) -> RungResult:
-        moment, calls = end_of_wear(own, stage.load_ratio)
+        moment, calls = bushes.end_of_wear(own, stage.load_ratio)
         worn = own.settlement(require_end(moment), stage.load_ratio)
         return RungResult(run.require_liner(run.radius * worn), {CRITICAL_SPEEDS: calls}, moment)
 
@@ -408,7 +392,7 @@ def end_rung(run: BushRun) -> FunctionRung:
 def require_end(size: float) -> float:
     """Return where the wear ends; raise RotorfilmError where it does not."""
     if math.isinf(size):
-        raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
+        raise RotorfilmError(f"the wear has no end below {bushes.WIDEST} rad of half the contact")
     return size
 
 
@@ -417,7 +401,7 @@ def local_end_rung(run: BushRun) -> FunctionRung:
     stage = run.stages[0]
 
     def answer(before: RungResult | None) -> RungResult:
-        end = end_of_local_wear(run.exact, stage.load_ratio)
+        end = bushes.end_of_local_wear(run.exact, stage.load_ratio)
         require_end(end.angle)
         return RungResult(run.require_liner(run.radius * end.settlement), {ENDS: 1}, end)
 
@@ -441,7 +425,7 @@ def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> FunctionRung:
 
     def worn(count: int, reach: float, work: dict[WorkUnit, int], *, exact: bool = False) -> float:
         bush, why = (run.exact, ", exact flux") if exact else (own, "")
-        found = wear_at_nodes(bush, run.rule, run.stages, count, reach)
+        found = bushes.wear_at_nodes(bush, run.rule, run.stages, count, reach)
         work[profiles(count, why)] = found.calls
         return run.radius * found.settlement
 
@@ -450,7 +434,7 @@ def nodes_rung(run: BushRun, nodes: int, *, closed: bool) -> FunctionRung:
             return RungResult(0.0, {CRITICAL_SPEEDS: len(run.stages)}, math.nan)
         reach, work = before.solution if before is not None else None, dict[WorkUnit, int]()
         if not (isinstance(reach, float) and math.isfinite(reach)):
-            reach, calls = arc_of_wear(own, run.rule, run.stages, NODES[0])
+            reach, calls = bushes.arc_of_wear(own, run.rule, run.stages, NODES[0])
             work = {profiles(NODES[0], ", first"): calls}
         return RungResult(run.require_liner(worn(nodes, reach, work)), work, reach)
 
@@ -492,7 +476,7 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene has no bush, no load, does not turn, or its load does not keep its direction.
     """
     run = bush_run(scene, quantity)
-    named, constant = isinstance(run.bush.shaft_heat, ApproximateShaft), len(run.stages) == 1
+    named, constant = isinstance(run.bush.shaft_heat, bushes.ApproximateShaft), len(run.stages) == 1
     if run.local or not run.grows:
         ends = [local_end_rung(run)] if run.local and constant and not named else []
         rungs = [*ends, *(nodes_rung(run, nodes, closed=named) for nodes in NODES)]
@@ -503,61 +487,6 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
 
 
 # What every model of a polymer bush leaves out, judged by dimensionless numbers.
-
-
-SPREAD_SPEED = 5.0
-"""Speed [rad/s] from which the heat into the shaft is spread evenly around it: docs/bush.md."""
-
-STRAIN = 0.1
-"""Compression of the liner, and share of it that melts, up to which it is thin and linear."""
-
-LEAN = 0.02
-"""Share of the load that friction may carry without a word."""
-
-NEAR = 0.05
-"""Speed over the critical one, less one, within which small causes decide whether a bush melts."""
-
-
-COLD = 5.0
-"""Kelvin by which a worn contact may be off the melting point without a word."""
-
-
-REMARKS = (
-    Remark(
-        "off",
-        NEAR,
-        "brink: the speed is {margin:+.1%} off that at which the liner melts, which is not known so well; "
-        "friction carries {lean:.1%} of the load, which no model counts",
-        below=True,
-    ),
-    Remark("lean", LEAN, "friction: it carries {lean:.1%} of the load, so that the pressure is less"),
-    Remark("slenderness", 1.0, "thick liner: {slenderness:.2g} of half the width of the contact"),
-    Remark("strain", STRAIN, "strain: the liner is compressed by {strain:.1%} of its thickness"),
-    Remark(
-        "melted",
-        STRAIN,
-        "thickness: up to {melted:.0%} of the liner melts, but it is taken to conduct and to yield as before",
-    ),
-    Remark(
-        "speed",
-        SPREAD_SPEED,
-        f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
-        "{speed:.3g} rad/s",
-        below=True,
-    ),
-    Remark(
-        "cooled",
-        COLD,
-        "cold: in the end the worn contact cools by some {cooled:.0f} K, which widens its clearance by "
-        "{widened:.2g} m; wear is told at the melting point",
-    ),
-    Remark(
-        "states",
-        1.0,
-        "two states: friction rises so steeply with temperature that a contact may also stay cold",
-    ),
-)
-"""What every model of a polymer bush leaves out, by the numbers of `bush_numbers`."""
 
 
 def bush_numbers(run: BushRun) -> dict[str, float]:
@@ -582,13 +511,13 @@ def bush_numbers(run: BushRun) -> dict[str, float]:
     load = max(stage.load_ratio for stage in run.stages)
     duration = sum(stage.duration for stage in run.stages)
     alpha = bush.angle(0.0, load)
-    peak = load * float(peak_weight(alpha))
+    peak = load * float(bushes.peak_weight(alpha))
     thickness = geometry.outer_radius - geometry.radius
-    end, _ = end_of_wear(bush, load)
+    end, _ = bushes.end_of_wear(bush, load)
     rate = float(bush.surplus(alpha, bush.shaped_total(alpha, load)))
     fastest = max(bush.work * peak - float(bush.losses(alpha)), 0.0) / bush.heat if run.local else rate * peak
     shared = bush.settlement(end, load) if math.isfinite(end) else math.inf
-    settled = end_of_local_wear(bush, load).settlement if run.local else shared
+    settled = bushes.end_of_local_wear(bush, load).settlement if run.local else shared
     friction = float(run.bush.friction.at(liner.melting_point))
     margin, cooled = run.margin(bush), 0.0 if run.grows else _cooled(run)
     return {
@@ -608,7 +537,7 @@ def bush_numbers(run: BushRun) -> dict[str, float]:
 def _cooled(run: BushRun) -> float:
     law = run.exact.law
     try:
-        moment = float(wear_by_one_moment(run.exact, run.stages).moment[-1])
+        moment = float(bushes.wear_by_one_moment(run.exact, run.stages).moment[-1])
         at = law.contact(moment, run.stages[-1].load_ratio, run.speed)
     except ConvergenceError:  # too wide a contact, or two states: said elsewhere
         return math.nan
@@ -617,10 +546,7 @@ def _cooled(run: BushRun) -> float:
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each, for the run of a bush."""
-    return messages(REMARKS, bush_numbers(run))
+    return messages(remarks_of("bush"), bush_numbers(run))
 
 
-LADDERS = {
-    "critical_speed": bush_ladder,
-    "wear": wear_ladder,
-}
+LADDERS = {"critical_speed": bush_ladder, "wear": wear_ladder}

@@ -10,19 +10,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.contact import (
-    HERTZ_LOAD,
-    ContactLaw,
-    FixedSteps,
-    SineLoad,
-    SmallMotion,
-    ball_transient,
-    reduce_contact,
-)
+from ..bearings import contact as contacts
 from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import ConvergenceError, InputError
 from ..core.model import Array
-from ..scenes.contact_motions import (
+from ..scenes.contact import (
     INLETS,
     OUTLET,
     QUANTITIES,
@@ -216,10 +208,8 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no contact, or an excitation that is no step or sine of the load.
     """
-    if scene.contact is None:
-        raise InputError(f"contact is required for {quantity}, got no such table")
-    films = StaticContactFilms(table=scene.contact, quantity=quantity)
-    table = scene.contact
+    table = scene.required("contact", quantity)
+    films = StaticContactFilms(table=table, quantity=quantity)
     remarks = contact_remarks(
         films.ball, scene.lubricant.properties, roelands=table.roelands, compressible=table.compressible
     )
@@ -232,9 +222,7 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(rungs=tuple(rungs), unit="m", remarks=remarks, within=ISOTHERMAL)
 
 
-LADDERS = {
-    **dict.fromkeys(QUANTITIES, contact_ladder),
-}
+LADDERS = {**dict.fromkeys(QUANTITIES, contact_ladder)}
 
 
 # The approach of a rolling ball on its reduced law, over time.
@@ -263,7 +251,7 @@ def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> FunctionRung:
         mass = films.table.mass
         if not mass > 0.0:
             raise InputError(f"contact.mass must be positive for a motion on a reduced law, got {mass!r} kg")
-        law = reduce_contact(films.contact(LAW_CELLS), order)
+        law = contacts.reduce_contact(films.contact(LAW_CELLS), order)
         work |= {LAW: 1, RIDE: 1}
         deepest, carried = ridden(films, shaken, law)
         return deepest, (law, deepest, carried)
@@ -272,7 +260,7 @@ def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> FunctionRung:
         law, deepest, carried = solution
         load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
         lacking = films.lacking(LAW_CELLS, LAW_FINE, work, load)
-        other = reduce_contact(films.contact(LAW_CELLS), order, load=elsewhere)
+        other = contacts.reduce_contact(films.contact(LAW_CELLS), order, load=elsewhere)
         moved = abs(ridden(films, shaken, other)[0] - deepest) / abs(deepest)
         fit = law.static_error / law.exponent
         work |= {LAW: 1, RIDE: 1}
@@ -291,12 +279,12 @@ def law_rung(films: StaticContactFilms, shaken: DrivenBall) -> FunctionRung:
 
 
 def ridden(
-    films: StaticContactFilms, shaken: DrivenBall, law: ContactLaw
+    films: StaticContactFilms, shaken: DrivenBall, law: contacts.ContactLaw
 ) -> tuple[float, tuple[float, float]]:
     """Return the deepest approach on a law and the range of the force, in the units of the contact."""
-    motion = ball_transient(
+    motion = contacts.ball_transient(
         law,
-        mass=films.ball.W / HERTZ_LOAD,
+        mass=films.ball.W / contacts.HERTZ_LOAD,
         load=shaken.load,
         start=float(law.approach(1.0)),
         duration=shaken.duration,
@@ -306,14 +294,14 @@ def ridden(
 
 
 def doubt_of_law(
-    films: StaticContactFilms, shaken: DrivenBall, law: ContactLaw, carried: tuple[float, float]
+    films: StaticContactFilms, shaken: DrivenBall, law: contacts.ContactLaw, carried: tuple[float, float]
 ) -> str:
     """Return why a law must not be trusted that has carried loads in this range; empty if it may."""
     low, high = law.load_range
     if carried[0] < low or carried[1] > high:
         return f"the force, {carried[0]:.2g} to {carried[1]:.2g} static loads, leaves the range of the law"
     fastest = natural_frequency(films.ball.W)
-    if isinstance(shaken.load, SineLoad):
+    if isinstance(shaken.load, contacts.SineLoad):
         fastest = max(fastest, shaken.load.frequency)
     if fastest > law.highest_frequency:
         return f"the law reaches to the frequency {law.highest_frequency:g}, not to {fastest:.3g}"
@@ -426,7 +414,7 @@ class FollowedFilm:
                 duration=self.shaken.duration,
                 W=self.films.ball.W,
                 load=self.shaken.load,
-                control=FixedSteps(step=self.step(steps), tolerance=NEWTON_TOLERANCE),
+                control=contacts.FixedSteps(step=self.step(steps), tolerance=NEWTON_TOLERANCE),
             )
             work[newton(cells)] = work.get(newton(cells), 0) + run.work["newton"]
             smallest = lowest(run.time, getattr(run, self.films.row.field))
@@ -624,13 +612,13 @@ def small_motion(films: StaticContactFilms, shaken: DrivenBall) -> float:
     """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
     contact = films.contact(SMALL)
     state = contact.stationary()
-    small = SmallMotion(contact.equations, state.pressure.ravel(), state.delta)
+    small = contacts.SmallMotion(contact.equations, state.pressure.ravel(), state.delta)
     thinnest = int(np.argmin(contact.equations.film(state.pressure.ravel(), state.delta)))
     inertia = films.ball.W
 
     def per_load(w: float) -> tuple[complex, complex]:
         """Return the changes of quantity and approach per unit of a load as exp(i w t)."""
-        approach = -HERTZ_LOAD / (small.stiffness(1j * w) - inertia * w**2)
+        approach = -contacts.HERTZ_LOAD / (small.stiffness(1j * w) - inertia * w**2)
         if films.quantity == "approach":
             return approach, approach
         central, samples = small.film(1j * w)
@@ -642,7 +630,7 @@ def small_motion(films: StaticContactFilms, shaken: DrivenBall) -> float:
     if math.isfinite(natural):
         ringing, ring_depth = per_load(natural)
         rings = abs(ringing / ring_depth * depth)
-    if not isinstance(shaken.load, SineLoad):
+    if not isinstance(shaken.load, contacts.SineLoad):
         return amplitude * rings
     w = shaken.load.frequency
     forced = abs(per_load(w)[0])

@@ -126,7 +126,6 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
     CouplingError, ContactError, ConvergenceError
         If no macro step follows the motion; see `CouplingCase.pilot`.
     """
-    assert scene.question is not None
     case = _case(scene, quantity)
     angles = [math.radians(angle) for angle in ANGLES]
     angles = [angle for angle in angles if case.exchanges(angle) <= MOST]
@@ -136,7 +135,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
             f"{quantity}, got {case.revolutions:.6g}"
         )
     least = case.predicted(case.pilot[0].outcome.scheme, angles[-1])  # which goes at shorter steps too
-    tolerance = scene.question.tolerance
+    tolerance = scene.required("question", quantity).tolerance
     worst = max(HOPELESS * tolerance, least)
     rungs = [
         CouplingRung(case=case, scheme=scheme, macro_angle=angle, tolerance=tolerance, worst=worst)
@@ -156,9 +155,8 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def _case(scene: Scene, quantity: str) -> CouplingCase:
     """Return rotor and film of a scene, at rest."""
-    if scene.rigid_rotor is None:
-        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    if scene.rigid_rotor.unbalance == 0.0:
+    table = scene.required("rigid_rotor", quantity)
+    if table.unbalance == 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0: nothing moves")
     if scene.excitation is not None:
         raise InputError(f"excitation must be left out for {quantity}, got {type(scene.excitation).__name__}")
@@ -166,10 +164,9 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
         raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
     turns = scene.cosimulation.revolutions
     if not scene.has_film:
-        assert scene.damper is not None  # the question is asked of scenes with either
         if scene.damper.supply is not None:
             raise InputError(f"damper.supply must be left out for {quantity}, got {scene.damper.supply!r}")
-        centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
+        centered = table.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.plain(), revolutions=turns)
     if scene.journal is not None:
         scene.journal.require_law(quantity)
@@ -182,7 +179,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     if at.temperature is not None:
         film = film.at_temperature(at.temperature)
     x, y = at.position.tolist()
-    rotor = replace(scene.rigid_rotor.build(scene.speed, load), position=(x, y))
+    rotor = replace(table.build(scene.speed, load), position=(x, y))
     return CouplingCase(rotor=rotor, reaction=film, revolutions=turns, film=name)
 
 

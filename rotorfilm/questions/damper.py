@@ -10,30 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import simulate
-from ..analysis.circular_orbits import (
-    OrbitRotor,
-    damped_orbit,
-    force_at,
-    orbit_near,
-    orbit_rotor,
-    slope_at,
-    synchronous_orbits,
-    transmitted,
-    unbalance_at,
-    unbalances,
-)
-from ..analysis.equal_steps import (
-    NONE,
-    ExcitedRotor,
-    MarchMotion,
-    RestTangent,
-    StatesAlong,
-    linear_march,
-    peak,
-    states_along,
-)
+from ..analysis import circular_orbits, equal_steps, simulate
 from ..bearings.damper import FiniteSqueeze, JFODamper
+from ..core import errors
 from ..core.answers import (
     DISAGREEMENT,
     ISOTHERMAL,
@@ -45,34 +24,14 @@ from ..core.answers import (
     Work,
     WorkUnit,
 )
-from ..core.errors import (
-    AbsentError,
-    ContactError,
-    ConvergenceError,
-    FilmContactError,
-    InputError,
-    RotorfilmError,
-)
 from ..core.model import Array
 from ..core.port import PlanarReaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
 from ..core.results import Trajectory
 from ..rotors import RigidRotor
-from ..scenes.damper_films import (
-    NO_RICHER,
-    DamperFilm,
-    built_films,
-    damper_models,
-    lands,
-    mapped_short,
-    on_springs,
-    orbit_films,
-    plain_films,
-    quiet,
-    rotor_remarks,
-)
+from ..scenes import damper_films
 from ..scenes.damper_table import DamperTable
-from ..scenes.excitation_table import BladeLossTable, RunUpTable
 from ..scenes.film_rungs import MAP_MADE, Counted
+from ..scenes.shared_tables import BladeLossTable, RunUpTable
 from .coupling import coupling_ladder
 from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 from .variants import counted_rung
@@ -113,13 +72,13 @@ class DamperCurveRung(CandidateRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs."""
-        return on_springs(self.film.reaction, self.stiffness)
+        return damper_films.on_springs(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> PlanarReaction:
         """Film and springs that are quick enough for hundreds of orbits."""
         slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
-        return on_springs(self.film.moving, self.stiffness) if slow else self.support
+        return damper_films.on_springs(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> WorkUnit:
@@ -135,24 +94,26 @@ class DamperCurveRung(CandidateRung):
             value, radius = self._searched(Counted(self.search) if self.search != self.support else counted)
             near = (value, radius) if self.search == self.support else self._from(counted, radius)
         if near is None:
-            raise RotorfilmError(f"{self.name} has no orbit beside that of its map")
+            raise errors.RotorfilmError(f"{self.name} has no orbit beside that of its map")
         return RungResult(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
 
     def _searched(self, reaction: Counted) -> tuple[float, float]:
         """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
-        orbits = synchronous_orbits(self.rotor, reaction)
+        orbits = circular_orbits.synchronous_orbits(self.rotor, reaction)
         if self.is_fold:
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
                 amplitude_ratio = reaction.largest_eccentricity_ratio
                 why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
                 why += "" if amplitude_ratio >= 1.0 else f", up to {amplitude_ratio:.4g} of the clearance"
-                raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
+                raise errors.AbsentError(
+                    f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}"
+                )
             return folds[0].unbalance, folds[0].eccentricity_ratio
         found = orbits.at(self.rotor.unbalance)
         if not found:
             end = "the wall" if orbits.contact_unbalance is not None else "the end of the film's range"
-            raise FilmContactError(f"no orbit at this unbalance: the rotor reaches {end}")
+            raise errors.FilmContactError(f"no orbit at this unbalance: the rotor reaches {end}")
         chosen = next((orbit for orbit in found if orbit.stable), found[0])
         amplitude = chosen.eccentricity_ratio * reaction.clearance
         value = chosen.transmissibility if self.quantity == "transmissibility" else amplitude
@@ -160,14 +121,14 @@ class DamperCurveRung(CandidateRung):
 
     def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
         """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
-        system = damped_orbit(self.rotor, counted)
-        found = orbit_near(system, radius, None if self.is_fold else self.rotor.unbalance)
+        system = circular_orbits.damped_orbit(self.rotor, counted)
+        found = circular_orbits.orbit_near(system, radius, None if self.is_fold else self.rotor.unbalance)
         if found is None:
             return None
         if self.quantity == "transmissibility":
-            return transmitted(system, found), found
+            return circular_orbits.transmitted(system, found), found
         if self.is_fold:
-            return unbalance_at(system, found), found
+            return circular_orbits.unbalance_at(system, found), found
         return found * system.clearance, found
 
     def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
@@ -179,7 +140,7 @@ class DamperCurveRung(CandidateRung):
         """
         rich = self.film.rich
         if rich is None and not math.isfinite(self.film.bound):
-            return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
+            return ErrorEstimate(math.inf, "none", doubt=damper_films.NO_RICHER)
         radius = float(found.solution)
         if rich is None:
             return self._by_bound(found.value, radius)
@@ -188,8 +149,8 @@ class DamperCurveRung(CandidateRung):
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {limit:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
         change = self._fold if self.is_fold else self._orbit
-        richer = damped_orbit(self.rotor, on_springs(rich, self.stiffness))
-        value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
+        richer = circular_orbits.damped_orbit(self.rotor, damper_films.on_springs(rich, self.stiffness))
+        value, doubt = change(circular_orbits.orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
             error,
@@ -205,32 +166,34 @@ class DamperCurveRung(CandidateRung):
         it shifts the radius by that over the smallest u' on the way: near a fold that is much, and past it
         there may be no such orbit.
         """
-        system, work = damped_orbit(self.rotor, self.support), {self.unit: 7}
-        force = force_at(system, radius)
+        system, work = circular_orbits.damped_orbit(self.rotor, self.support), {self.unit: 7}
+        force = circular_orbits.force_at(system, radius)
         film = abs(force + self.stiffness * system.clearance * radius)
         change = self.film.bound * film / system.speed**2
         method = "verified bound of the film, propagated"
         if self.is_fold:
             return ErrorEstimate(change / value, method, work, bound=True)
-        slope = slope_at(system, radius)
+        slope = circular_orbits.slope_at(system, radius)
         ends = radius + np.array([-1.0, 1.0]) * abs(change / slope)
         inside = ends[0] > 0.0 and ends[1] < 1.0
-        least = min(slope_at(system, end) / slope for end in ends) if inside else 0.0
+        least = min(circular_orbits.slope_at(system, end) / slope for end in ends) if inside else 0.0
         if least < 1.0 - DISAGREEMENT:
             doubt = "so near to a jump, or to the wall, that the error of the film may take the orbit there"
             return ErrorEstimate(abs(change / slope) / radius, method, work, doubt=doubt)
         if self.quantity == "unbalance_amplitude":
             return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
         # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
-        shifted = max(abs(abs(force_at(system, end)) - abs(force)) for end in ends) / least
+        shifted = max(abs(abs(circular_orbits.force_at(system, end)) - abs(force)) for end in ends) / least
         return ErrorEstimate((shifted + self.film.bound * film) / abs(force), method, work, bound=True)
 
-    def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+    def _fold(
+        self, own: circular_orbits.OrbitRotor, rich: circular_orbits.OrbitRotor, radius: float
+    ) -> tuple[float, str]:
         """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
         near = radius + np.array([-1.0, 0.0, 1.0]) * 0.02 * min(radius, 1.0 - radius)
-        low, middle, high = unbalances(rich, near)
+        low, middle, high = circular_orbits.unbalances(rich, near)
         bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
-        cheap = unbalances(own, near)
+        cheap = circular_orbits.unbalances(own, near)
         own_bend = float(cheap[0] - 2.0 * cheap[1] + cheap[2])
         moved = float(np.clip(-slope / own_bend, -10.0, 10.0)) if own_bend else 0.0
         value = float(middle + slope * moved + 0.5 * bend * moved**2)
@@ -238,17 +201,23 @@ class DamperCurveRung(CandidateRung):
         matters = abs(value - middle) > DISAGREEMENT * abs(value - cheap[1])
         return value, doubt if matters and abs(bend - own_bend) > DISAGREEMENT * abs(own_bend) else ""
 
-    def _orbit(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+    def _orbit(
+        self, own: circular_orbits.OrbitRotor, rich: circular_orbits.OrbitRotor, radius: float
+    ) -> tuple[float, str]:
         """Return the quantity at the rotor's unbalance by two secant steps with the richest film."""
         target = self.rotor.unbalance
-        slopes = [slope_at(system, radius) for system in (rich, own)]
-        steps = [(target - unbalance_at(rich, radius)) / slope for slope in slopes]
+        slopes = [circular_orbits.slope_at(system, radius) for system in (rich, own)]
+        steps = [(target - circular_orbits.unbalance_at(rich, radius)) / slope for slope in slopes]
         apart = abs(steps[0] - steps[1]) / max(abs(step) for step in steps)
         new = float(np.clip(radius + steps[0], 1e-9, 1.0 - 1e-9))
-        again = (target - unbalance_at(rich, new)) / slopes[0]
+        again = (target - circular_orbits.unbalance_at(rich, new)) / slopes[0]
         doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
         final = new + again
-        value = transmitted(rich, new) if self.quantity == "transmissibility" else final * own.clearance
+        value = (
+            circular_orbits.transmitted(rich, new)
+            if self.quantity == "transmissibility"
+            else final * own.clearance
+        )
         return value, doubt if apart > DISAGREEMENT else ""
 
     def expected(self, done: Work) -> Work:
@@ -259,7 +228,7 @@ class DamperCurveRung(CandidateRung):
 RICH = WorkUnit("forces of the richest film")
 
 
-@quiet()
+@damper_films.quiet()
 def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of a rotor on a damper.
 
@@ -269,20 +238,18 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene has no rotor, no unbalance, no speed or no operation.
     """
     for table in ("damper", "rigid_rotor"):
-        if getattr(scene, table) is None:
-            raise InputError(f"{table} is required for {quantity}, got no such table")
-    assert scene.damper is not None  # checked by the above
-    rotor = damper_models(scene).rotor
+        scene.required(table, quantity)
+    rotor = damper_films.damper_models(scene).rotor
     if quantity in (UP, DOWN):
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
     elif rotor.unbalance <= 0.0:
-        raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
+        raise errors.InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
     stiffness, supply = scene.damper.stiffness, scene.damper.supply
     if supply is not None and not supply.turns_alike and quantity not in (UP, DOWN):
         return _run_ladder(scene, partial(_repeated, rotor, quantity), UNITS[quantity], steady=True)
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
-        for film in orbit_films(scene.damper, rotor)
+        for film in damper_films.orbit_films(scene.damper, rotor)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
@@ -301,16 +268,20 @@ def _ladder(
 ) -> Ladder:
     """Return a ladder with the remarks on the rotor, on each of the films that lie side by side."""
     table = scene.damper
-    assert table is not None  # whose question it is
-    count = lands(table)
+    count = damper_films.lands(table)
     shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
-    remarks = rotor_remarks(
-        table, mapped_short(table), table.stiffness / count, shared, scene.lubricant.properties, steady=steady
+    remarks = damper_films.rotor_remarks(
+        table,
+        damper_films.mapped_short(table),
+        table.stiffness / count,
+        shared,
+        scene.lubricant.properties,
+        steady=steady,
     )
     return Ladder(rungs=rungs, unit=unit, units=units, remarks=remarks, within=ISOTHERMAL)
 
 
-def _endless(film: DamperFilm, quantity: str, *, is_named: bool) -> bool:
+def _endless(film: damper_films.DamperFilm, quantity: str, *, is_named: bool) -> bool:
     """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
 
     One that the scene names is the only rung there is.
@@ -359,7 +330,7 @@ class DamperPeakRung(PeakRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs, the film on its map where it has one."""
-        return on_springs(self.film.moving, self.stiffness)
+        return damper_films.on_springs(self.film.moving, self.stiffness)
 
     @cached_property
     def tangent(self) -> Tangent:
@@ -370,12 +341,12 @@ class DamperPeakRung(PeakRung):
     def rich(self) -> PlanarReaction | None:
         """The richer film and the springs; None if there is none."""
         found = self.film.rich_moving
-        return None if found is None else on_springs(found, self.stiffness)
+        return None if found is None else damper_films.on_springs(found, self.stiffness)
 
     @property
-    def shaken(self) -> ExcitedRotor:
+    def shaken(self) -> equal_steps.ExcitedRotor:
         """The rotor on film and springs, and what shakes it."""
-        return ExcitedRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
+        return equal_steps.ExcitedRotor(self.support, self.rotor.mass, 0.0, self.rest, self._pull)
 
     @property
     def rest(self) -> Array:
@@ -383,20 +354,20 @@ class DamperPeakRung(PeakRung):
         return np.array(self.rotor.position)
 
     @cached_property
-    def at_rest(self) -> RestTangent:
+    def at_rest(self) -> equal_steps.RestTangent:
         """Film and springs in the center: there also a cavitated film is linear in the velocity."""
         rest, still = self.rest, np.zeros(2)
         rate = self.support.clearance * abs(self.rotor.profile.speeds[-1] or 1.0)
         heavy = inertial(self.support)
-        added = NONE if heavy is None else heavy.mass(rest, np.array([rate, 0.0]))
+        added = equal_steps.NONE if heavy is None else heavy.mass(rest, np.array([rate, 0.0]))
         force = -self.rotor.static_load
         if rest.any():
             slopes = self.support.jacobian(rest, still, 0.0)
-            return RestTangent(force, -slopes[:, :2], -slopes[:, 2:4], added)
+            return equal_steps.RestTangent(force, -slopes[:, :2], -slopes[:, 2:4], added)
         damping = -float(self.support.force(still, np.array([rate, 0.0]), 0.0)[0]) / rate
         fed = self.film.shape.is_fed
         own = -float(self.film.reaction.jacobian(still, still, 0.0)[0, 0]) if fed else 0.0
-        return RestTangent(force, (self.stiffness + own) * np.eye(2), damping * np.eye(2), added)
+        return equal_steps.RestTangent(force, (self.stiffness + own) * np.eye(2), damping * np.eye(2), added)
 
     def grid(self, steps: int) -> tuple[float, int]:
         """Return the length [s] and an even number of steps, so that one ends where a run-up turns back."""
@@ -414,16 +385,16 @@ class DamperPeakRung(PeakRung):
             return self.nonlinear(before)
         motion = self.linear(LINEAR_STEPS)
         if np.hypot(*motion.position).max() >= self.support.clearance:
-            raise FilmContactError("the linear motion leaves the clearance")
+            raise errors.FilmContactError("the linear motion leaves the clearance")
         half = self.linear(LINEAR_STEPS // 2)
-        solved = PeakMotion(motion, peak(half.position), 0)
-        return RungResult(peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
+        solved = PeakMotion(motion, equal_steps.peak(half.position), 0)
+        return RungResult(equal_steps.peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
 
     def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, steps = found.solution.motion, self.increment(found)
         if self.film.rich_law is None and not math.isfinite(self.film.bound):
-            return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
+            return ErrorEstimate(math.inf, "order increment", doubt=damper_films.NO_RICHER)
         amplitude_ratio = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
         if amplitude_ratio >= limit:
@@ -438,27 +409,31 @@ class DamperPeakRung(PeakRung):
         work = {DEFECT: calls, **self.film.rich_work}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
 
-    def _by_bound(self, motion: MarchMotion, value: float, steps: float) -> ErrorEstimate:
+    def _by_bound(self, motion: equal_steps.MarchMotion, value: float, steps: float) -> ErrorEstimate:
         """Return the error of the steps, and what the verified error of the film could do all along."""
         states = self._sampled(motion)
         film = self.shaken.tangents(self.support, states)
         off = self.film.bound * (film.force + self.stiffness * states.position)
         mass = self.rotor.mass * np.eye(2)[:, :, None] + film.mass
-        moved = linear_march(mass, film.stiffness, film.damping, off, states.step).position
+        moved = equal_steps.linear_march(mass, film.stiffness, film.damping, off, states.step).position
         bound = float(np.hypot(*moved).max()) / value
         method = "order increment; verified bound of the film, propagated"
         work = {self.tangents: states.position.shape[1]}
         return ErrorEstimate(abs(steps) + bound, method, work, abs(steps) < bound)
 
-    def _sampled(self, motion: MarchMotion) -> StatesAlong:
+    def _sampled(self, motion: equal_steps.MarchMotion) -> equal_steps.StatesAlong:
         """Return samples of a motion; the first is off the rest."""
         # With feed the richer film takes milliseconds for a force.
-        states = states_along(motion, self.stride(SAMPLED // 2 if self.film.shape.is_fed else SAMPLED))
+        states = equal_steps.states_along(
+            motion, self.stride(SAMPLED // 2 if self.film.shape.is_fed else SAMPLED)
+        )
         # A cavitated film has no derivative at rest: the direction in which the rotor starts.
         states.velocity[:, 0] = 1e-3 * states.velocity[:, 1]
         return states
 
-    def _by_defect(self, motion: MarchMotion, value: float, rich: PlanarReaction) -> tuple[float, str, int]:
+    def _by_defect(
+        self, motion: equal_steps.MarchMotion, value: float, rich: PlanarReaction
+    ) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""
         states = self._sampled(motion)
         q, calls = states.position, states.position.shape[1]
@@ -468,7 +443,7 @@ class DamperPeakRung(PeakRung):
             doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
             return math.inf, doubt, calls
         return (
-            (peak(q + moved) - peak(q)) / value,
+            (equal_steps.peak(q + moved) - equal_steps.peak(q)) / value,
             _beyond(amplitude_ratio, limit) if amplitude_ratio >= limit else doubt,
             calls,
         )
@@ -489,7 +464,7 @@ def _beyond(amplitude_ratio: float, limit: float) -> str:
     )
 
 
-@quiet()
+@damper_films.quiet()
 def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
 
@@ -498,19 +473,18 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene loses no blade and does not run up, has no rotor, or does not turn.
     """
-    if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
-        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
-    assert scene.damper is not None  # or the ladder is another one
+    scene.excited_by(quantity, BladeLossTable, RunUpTable)
     if scene.damper.supply is not None:
         if scene.damper.film is not None:
-            raise InputError(
+            raise errors.InputError(
                 f"damper.film must be left out beside supply for {quantity}, as only the film that conserves "
                 f"its oil knows the supply in time, got {scene.damper.film!r}"
             )
-        duration = damper_models(scene).duration
-        return _run_ladder(scene, lambda follow, steps: peak(follow(duration).position), "m", steady=False)
-    models = damper_models(scene)
+        duration = damper_films.damper_models(scene).duration
+        return _run_ladder(
+            scene, lambda follow, steps: equal_steps.peak(follow(duration).position), "m", steady=False
+        )
+    models = damper_films.damper_models(scene)
     rungs = tuple(
         DamperPeakRung(
             film=film,
@@ -526,9 +500,9 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     return _ladder(scene, rungs, "m", free, units=units, steady=False)
 
 
-def _choices(table: DamperTable, fastest: float) -> list[tuple[DamperFilm, int]]:
+def _choices(table: DamperTable, fastest: float) -> list[tuple[damper_films.DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
-    films = built_films(table, fastest) if table.is_built else plain_films(table)
+    films = damper_films.built_films(table, fastest) if table.is_built else damper_films.plain_films(table)
     # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
     # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
@@ -592,8 +566,8 @@ def follow(damper: JFODamper, rotor: RigidRotor, steps: int, duration: float) ->
     times = duration / count * np.arange(count + 1)
     try:
         return simulate(rotor, damper, duration=duration, times=times, max_step=duration / count)
-    except ContactError as error:
-        raise FilmContactError(f"the rotor touches the wall: {error}") from error
+    except errors.ContactError as error:
+        raise errors.FilmContactError(f"the rotor touches the wall: {error}") from error
 
 
 def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, *, steady: bool) -> Ladder:
@@ -602,9 +576,7 @@ def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, 
     `value` takes what follows the motion and the steps of a turn, and returns the quantity. Its error is the
     changes since steps twice as long and since half the cells: some thrice the error.
     """
-    table, rotor = scene.damper, damper_models(scene).rotor
-    assert table is not None  # whose question it is
-    assert table.supply is not None
+    table, rotor = scene.damper, damper_films.damper_models(scene).rotor
     damper = table.conserved(table.supply)
 
     @cache
@@ -640,7 +612,7 @@ def _repeated(rotor: RigidRotor, quantity: str, follow: Follow, steps: int) -> f
         last, before = (of_turn(run, steps, rotor, quantity, back) for back in (1, 2))
         if abs(last - before) <= REPEATED * abs(last):
             return last
-    raise ConvergenceError(
+    raise errors.ConvergenceError(
         f"the orbit must repeat itself to {REPEATED:g} within {TURNS[-1]} turns, and changes by "
         f"{abs(last / before - 1.0):.2g} from the last but one to the last"
     )

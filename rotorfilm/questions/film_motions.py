@@ -10,16 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analysis import RotorEquilibrium, coefficients, equilibrium
-from ..analysis.equal_steps import (
-    ORDER,
-    ExcitedRotor,
-    MarchMotion,
-    RestTangent,
-    StatesAlong,
-    peak,
-    states_along,
-)
+from ..analysis import RotorEquilibrium, coefficients, equal_steps, equilibrium
 from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
 from ..analysis.periodic_orbit import (
     RotorAnswers,
@@ -45,8 +36,8 @@ from ..core.model import Array
 from ..core.port import Reaction, amplitude_ratio
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
-from ..scenes.excitation_table import BladeLossTable, UnbalanceTable
 from ..scenes.film_rungs import FilmCandidate, any_candidate
+from ..scenes.shared_tables import BladeLossTable, UnbalanceTable
 from .film_statics import FilmQuestion, Films, Units, film_ladder
 from .quantities import FORCE, ORBIT_UNITS, PHASE, relative
 
@@ -170,8 +161,7 @@ def rotor_of(scene: Scene) -> RigidRotor:
     """
     rotor, excitation = scene.rotor, scene.excitation
     if type(excitation) is UnbalanceTable:  # a lost blade is one too
-        require_one_unbalance(rotor)
-        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=excitation.unbalance_angle)
+        rotor = excitation.given_to(rotor)
     elif excitation is not None:
         raise InputError(
             f'excitation must be of kind "unbalance" for a steady orbit, got {type(excitation).__name__}'
@@ -181,15 +171,6 @@ def rotor_of(scene: Scene) -> RigidRotor:
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     return rotor
-
-
-def require_one_unbalance(rotor: RigidRotor) -> None:
-    """Raise InputError if a rotor has an unbalance beside that of an excitation."""
-    if rotor.unbalance:
-        raise InputError(
-            "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-            f"got {rotor.unbalance!r} kg m"
-        )
 
 
 # Ladders of motions on the films of any bearing.
@@ -306,7 +287,7 @@ class PeakMotion(NamedTuple):
         Over a turn; 0 for the linear motion.
     """
 
-    motion: MarchMotion
+    motion: equal_steps.MarchMotion
     coarse: float
     steps: int
 
@@ -347,12 +328,12 @@ class PeakRung(CandidateRung):
         return unit
 
     @property
-    def shaken(self) -> ExcitedRotor:
+    def shaken(self) -> equal_steps.ExcitedRotor:
         """The rotor on this film, and what shakes it."""
         raise NotImplementedError
 
     @property
-    def at_rest(self) -> RestTangent:
+    def at_rest(self) -> equal_steps.RestTangent:
         """The film at rest, by which the linear motion goes."""
         raise NotImplementedError
 
@@ -360,7 +341,7 @@ class PeakRung(CandidateRung):
         """Return the length [s] and the number of steps, so many over a turn."""
         raise NotImplementedError
 
-    def linear(self, steps: int) -> MarchMotion:
+    def linear(self, steps: int) -> equal_steps.MarchMotion:
         """Return the motion by the film at rest."""
         return self.shaken.linear(self.at_rest, *self.grid(steps))
 
@@ -372,19 +353,19 @@ class PeakRung(CandidateRung):
             coarse = float(before.value)
         else:
             other, more = self.shaken.nonlinear(*self.grid(self.steps // 2))
-            coarse, calls = peak(other.position), calls + more
+            coarse, calls = equal_steps.peak(other.position), calls + more
         solved = PeakMotion(motion, coarse, self.steps)
-        return RungResult(peak(motion.position), {self.tangents: calls, **made}, solved)
+        return RungResult(equal_steps.peak(motion.position), {self.tangents: calls, **made}, solved)
 
     def increment(self, found: RungResult) -> float:
         """Return the relative error of the steps by their order, with its sign."""
-        return float((found.value - found.solution.coarse) / (2.0**ORDER - 1.0) / found.value)
+        return float((found.value - found.solution.coarse) / (2.0**equal_steps.ORDER - 1.0) / found.value)
 
     def stride(self, samples: int) -> int:
         """Return how many steps of the motion lie between samples, so many over a turn."""
         return max(1, (self.steps or LINEAR_STEPS) // samples)
 
-    def by_defect(self, states: StatesAlong, rich: Reaction) -> tuple[Array, str]:
+    def by_defect(self, states: equal_steps.StatesAlong, rich: Reaction) -> tuple[Array, str]:
         """Return how much a richer film moves the rotor (2, n) [m], and why not to trust it."""
         own = self.shaken.reaction if self.steps else self.at_rest
         moved, apart = self.shaken.propagated(states, own, rich)
@@ -426,14 +407,16 @@ class BladeLossRung(PeakRung):
         return coefficients(self.film.reaction, at.position, self.speed)
 
     @property
-    def shaken(self) -> ExcitedRotor:
+    def shaken(self) -> equal_steps.ExcitedRotor:
         """The rotor on this film, and what shakes it."""
-        return ExcitedRotor(self.film.reaction, self.mass, self.speed, self.rest.position, self._pull)
+        return equal_steps.ExcitedRotor(
+            self.film.reaction, self.mass, self.speed, self.rest.position, self._pull
+        )
 
     @property
-    def at_rest(self) -> RestTangent:
+    def at_rest(self) -> equal_steps.RestTangent:
         """The film at rest, by which the linear motion goes."""
-        return RestTangent(-np.array(self.load), self.rest.stiffness, self.rest.damping)
+        return equal_steps.RestTangent(-np.array(self.load), self.rest.stiffness, self.rest.damping)
 
     def grid(self, steps: int) -> tuple[float, int]:
         """Return the length [s] and the number of steps, so many over a turn."""
@@ -446,7 +429,7 @@ class BladeLossRung(PeakRung):
         made, motion = self.film.prepare(), self.linear(LINEAR_STEPS)
         rates = np.gradient(motion.position, self.grid(LINEAR_STEPS)[0], axis=1, edge_order=2)
         solved = PeakMotion(replace(motion, velocity=rates), math.nan, 0)
-        return RungResult(peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
+        return RungResult(equal_steps.peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
 
     def _pull(self, t: float) -> tuple[float, float]:
         angle = self.speed * t + self.excitation.unbalance_angle
@@ -455,7 +438,7 @@ class BladeLossRung(PeakRung):
 
     def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
-        motion: MarchMotion = found.solution.motion
+        motion: equal_steps.MarchMotion = found.solution.motion
         near = amplitude_ratio(self.film.reaction, motion.position)
         if near >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
@@ -464,9 +447,11 @@ class BladeLossRung(PeakRung):
         if self.steps and SAFETY * bound < tolerance:
             return beside_bound(steps, bound, how + "verified bound of the map", {})
         own = not self.steps and SAFETY * bound < tolerance
-        states = states_along(motion, self.stride(SAMPLED))
+        states = equal_steps.states_along(motion, self.stride(SAMPLED))
         moved, doubt = self.by_defect(states, self.film.reaction if own else self.film.rich)
-        change = abs(peak(states.position + moved) - peak(states.position)) / found.value
+        change = (
+            abs(equal_steps.peak(states.position + moved) - equal_steps.peak(states.position)) / found.value
+        )
         work = {self.tangents if own else self.film.defects(smooth=False): states.position.shape[1]}
         method = f"{how}defect of {self.film.name if own else self.film.rich_name}"
         return beside_bound(change + steps, bound if own else 0.0, method, work, doubt)
@@ -491,8 +476,8 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene loses no blade, has no rotor or one with an unbalance, or does not turn.
     """
-    excitation, rotor = lost_blade(scene), scene.rotor
-    require_one_unbalance(rotor)
+    excitation = lost_blade(scene)
+    mass = excitation.given_to(scene.rotor).mass
     calls = math.ceil(3 * COMMON_STEPS * excitation.revolutions)
     known = sorted(_turn_films(films, scene, quantity), key=lambda film: film.time(calls))
 
@@ -501,7 +486,7 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
             film=film,
             load=scene.static_load,
             speed=scene.speed,
-            mass=rotor.mass,
+            mass=mass,
             excitation=excitation,
             steps=steps,
         )
@@ -517,12 +502,10 @@ def blade_loss_ladder(films: Films, scene: Scene, quantity: str) -> Ladder:
 
 def lost_blade(scene: Scene) -> BladeLossTable:
     """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
-    if not isinstance(scene.excitation, BladeLossTable):
-        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise InputError(f'excitation of kind "blade_loss" is required for peak_displacement, got {got}')
+    lost: BladeLossTable = scene.excited_by("peak_displacement", BladeLossTable)
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    return scene.excitation
+    return lost
 
 
 # What is asked about an orbit that an unbalance makes, and where.

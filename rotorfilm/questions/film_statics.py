@@ -36,7 +36,6 @@ from .walk import NoAnswerError
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
-    from ..scenes.schema import RigidRotorTable
 
 Films = Callable[["Scene"], Sequence[FilmCandidate]]
 """Takes a scene and returns the candidates for its bearing, the cheapest first."""
@@ -382,13 +381,6 @@ class WhirlRung(CandidateRung):
         return self.film.expected(sum(done.values()))
 
 
-def required_rotor(scene: Scene, quantity: str) -> RigidRotorTable:
-    """Return the table of the rigid rotor; raise InputError if the scene has none."""
-    if scene.rigid_rotor is None:
-        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    return scene.rigid_rotor
-
-
 # On an oil the film is at each speed as warm as its rest there: by one temperature (T0, T1) on every film, or
 # by a temperature field (T2, T3), K and C at frozen temperature.
 
@@ -519,7 +511,7 @@ def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = Tr
     # With it come the modes of flexible rotors: here, before the cost of a rung is measured.
     from ..analysis.speed_events import secant_speed
 
-    mass, load, bearing = required_rotor(scene, quantity).mass, scene.static_load, any_bearing(scene)
+    mass, load, bearing = scene.required("rigid_rotor", quantity).mass, scene.static_load, any_bearing(scene)
     near = math.sqrt(math.hypot(*load) / (mass * bearing.clearance))
     question = WhirlQuestion(
         load=load,

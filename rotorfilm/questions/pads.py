@@ -12,31 +12,15 @@ import numpy as np
 
 from ..analysis import coefficients, equilibrium
 from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
-from ..bearings.pads import (
-    LobedBearing,
-    PadFilm,
-    PadGridFilm,
-    PadMapFilm,
-    PadResolution,
-    PressureDamBearing,
-    TiltingPadBearing,
-    differenced_slopes,
-    is_pad_mappable,
-    lobe_share,
-)
+from ..bearings import pads
 from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
 from ..core.errors import FilmContactError
 from ..core.model import Array
 from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
-from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected
+from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected, grid_name
 from ..scenes.pad_tables import pad_film_name, quasi_static_scene
-from .film_motions import (
-    OrbitRung,
-    orbit_ladder,
-    wave_change,
-    wave_value,
-)
+from .film_motions import OrbitRung, orbit_ladder, wave_change, wave_value
 from .film_statics import static_ladder, whirl_ladder
 from .journal import film_ladders
 from .quantities import FORCE, ORBIT_UNITS as ORBITS, QUANTITIES
@@ -47,10 +31,10 @@ if TYPE_CHECKING:
 # The films that may answer for a bearing of fixed pads, the cheapest first, and what is richer.
 
 
-COARSE_MAP = PadMapFilm(resolution=PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
+COARSE_MAP = pads.PadMapFilm(resolution=pads.PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
 """Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
 
-GRIDS = (((48, 4), 1e-4, 2e-3), ((96, 8), 1e-5, 1e-3), ((192, 16), 2e-6, 5e-4))
+GRIDS = (((48, 4), (1e-4, 2e-3)), ((96, 8), (1e-5, 1e-3)), ((192, 16), (2e-6, 5e-4)))
 """Cells, and orders of magnitude of the error of a position, and of K and C."""
 
 TURN_GRIDS = ((48, 4), (96, 8))
@@ -60,7 +44,7 @@ FINE, FINEST = (192, 16), (384, 32)
 """Cells of richer films."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class PadCandidate(FilmCandidate):
     """A film of pads that may answer for a bearing of fixed ones, or so many cells of those with recesses.
 
@@ -72,12 +56,12 @@ class PadCandidate(FilmCandidate):
         With the richer one.
     """
 
-    reaction: LobedBearing | PressureDamBearing
-    rich: LobedBearing | PressureDamBearing
+    reaction: pads.LobedBearing | pads.PressureDamBearing
+    rich: pads.LobedBearing | pads.PressureDamBearing
 
-    def on_grid(self, bearing: LobedBearing | PressureDamBearing) -> bool:
+    def on_grid(self, bearing: pads.LobedBearing | pads.PressureDamBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
-        return isinstance(bearing, PressureDamBearing) or isinstance(bearing.film, PadGridFilm)
+        return isinstance(bearing, pads.PressureDamBearing) or isinstance(bearing.film, pads.PadGridFilm)
 
     def curvature_distance(self, position: Array) -> float:
         """Return the distance [m] from the center of curvature of the pad that has the least film.
@@ -85,7 +69,7 @@ class PadCandidate(FilmCandidate):
         With recesses from the farthest one.
         """
         bearing, c = self.reaction, self.reaction.clearance
-        if isinstance(bearing, PressureDamBearing):
+        if isinstance(bearing, pads.PressureDamBearing):
             return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in bearing.pads))
         near = min(bearing.lobes, key=lambda lobe: float(lobe.least_film(position / c)))
         return float(np.hypot(*(position - c * np.array(near.center))))
@@ -93,10 +77,10 @@ class PadCandidate(FilmCandidate):
     def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
         """Return the bounds of the maps of all pads together in an equilibrium; infinite without maps."""
         bearing = self.reaction
-        if isinstance(bearing, PressureDamBearing) or not isinstance(bearing.film, PadMapFilm):
+        if isinstance(bearing, pads.PressureDamBearing) or not isinstance(bearing.film, pads.PadMapFilm):
             return math.inf
         place, film = (at.position, at.speed), bearing.film
-        shares = (lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
+        shares = (pads.lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
         force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
             return force / math.hypot(*at.load)
@@ -104,7 +88,7 @@ class PadCandidate(FilmCandidate):
         return float(max(stiffness / np.abs(found.stiffness).max(), damping / np.abs(found.damping).max()))
 
 
-def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
+def lobed_candidates(bearing: pads.LobedBearing, *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the films that can answer for a bearing of fixed pads: maps that are there, grids, other maps.
 
     Parameters
@@ -115,19 +99,19 @@ def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[PadCandidat
     """
     if fixed:
         film = bearing.film
-        fine = isinstance(film, PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
-        return (_lobed_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, 0.0, 0.0),)
+        fine = isinstance(film, pads.PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
+        return (_lobed_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, (0.0, 0.0)),)
     maps = _maps(bearing)
     ready = [film for film in maps if not film.makes_map]
     grids = [
         _lobed_candidate(
             bearing,
-            PadGridFilm(cells=cells),
-            f"2-D {cells[0]} x {cells[1]} extr.",
+            pads.PadGridFilm(cells=cells),
+            grid_name(cells),
             FINEST if cells == FINE else FINE,
-            *priors,
+            priors,
         )
-        for cells, *priors in GRIDS
+        for cells, priors in GRIDS
     ]
     return (*ready, *grids, *(film for film in maps if film.makes_map))
 
@@ -139,53 +123,44 @@ def few_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadC
 
 def many_forces(candidates: Sequence[PadCandidate], *, fixed: bool) -> tuple[PadCandidate, ...]:
     """Return the candidates for states all round a turn: the finest grid costs more than any map."""
-    kept = [PadGridFilm(cells=cells) for cells in TURN_GRIDS]
+    kept = [pads.PadGridFilm(cells=cells) for cells in TURN_GRIDS]
     return tuple(
         film
         for film in candidates
-        if fixed or isinstance(film.reaction.film, PadMapFilm) or film.reaction.film in kept
+        if fixed or isinstance(film.reaction.film, pads.PadMapFilm) or film.reaction.film in kept
     )
 
 
-def _maps(bearing: LobedBearing) -> list[PadCandidate]:
+def _maps(bearing: pads.LobedBearing) -> list[PadCandidate]:
     """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
     extents = {lobe.extent for lobe in bearing.lobes}
-    if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
+    if not all(pads.is_pad_mappable(extent, bearing.slenderness) for extent in extents):
         return []
-    coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
-    fine = _lobed_candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
+    coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, (1e-4, 1e-3))
+    fine = _lobed_candidate(bearing, pads.PadMapFilm(), "pad map", FINE, (1e-5, 5e-4))
     return [coarse, fine] if fine.makes_map else [fine]
 
 
 def _lobed_candidate(
-    bearing: LobedBearing,
-    film: PadFilm,
+    bearing: pads.LobedBearing,
+    film: pads.PadFilm,
     name: str,
     rich: tuple[int, int],
-    position_prior: float,
-    prior: float,
+    priors: tuple[float, float],
 ) -> PadCandidate:
-    making = 0.0
-    if isinstance(film, PadMapFilm):
-        extents = {lobe.extent for lobe in bearing.lobes}
+    making, extents = 0.0, {lobe.extent for lobe in bearing.lobes}
+    if isinstance(film, pads.PadMapFilm):
         making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
-    cells = math.prod(film.cells) if isinstance(film, PadGridFilm) else 0
-    return PadCandidate(
-        name=name,
-        reaction=replace(bearing, film=film),
-        rich=replace(bearing, film=PadGridFilm(cells=rich)),
-        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
-        position_prior=position_prior,
-        prior=prior,
-        making=making,
-        call_time=len(bearing.lobes) * (CELL_TIME * cells or CALL_TIME),
-    )
+    cells = math.prod(film.cells) if isinstance(film, pads.PadGridFilm) else 0
+    own, richer = replace(bearing, film=film), replace(bearing, film=pads.PadGridFilm(cells=rich))
+    call_time = len(bearing.lobes) * (CELL_TIME * cells or CALL_TIME)
+    return PadCandidate(name, own, richer, grid_name(rich), *priors, making=making, call_time=call_time)
 
 
 # The films that may answer for a bearing of pads with recesses: grids of ever more cells.
 
 
-LEVELS = (((32, 8), 2e-4, 5e-3), ((64, 16), 5e-5, 1e-3), ((128, 32), 5e-6, 5e-4))
+LEVELS = (((32, 8), (2e-4, 5e-3)), ((64, 16), (5e-5, 1e-3)), ((128, 32), (5e-6, 5e-4)))
 """Cells, and orders of magnitude of the error of a position, and of K and C."""
 
 DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
@@ -193,7 +168,7 @@ DAM_FINE, DAM_FINEST = (128, 32), (256, 64)
 
 
 def dam_candidates(
-    bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
+    bearing: pads.PressureDamBearing, *, fixed: bool, turns: bool = False
 ) -> tuple[PadCandidate, ...]:
     """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
 
@@ -206,33 +181,26 @@ def dam_candidates(
         Whether they are for states all round a turn, which are too many for the most cells.
     """
     if fixed:
-        return (_dam_candidate(bearing, DAM_FINEST, 0.0, 0.0),)
+        return (_dam_candidate(bearing, DAM_FINEST, (0.0, 0.0)),)
     levels = LEVELS[:-1] if turns else LEVELS
     return tuple(
-        _dam_candidate(replace(bearing, cells=cells), DAM_FINE if turns or not k else DAM_FINEST, *priors)
-        for k, (cells, *priors) in enumerate(levels)
+        _dam_candidate(replace(bearing, cells=cells), DAM_FINE if turns or not k else DAM_FINEST, priors)
+        for k, (cells, priors) in enumerate(levels)
     )
 
 
 def _dam_candidate(
-    bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
+    bearing: pads.PressureDamBearing, cells: tuple[int, int], priors: tuple[float, float]
 ) -> PadCandidate:
-    rich = replace(bearing, cells=cells)
-    return PadCandidate(
-        name=pad_film_name(bearing),
-        reaction=bearing,
-        rich=rich,
-        rich_name=pad_film_name(rich),
-        position_prior=position_prior,
-        prior=prior,
-        call_time=len(bearing.pads) * CELL_TIME * math.prod(bearing.cells),
-    )
+    rich, calls = replace(bearing, cells=cells), len(bearing.pads) * CELL_TIME * math.prod(bearing.cells)
+    names = pad_film_name(bearing), pad_film_name(rich)
+    return PadCandidate(names[0], bearing, rich, names[1], *priors, call_time=calls)
 
 
 # The films that may answer for a bearing of tilting pads, the cheapest first, and what is richer.
 
 
-TILTING_GRIDS = (((48, 4), 1e-4, 1e-3), ((96, 8), 1e-5, 2e-4), ((192, 16), 1e-6, 5e-5))
+TILTING_GRIDS = (((48, 4), (1e-4, 1e-3)), ((96, 8), (1e-5, 2e-4)), ((192, 16), (1e-6, 5e-5)))
 """Cells, and orders of magnitude of the error of a position, and of K and C."""
 
 MAP_CALL = 2e-4
@@ -242,7 +210,7 @@ LOOKS, CALLS = 60, 8
 """Films of one pad in the search for its tilt at rest, and forces with derivatives of an equilibrium."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class TiltingCandidate(FilmCandidate):
     """A film of pads that may answer for a bearing of tilting ones.
 
@@ -254,8 +222,8 @@ class TiltingCandidate(FilmCandidate):
         With the richer one.
     """
 
-    reaction: TiltingPadBearing
-    rich: TiltingPadBearing
+    reaction: pads.TiltingPadBearing
+    rich: pads.TiltingPadBearing
 
     @property
     def tangents(self) -> WorkUnit:
@@ -300,33 +268,27 @@ class TiltingCandidate(FilmCandidate):
         moved = self.corrected(at, smooth=False)
         return float(self.rich.at_rest().modes(moved.position, at.speed, mass)[0].real), moved.doubt
 
-    def least_film(self, bearing: TiltingPadBearing, position: Array, speed: float) -> float:
+    def least_film(self, bearing: pads.TiltingPadBearing, position: Array, speed: float) -> float:
         """Return the least film [m] over all pads, each in its tilt."""
         return float(bearing.at_rest().pad_states(position, speed).film_thickness.min())
 
     def corrected(self, at: Equilibrium, *, smooth: bool) -> Corrected:
         """Return the equilibrium of the richer film; smooth slopes are those once a turn."""
-        resting = FilmCandidate(
-            name=self.name,
-            reaction=self.reaction.at_rest(),
-            rich=self.rich.at_rest(),
-            rich_name=self.rich_name,
-            position_prior=self.position_prior,
-            prior=self.prior,
-        )
+        films = self.reaction.at_rest(), self.rich.at_rest()
+        resting = FilmCandidate(self.name, *films, self.rich_name, self.position_prior, self.prior)
         found = corrected(resting, at, np.array(at.load), smooth=False)
         if not smooth:
             return found
-        pads = self.rich.at_rest().matrices(found.position, at.speed, smooth_slopes).reduced(abs(at.speed))
-        return replace(found, slopes=-np.concatenate([pads.stiffness, pads.damping], axis=1))
+        film = self.rich.at_rest().matrices(found.position, at.speed, smooth_slopes).reduced(abs(at.speed))
+        return replace(found, slopes=-np.concatenate([film.stiffness, film.damping], axis=1))
 
 
-def smooth_slopes(bearing: TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
+def smooth_slopes(bearing: pads.TiltingPadBearing, e: Array, w: Array) -> tuple[Array, Array]:
     """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
-    return differenced_slopes(bearing, e, w, STEP)
+    return pads.differenced_slopes(bearing, e, w, STEP)
 
 
-def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
+def tilting_candidates(bearing: pads.TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
     """Return the films that can answer for a bearing of tilting pads: the map if it is there, and grids.
 
     Parameters
@@ -335,38 +297,30 @@ def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[Tilt
     fixed : bool
         Whether the scene names the film of the bearing, so that no other may answer.
     """
-    film = bearing.film
     if fixed:
-        return (_tilting_candidate(bearing, film, pad_film_name(film), 0.0, 0.0),)
+        film = bearing.film
+        return (_tilting_candidate(bearing, film, pad_film_name(film), (0.0, 0.0)),)
     grids = [
-        _tilting_candidate(bearing, PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors)
-        for cells, *priors in TILTING_GRIDS
+        _tilting_candidate(bearing, pads.PadGridFilm(cells=cells), grid_name(cells), priors)
+        for cells, priors in TILTING_GRIDS
     ]
-    if not is_pad_mappable(bearing.extent, bearing.slenderness):
+    if not pads.is_pad_mappable(bearing.extent, bearing.slenderness):
         return tuple(grids)
-    fine = _tilting_candidate(bearing, PadMapFilm(), "pad map", 2e-5, 1e-3)
+    fine = _tilting_candidate(bearing, pads.PadMapFilm(), "pad map", (2e-5, 1e-3))
     return tuple(grids) if fine.makes_map else (fine, *grids)
 
 
 def _tilting_candidate(
-    bearing: TiltingPadBearing, film: PadFilm, name: str, position_prior: float, prior: float
+    bearing: pads.TiltingPadBearing, film: pads.PadFilm, name: str, priors: tuple[float, float]
 ) -> TiltingCandidate:
     making, rich, call_time = 0.0, (96, 8), MAP_CALL
-    if isinstance(film, PadGridFilm):
+    if isinstance(film, pads.PadGridFilm):
         rich = 2 * film.cells[0], 2 * film.cells[1]
         call_time = LOOKS * len(bearing.pivots) * CELL_TIME * math.prod(film.cells)
-    elif isinstance(film, PadMapFilm):
+    elif isinstance(film, pads.PadMapFilm):
         making = film.making_time(bearing.extent, bearing.slenderness)
-    return TiltingCandidate(
-        name=name,
-        reaction=replace(bearing, film=film),
-        rich=replace(bearing, film=PadGridFilm(cells=rich)),
-        rich_name=f"2-D {rich[0]} x {rich[1]} extr.",
-        position_prior=position_prior,
-        prior=prior,
-        making=making,
-        call_time=call_time,
-    )
+    own, richer = replace(bearing, film=film), replace(bearing, film=pads.PadGridFilm(cells=rich))
+    return TiltingCandidate(name, own, richer, grid_name(rich), *priors, making=making, call_time=call_time)
 
 
 PAD_STATICS = [name for name in QUANTITIES if name != "maximum_pressure"]
@@ -466,10 +420,10 @@ class StatefulOrbitRung(OrbitRung):
         """Return some Newton steps at these samples."""
         return {self.points: ORBIT_STEPS * self.samples if self.samples else FEW_SAMPLES}
 
-    def _equations(self, bearing: TiltingPadBearing, samples: int) -> TurnEquations:
+    def _equations(self, bearing: pads.TiltingPadBearing, samples: int) -> TurnEquations:
         return TurnEquations(self.rotor, bearing.evaluated, bearing.clearance, samples)
 
-    def _rest(self, bearing: TiltingPadBearing) -> Array:
+    def _rest(self, bearing: pads.TiltingPadBearing) -> Array:
         speed = self.rotor.profile.speeds[0]
         position = equilibrium(bearing, self.rotor.static_force, speed).position
         return np.concatenate([position, bearing.at_rest().state(position, speed)])

@@ -8,27 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..analysis import RotorEquilibrium, rotor_equilibrium, rotor_modes
-from ..analysis.rotor_matrices import (
-    SecondOrder,
-    dynamics,
-    inverse_steps,
-    journal_rows,
-    motion_near,
-    second_order,
-    whirl_near,
-)
-from ..analysis.speed_events import (
-    CRITICAL,
-    THRESHOLD,
-    SpeedEvent,
-    Start,
-    Whirl,
-    on_films,
-    secant_speed,
-    value_rate,
-    whirl_of,
-)
+from ..analysis import RotorEquilibrium, rotor_equilibrium, rotor_matrices, rotor_modes, speed_events
 from ..core.answers import (
     DISAGREEMENT,
     SAFETY,
@@ -39,25 +19,14 @@ from ..core.answers import (
     WorkUnit,
     beside_bound,
 )
-from ..core.errors import AbsentError, InputError
+from ..core.errors import AbsentError
 from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, WarmRest
+from . import shaft_films
 from .film_statics import moving_heat
 from .quantities import ORBIT_UNITS as ORBITS
-from .shaft_films import (
-    ShaftFilms,
-    ShaftRung,
-    at_supply,
-    coefficient_bounds,
-    field_error,
-    field_rests,
-    film_levels,
-    rich_coefficients,
-    shaft_ladder_on,
-    with_fields,
-)
 from .shaft_orbits import PEAK, shaft_orbit_ladder, shaft_peak_ladder
 from .variants import FunctionRung, counted_rung
 
@@ -70,7 +39,10 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-EVENTS: dict[str, SpeedEvent] = {"critical_speed": CRITICAL, "whirl_threshold": THRESHOLD}
+EVENTS: dict[str, speed_events.SpeedEvent] = {
+    "critical_speed": speed_events.CRITICAL,
+    "whirl_threshold": speed_events.THRESHOLD,
+}
 """What happens at the speeds that may be asked for."""
 
 SHAFT_ROUNDOFF = float(np.finfo(float).eps)
@@ -87,13 +59,13 @@ class ShaftSpeed:
     model : ShaftModel
     """
 
-    whirls: tuple[Whirl, ...]
+    whirls: tuple[speed_events.Whirl, ...]
     model: ShaftModel
 
-    def starts(self, model: ShaftModel) -> list[Start]:
+    def starts(self, model: ShaftModel) -> list[speed_events.Start]:
         """Return where another model may look for the same whirls."""
         return [
-            Start(whirl.at.speed, whirl.value, model.seen(self.model.nodal(whirl.right)))
+            speed_events.Start(whirl.at.speed, whirl.value, model.seen(self.model.nodal(whirl.right)))
             for whirl in self.whirls
         ]
 
@@ -107,7 +79,7 @@ class CorrectedSpeed(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftSpeedRung(ShaftRung):
+class ShaftSpeedRung(shaft_films.ShaftRung):
     """The first critical speed, or the threshold, by one model of the shaft and one film for each journal.
 
     Attributes
@@ -118,7 +90,7 @@ class ShaftSpeedRung(ShaftRung):
         Where it is looked for.
     """
 
-    event: SpeedEvent
+    event: speed_events.SpeedEvent
     speeds: Array
 
     def answer(self, before: RungResult | None) -> RungResult:
@@ -129,7 +101,7 @@ class ShaftSpeedRung(ShaftRung):
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
         bearings = self.films.reaction, self.films.turning
-        found = [whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
+        found = [speed_events.whirl_of(self.event, self.model.rotor, *bearings, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
@@ -139,7 +111,7 @@ class ShaftSpeedRung(ShaftRung):
             first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model)
         )
 
-    def _looked_for(self) -> list[Start]:
+    def _looked_for(self) -> list[speed_events.Start]:
         """Return the first such speed by a reduced model, and those near it."""
         model = self.model.quick
         rotor, reactions = model.rotor, self.films.reaction
@@ -148,9 +120,9 @@ class ShaftSpeedRung(ShaftRung):
             at, structure = rotor_equilibrium(rotor, reactions, speed), rotor.structure
             shape = np.random.default_rng(0).normal(size=len(structure.weight)) + 0j
             frequency = self.event.frequency(value, speed)
-            value, shape, _ = whirl_near(structure, at, frequency, value, shape)
+            value, shape, _ = rotor_matrices.whirl_near(structure, at, frequency, value, shape)
             seen = shape if model is self.model else self.model.seen(model.nodal(shape))
-            starts.append(Start(speed, value, seen))
+            starts.append(speed_events.Start(speed, value, seen))
         return starts
 
     def estimate(self, found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
@@ -206,9 +178,11 @@ class ShaftSpeedRung(ShaftRung):
         own, other = (rotor_modes(model.rotor, films, speed) for model in (self.model, widest))
         return self.event.missed(own, other)
 
-    def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> CorrectedSpeed:
+    def _corrected(self, whirl: speed_events.Whirl, rate: float, *, trusted: bool) -> CorrectedSpeed:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
-        found = (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
+        found = (
+            (whirl.at.coefficients, "") if trusted else shaft_films.rich_coefficients(self.films, whirl.at)
+        )
         return self._stepped(whirl, rate, *found)
 
     def rest(self, found: RungResult) -> RotorEquilibrium:
@@ -218,16 +192,16 @@ class ShaftSpeedRung(ShaftRung):
 
     def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the speed [rad/s] on these K and C, for small changes."""
-        whirl: Whirl = found.solution.whirls[0]
+        whirl: speed_events.Whirl = found.solution.whirls[0]
         return self._stepped(whirl, self.rate(whirl), coefficients, "").speed
 
-    def rate(self, whirl: Whirl) -> float:
+    def rate(self, whirl: speed_events.Whirl) -> float:
         """Return by how much what must vanish changes with the speed [1]."""
-        return self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films.turning))
+        return self.event.rate(speed_events.value_rate(self.model.rotor.structure, whirl, self.films.turning))
 
     def moving(self, found: RungResult) -> float:
         """Return how much heat that moves with the whirl lowers a threshold [1]."""
-        if self.event is not THRESHOLD:
+        if self.event is not speed_events.THRESHOLD:
             return 0.0
         bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
         return max(moving_heat(bearing, found.value) for bearing in bearings)
@@ -240,27 +214,27 @@ class ShaftSpeedRung(ShaftRung):
         return ErrorEstimate(error, method, doubt=doubt)
 
     def _stepped(
-        self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
+        self, whirl: speed_events.Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
     ) -> CorrectedSpeed:
         frequency = self.event.frequency(whirl.value, whirl.at.speed)
-        at, structure = on_films(whirl.at, coefficients), self.model.finer.structure
-        system = motion_near(structure, at, frequency)(whirl.value)
+        at, structure = speed_events.on_films(whirl.at, coefficients), self.model.finer.structure
+        system = rotor_matrices.motion_near(structure, at, frequency)(whirl.value)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
-        _, first, last = inverse_steps(system, whirl.value, right, left, 3)
+        _, first, last = rotor_matrices.inverse_steps(system, whirl.value, right, left, 3)
         one, other = (-self.event.lead(step[0], whirl.at.speed) / rate for step in (first, last))
         noise = _roundoff(system, *last) / abs(rate)
         if abs(one - other) > DISAGREEMENT * abs(other) + noise:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
         return CorrectedSpeed(whirl.at.speed + other, noise / whirl.at.speed, doubt)
 
-    def _bound(self, whirl: Whirl, rate: float) -> float:
+    def _bound(self, whirl: speed_events.Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
         structure = self.model.rotor.structure
-        _, slope = dynamics(second_order(structure, whirl.at), whirl.value)
+        _, slope = rotor_matrices.dynamics(rotor_matrices.second_order(structure, whirl.at), whirl.value)
         scale = whirl.left.conj() @ slope @ whirl.right
         total = 0.0
-        for name, bound in coefficient_bounds(self.films, whirl.at).items():
-            rows, film = journal_rows(structure, name), whirl.at.coefficients[name]
+        for name, bound in shaft_films.coefficient_bounds(self.films, whirl.at).items():
+            rows, film = rotor_matrices.journal_rows(structure, name), whirl.at.coefficients[name]
             # what an entry of K, and of C, of this size does to the eigenvalue
             by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
             for change, entries in ((1.0, film.stiffness), (whirl.value, film.damping)):
@@ -273,9 +247,11 @@ class ShaftSpeedRung(ShaftRung):
         return {self.unit: 4}
 
 
-def _roundoff(system: SecondOrder, value: complex, right: np.ndarray, left: np.ndarray) -> float:
+def _roundoff(
+    system: rotor_matrices.SecondOrder, value: complex, right: np.ndarray, left: np.ndarray
+) -> float:
     """Return what roundoff in the stiffness may make of an eigenvalue [1/s]."""
-    _, slope = dynamics(system, value)
+    _, slope = rotor_matrices.dynamics(system, value)
     size = float(np.linalg.norm(np.abs(left) * (np.abs(system.stiffness) @ np.abs(right))))
     return SHAFT_ROUNDOFF * size / float(abs(left.conj() @ slope @ right))
 
@@ -288,12 +264,11 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no shaft.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity}, got no such table")
-    rotor, speeds = scene.shaft.build(), scene.shaft.speeds.build()
-    models, levels, event = shaft_models(rotor), film_levels(scene.shaft), EVENTS[quantity]
+    shaft = scene.required("shaft", quantity)
+    rotor, speeds = shaft.build(), shaft.speeds.build()
+    models, levels, event = shaft_models(rotor), shaft_films.film_levels(shaft), EVENTS[quantity]
 
-    def rungs_on(levels: tuple[ShaftFilms, ...]) -> list[ShaftSpeedRung]:
+    def rungs_on(levels: tuple[shaft_films.ShaftFilms, ...]) -> list[ShaftSpeedRung]:
         return [
             ShaftSpeedRung(event=event, model=model, films=films, speeds=speeds)
             for films in levels
@@ -302,14 +277,14 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
 
     rungs = rungs_on(levels)
     mesh = next((rung for rung in rungs if rung.model.modes is None), rungs[0])
-    return shaft_ladder_on(
+    return shaft_films.shaft_ladder_on(
         scene,
         rotor,
         float(speeds[-1]),
         "rad/s",
         rungs,
         lambda: (
-            rungs_on(tuple(map(at_supply, levels))),
+            rungs_on(tuple(map(shaft_films.at_supply, levels))),
             (field_speed(level, mesh) for level in FIELD_LEVELS[:2]),
         ),
     )
@@ -336,21 +311,27 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:
         def lead_at(speed: float) -> tuple[float, tuple[RungResult, dict[str, WarmRest]]]:
             nonlocal whirl
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
-            rests = field_rests(rung.films, at, level)
-            warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
+            rests = shaft_films.field_rests(rung.films, at, level)
+            warm = speed_events.on_films(
+                at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}}
+            )
             frequency = event.frequency(whirl.value, speed)
-            whirl = Whirl(warm, *whirl_near(structure, warm, frequency, whirl.value, whirl.right))
+            whirl = speed_events.Whirl(
+                warm, *rotor_matrices.whirl_near(structure, warm, frequency, whirl.value, whirl.right)
+            )
             found = RungResult(speed, {}, ShaftSpeed(whirls=(whirl,), model=rung.model))
             return event.lead(whirl.value, speed), (found, rests)
 
-        near = secant_speed(
+        near = speed_events.secant_speed(
             lead_at, whirl.at.speed, rung.rate(whirl), near=NEAR, farthest=FARTHEST, most=RESTS
         )
         return near.speed, near.solution
 
     def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         inner, rests = found.solution
-        return with_fields(rung.mesh_error(inner), field_error(rung, inner, rests, level))
+        return shaft_films.with_fields(
+            rung.mesh_error(inner), shaft_films.field_error(rung, inner, rests, level)
+        )
 
     return counted_rung(name, ("answers", name), seconds, solve, judge)
 

@@ -27,20 +27,10 @@ from ..core.port import Reaction
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel
-from ..scenes.excitation_table import oil_remarks
-from ..scenes.film_heat import (
-    FIELD_LEVELS,
-    FieldLevel,
-    HeatError,
-    HeatSteps,
-    WarmRest,
-    assumed_figures,
-    grid_error,
-    heat_error,
-    uniform_rest,
-)
+from ..scenes import film_heat
 from ..scenes.film_rungs import FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
+from ..scenes.shared_tables import oil_remarks
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
 from .variants import FunctionRung, counted_rung, with_estimate
@@ -251,7 +241,6 @@ def shaft_ladder_on(
     heated : callable
         Returns the rungs on fresh oil (T0), and those on temperature fields (T2, T3).
     """
-    assert scene.shaft is not None
     bearings, on_oil, first = scene.shaft.build_bearings(), rungs[0].films.on_oil, rungs[0]
     ladder: tuple[Rung, ...] = tuple(rungs)
     if on_oil:
@@ -275,36 +264,40 @@ def shaft_ladder_on(
 NEAR_HEAT = 0.02
 """Relative change of speed within which rungs of a level have the same error by heat."""
 
-HeatEffect = tuple[HeatError, str, str]
+HeatEffect = tuple[film_heat.HeatError, str, str]
 """An error by heat, how it is known, and why it must not be trusted; empty if it may."""
 
 
-def rests_of(rung: ShaftRung, at: RotorEquilibrium) -> dict[str, WarmRest]:
+def rests_of(rung: ShaftRung, at: RotorEquilibrium) -> dict[str, film_heat.WarmRest]:
     """Return the rest in each film of an oil, at its temperature."""
     found = {}
     for name in rung.films.on_oil:
         bearing: JournalBearing = rung.films.journals[name].reaction
         temperature = at.temperatures.get(name, bearing.temperature)
-        found[name] = uniform_rest(bearing, at.loads[name], at.speed, temperature)
+        found[name] = film_heat.uniform_rest(bearing, at.loads[name], at.speed, temperature)
     return found
 
 
-def value_on(rung: ShaftRung, found: RungResult, rests: Mapping[str, WarmRest]) -> float:
+def value_on(rung: ShaftRung, found: RungResult, rests: Mapping[str, film_heat.WarmRest]) -> float:
     """Return the answer on the films of other rests."""
     own = rung.rest(found).coefficients
     return rung.on(found, {**own, **{name: one.coefficients for name, one in rests.items()}})
 
 
-def steps_error(rung: ShaftRung, found: RungResult, own: float, rests: Mapping[str, WarmRest]) -> HeatEffect:
+def steps_error(
+    rung: ShaftRung, found: RungResult, own: float, rests: Mapping[str, film_heat.WarmRest]
+) -> HeatEffect:
     """Return the error of a value by heat, by steps of each film towards T3."""
-    steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
+    steps = {
+        name: film_heat.HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()
+    }
     samples = {name: one.sample for name, one in steps.items()}
     start = value_on(rung, found, rests)
     last, before, coarse, fine, long = (
         value_on(rung, found, {name: one[k] for name, one in samples.items()}) for k in range(5)
     )
     doubt = next((one.doubt for one in steps.values() if one.doubt), "")
-    heat = heat_error(own, start, (last, before, coarse, fine, long), rung.distance)
+    heat = film_heat.heat_error(own, start, (last, before, coarse, fine, long), rung.distance)
     return *with_moving(rung.moving(found), heat, "steps towards T3"), doubt
 
 
@@ -339,10 +332,12 @@ class RotorHeat:
         if self.level is FRESH:
             for name, one in rests.items():
                 bearing = rung.films.journals[name].reaction
-                rests[name] = uniform_rest(bearing, one.rest.load, one.rest.speed, balance_at(bearing, one))
+                rests[name] = film_heat.uniform_rest(
+                    bearing, one.rest.load, one.rest.speed, balance_at(bearing, one)
+                )
             error = rung.distance(own, value_on(rung, found, rests))
             if SAFETY * error >= tolerance:
-                return HeatError(error, False), BALANCE, ""
+                return film_heat.HeatError(error, False), BALANCE, ""
         return steps_error(rung, found, own, rests)
 
 
@@ -387,13 +382,13 @@ def shaft_assumptions(rung: ShaftRung) -> tuple[str, ...]:
             same = bearing.oil == like.oil and bearing.cooling == like.cooling
             changed = replace(bearing, oil=other.oil, cooling=other.cooling, temperature=None)
             one = changed if same else replace(bearing, temperature=None)
-            rests[name] = uniform_rest(one, at.loads[name], at.speed)
+            rests[name] = film_heat.uniform_rest(one, at.loads[name], at.speed)
         return rung.distance(own, value_on(rung, found, rests))
 
     lines: dict[str, None] = {}
     for name in on_oil:
         bearing: JournalBearing = rung.films.journals[name].reaction
-        lines |= dict.fromkeys(assumed_figures(bearing, partial(moved, like=bearing), fields=True))
+        lines |= dict.fromkeys(film_heat.assumed_figures(bearing, partial(moved, like=bearing), fields=True))
     return tuple(lines)
 
 
@@ -407,13 +402,15 @@ ROUNDOFF = 1e-9
 """Of loads, relative to them."""
 
 
-def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> dict[str, WarmRest]:
+def field_rests(
+    films: ShaftFilms, at: RotorEquilibrium, level: film_heat.FieldLevel
+) -> dict[str, film_heat.WarmRest]:
     """Return the rest in each film of an oil with a temperature field, under the loads of a rest by T1.
 
     In two bearings those follow from statics. Equal bearings under loads that are equal to roundoff, as of a
     symmetric rotor, have one rest.
     """
-    rests: dict[str, WarmRest] = {}
+    rests: dict[str, film_heat.WarmRest] = {}
     for name in films.on_oil:
         bearing, load = films.journals[name].reaction, at.loads[name]
         equal = (
@@ -427,7 +424,7 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
 
 
 def field_error(
-    rung: ShaftRung, found: RungResult, rests: dict[str, WarmRest], level: FieldLevel
+    rung: ShaftRung, found: RungResult, rests: dict[str, film_heat.WarmRest], level: film_heat.FieldLevel
 ) -> HeatEffect:
     """Return the error by heat of an answer on temperature fields.
 
@@ -438,12 +435,12 @@ def field_error(
         return steps_error(rung, found, own, rests)
     at = rung.rest(found)
 
-    def value(one: FieldLevel) -> float:
+    def value(one: film_heat.FieldLevel) -> float:
         return value_on(rung, found, field_rests(rung.films, at, one))
 
-    grid = grid_error(level, own, value, rung.distance)
+    grid = film_heat.grid_error(level, own, value, rung.distance)
     method = "cells twice as long, half the layers"
-    return *with_moving(rung.moving(found), HeatError(grid, True), method), ""
+    return *with_moving(rung.moving(found), film_heat.HeatError(grid, True), method), ""
 
 
 def with_fields(about: ErrorEstimate, heat: HeatEffect) -> ErrorEstimate:
@@ -472,16 +469,16 @@ def field_orbits(
     """
     linear = [choice for choice in choices if not choice[1]][-1]
     uniform = rung_on(at_temperatures(films, rest.temperatures), *linear)
-    for level in FIELD_LEVELS[:2]:
+    for level in film_heat.FIELD_LEVELS[:2]:
         rests = cache(partial(field_rests, films, rest, level))  # found once for the rungs of a level
         for model, samples in (linear, *[choice for choice in choices if choice[1]][:NONLINEAR]):
             yield field_orbit(level, uniform, rests, partial(rung_on, model=model, samples=samples), films)
 
 
 def field_orbit(
-    level: FieldLevel,
+    level: film_heat.FieldLevel,
     uniform: ShaftRung,
-    rests: Callable[[], dict[str, WarmRest]],
+    rests: Callable[[], dict[str, film_heat.WarmRest]],
     make: Callable[[ShaftFilms], ShaftRung],
     films: ShaftFilms,
 ) -> FunctionRung:

@@ -28,20 +28,13 @@ from ..core.port import Reaction
 from ..core.results import Coefficients, Trajectory
 from ..rotors import BaseExcitedRotor, BaseMotion, FlexibleRotor, ReducedRotor, ShaftRotor, mount
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
-from ..scenes.excitation_table import GroundTable, RunUpTable, UnbalanceTable, require_kind
+from ..scenes.export_scene import at_rest
 from ..scenes.rotor_runs import after_loss, largest_distance, run_span, run_times
+from ..scenes.shared_tables import GroundTable, RunUpTable, UnbalanceTable, require_kind
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
+from . import shaft_films
 from .film_motions import WALL, OrbitPlace, SolvedTurn
 from .quantities import FORCE, ORBIT_UNITS, PHASE
-from .shaft_films import (
-    ShaftFilms,
-    ShaftRung,
-    at_supply,
-    at_temperatures,
-    field_orbits,
-    film_levels,
-    shaft_ladder_on,
-)
 from .variants import FunctionRung
 
 if TYPE_CHECKING:
@@ -58,7 +51,7 @@ ROUNDOFF = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftOrbitRung(ShaftRung):
+class ShaftOrbitRung(shaft_films.ShaftRung):
     """The orbit by one model of the shaft and one film for each journal, linear or nonlinear.
 
     Attributes
@@ -216,25 +209,24 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         for without a place.
     """
     place, shaft = orbit_place(scene, quantity), scene.shaft
-    assert shaft is not None  # checked by the above
-    rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), film_levels(shaft)
+    rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), shaft_films.film_levels(shaft)
     models, films = shaft_models(rotor), levels[0]
     choices = _choices(models, nonlinear=bool(films.journals))
     # In vibration films keep the temperatures of the rest.
     rest = rotor_equilibrium(models[0].rotor, films.reaction, scene.speed) if films.on_oil else None
 
-    def rung_on(films: ShaftFilms, model: ShaftModel, samples: int) -> ShaftOrbitRung:
+    def rung_on(films: shaft_films.ShaftFilms, model: ShaftModel, samples: int) -> ShaftOrbitRung:
         return ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
 
-    def rungs_on(at: Callable[[ShaftFilms], ShaftFilms]) -> list[ShaftOrbitRung]:
+    def rungs_on(at: Callable[[shaft_films.ShaftFilms], shaft_films.ShaftFilms]) -> list[ShaftOrbitRung]:
         return [rung_on(one, *choice) for one in map(at, levels) for choice in choices]
 
     def heated() -> tuple[list[ShaftOrbitRung], Iterator[Rung]]:
         assert rest is not None  # on an oil
-        return rungs_on(at_supply), field_orbits(films, rest, rung_on, choices)
+        return rungs_on(shaft_films.at_supply), shaft_films.field_orbits(films, rest, rung_on, choices)
 
-    rungs = rungs_on(lambda one: one if rest is None else at_temperatures(one, rest.temperatures))
-    ladder = shaft_ladder_on(scene, rotor, scene.speed, ORBIT_UNITS[quantity], rungs, heated)
+    rungs = rungs_on(lambda one: one if rest is None else shaft_films.at_temperatures(one, rest.temperatures))
+    ladder = shaft_films.shaft_ladder_on(scene, rotor, scene.speed, ORBIT_UNITS[quantity], rungs, heated)
     unstable = stability_remark(rotor, rungs[0].films.reaction, scene.speed)
     return replace(ladder, remarks=(*ladder.remarks, *unstable))
 
@@ -258,22 +250,21 @@ def orbit_place(scene: Scene, quantity: str) -> OrbitPlace:
     InputError
         As `shaft_orbit_ladder` says.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity} of a flexible rotor, got no such table")
+    shaft = scene.required("shaft", f"{quantity} of a flexible rotor")
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     if scene.operation is not None and scene.operation.load is not None:
         load = scene.operation.load
         raise InputError(f"operation.load must be left out for a [shaft], which has its weight, got {load!r}")
-    unbalances = (*scene.shaft.unbalances, *_extra(scene))
+    unbalances = (*shaft.unbalances, *_extra(scene))
     if not any(one.unbalance > 0.0 for one in unbalances):
         raise InputError("shaft.unbalances must have a positive one for an orbit, got none")
-    known = scene.shaft.places(forces=quantity == FORCE)
+    known = shaft.places(forces=quantity == FORCE)
     at = scene.question.at if scene.question is not None else ""
     if quantity == PHASE and not at and len(known) > 1:
         raise InputError(f"question.at is required for {quantity}: one of {', '.join(known)}, got nothing")
     places = (at,) if at else known
-    probes = {probe.name for probe in scene.shaft.probes}
+    probes = {probe.name for probe in shaft.probes}
     return OrbitPlace(
         quantity=quantity,
         places=places,
@@ -328,8 +319,7 @@ class ShaftExcitation:
 
     def run(self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], rtol: float) -> Trajectory:
         """Return the motion of a rotor from its rest on."""
-        still = rotor_equilibrium(rotor, bearings, self.speed).displacement
-        started: Any = replace(rotor, initial=(*still, *0.0 * still))  # type: ignore[type-var]
+        started: Any = at_rest(rotor, bearings, self.speed)[0]
         if self.base is not None:
             started = BaseExcitedRotor(rotor=started, base=self.base)
         end = float(self.times[-1])
@@ -341,7 +331,7 @@ class ShaftExcitation:
 
 
 def peak_rung(
-    model: ShaftModel, films: ShaftFilms, best: ShaftFilms, shaken: ShaftExcitation
+    model: ShaftModel, films: shaft_films.ShaftFilms, best: shaft_films.ShaftFilms, shaken: ShaftExcitation
 ) -> FunctionRung:
     """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
@@ -350,7 +340,7 @@ def peak_rung(
     those by which it is judged, unless they are these. A map with a verified bound is its own richer film: by
     how much its bound may move the peak is told by a run in so much more viscous oil.
     """
-    name = ShaftRung(model=model, films=films).name
+    name = shaft_films.ShaftRung(model=model, films=films).name
     unit = WorkUnit(f"runs of {name}", ("runs", id(model), id(films)))
 
     def answer(before: RungResult | None) -> RungResult:
@@ -381,7 +371,7 @@ def peak_rung(
     return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
 
 
-def _largest_bound(films: ShaftFilms, run: Trajectory) -> float:
+def _largest_bound(films: shaft_films.ShaftFilms, run: Trajectory) -> float:
     """Return the largest verified error of films over a motion [1]."""
     bounds = []
     for name, film in films.journals.items():
@@ -401,7 +391,7 @@ def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
     return few
 
 
-def _thicker(films: ShaftFilms, share: float) -> dict[str, Reaction]:
+def _thicker(films: shaft_films.ShaftFilms, share: float) -> dict[str, Reaction]:
     """Return the bearings with so many times the viscosity of their oil."""
     thick = dict(films.springs)
     for name, film in films.journals.items():
@@ -419,16 +409,14 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no shaft, an excitation that is no run, or films on an oil.
     """
-    if scene.shaft is None:
-        raise InputError(f"shaft is required for {quantity}, got no such table")
+    given = scene.required("shaft", quantity)
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
-    given, scene = scene.shaft, after_loss(scene)
-    assert scene.shaft is not None
+    scene = after_loss(scene)
     excitation = scene.excitation
     rotor = scene.shaft.build(scene.speed, (excitation,) if isinstance(excitation, UnbalanceTable) else ())
     if isinstance(excitation, RunUpTable):
         rotor = replace(rotor, speed=excitation.profile(scene.speed))
-    levels, bearings = tuple(map(_massless, film_levels(given))), given.build_bearings()
+    levels, bearings = tuple(map(_massless, shaft_films.film_levels(given))), given.build_bearings()
     if levels[0].on_oil:
         raise InputError(
             f"journal of a bearing must have a viscosity for {quantity}, got an oil in {levels[0].on_oil}"
@@ -458,7 +446,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def _massless(films: ShaftFilms) -> ShaftFilms:
+def _massless(films: shaft_films.ShaftFilms) -> shaft_films.ShaftFilms:
     """Return bearings that the compiled integration takes: seals without their added mass."""
     springs = {
         name: replace(one, added_mass=False) if isinstance(one, AnnularSeal) else one

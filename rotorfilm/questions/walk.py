@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core import errors
 from ..core.answers import (
     SAFETY,
     ErrorEstimate,
@@ -26,14 +27,6 @@ from ..core.answers import (
     Work,
     WorkUnit,
     physics_within,
-)
-from ..core.errors import (
-    AbsentError,
-    FilmContactError,
-    InputError,
-    RotorfilmError,
-    ValidityWarning,
-    require_positive,
 )
 from ..core.readable import Readable
 from ..scenes.families import FAMILIES, brought
@@ -48,7 +41,7 @@ REPEATS = 3
 """Measurements of a unit of work, of which the shortest counts."""
 
 
-class NoAnswerError(AbsentError):
+class NoAnswerError(errors.AbsentError):
     """It does not exist by a model close enough to say so: dearer ones need not be asked."""
 
 
@@ -115,10 +108,10 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     Which rung answers depends on the tolerance through one comparison per rung only, so that a tighter one
     never chooses a rung with a larger estimate: what is skipped depends on the rungs below alone.
     """
-    require_positive("tolerance", tolerance)
+    errors.require_positive("tolerance", tolerance)
     meter = Meter(ladder)
     reports: list[RungReport] = []
-    failure: RotorfilmError | None = None
+    failure: errors.RotorfilmError | None = None
     absent = False
     before: RungResult | None = None
     for rung in ladder.rungs:
@@ -136,11 +129,11 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
             report, before = _tried(rung, before, meter, tolerance)
             reports.append(report)
             absent = False
-        except RotorfilmError as error:
+        except errors.RotorfilmError as error:
             if isinstance(error, NoAnswerError) and before is None:
                 raise
             # A search that fails says nothing against contact, or an absence, found below it.
-            if isinstance(error, AbsentError | FilmContactError):
+            if isinstance(error, errors.AbsentError | errors.FilmContactError):
                 failure, absent = error, True
             elif not absent:
                 failure = error
@@ -155,7 +148,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
 def _tried(
     rung: Rung, before: RungResult | None, meter: Meter, tolerance: float
 ) -> tuple[RungReport, RungResult]:
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+    with warnings.catch_warnings(action="ignore", category=errors.ValidityWarning):
         # A rung outside its range is judged by its error, not by its warnings.
         found, seconds = meter.timed(lambda: rung.answer(before))
         cost = meter.cost(found.work, seconds)
@@ -230,7 +223,7 @@ def _answer(
     meter: Meter,
     reports: list[RungReport],
     tolerance: float,
-    last: RungResult | RotorfilmError | None,
+    last: RungResult | errors.RotorfilmError | None,
 ) -> QuestionAnswer:
     reports = _beside_richer(reports, ladder.distance)
     tried = [report for report in reports if report.error_estimate is not None]
@@ -325,13 +318,11 @@ def ladder_of(scene: Scene) -> Ladder:
     InputError
         If the scene asks nothing, or no table of it has the quantity, or several have.
     """
-    if scene.question is None:
-        raise InputError("question is required for a ladder, got no such table")
-    quantity = scene.question.quantity
+    quantity = scene.required("question", "a ladder").quantity
     present = {name: ladders_of(name) for name in scene.tables}
     given = sorted(name for name, ladders in present.items() if quantity in ladders)
     if len(given) > 1:
-        raise InputError(
+        raise errors.InputError(
             f"question.quantity must be of one table, got {quantity!r} of [{'] and ['.join(given)}]"
         )
     if given:
@@ -339,16 +330,15 @@ def ladder_of(scene: Scene) -> Ladder:
     known = sorted({name for ladders in present.values() for name in ladders})
     tables = sorted(name for name in FAMILIES if quantity in ladders_of(name))
     needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
-    raise InputError(
+    raise errors.InputError(
         f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}{needs}"
     )
 
 
 def ask(scene: Scene) -> QuestionAnswer:
     """Return the answer to a scene's question; see `rotorfilm.questions.walk.walk`."""
-    ladder = ladder_of(scene)
-    assert scene.question is not None  # checked above
-    return walk(scene.question.quantity, ladder, scene.question.tolerance)
+    asked = scene.required("question", "a ladder")
+    return walk(asked.quantity, ladder_of(scene), asked.tolerance)
 
 
 # All rungs of a scene's ladder answered, also those that its tolerance does not need.
@@ -421,9 +411,8 @@ def all_models(scene: Scene) -> AllModels:
     RotorfilmError
         If no rung has an answer.
     """
-    ladder = ladder_of(scene)
-    assert scene.question is not None  # or there is no ladder
-    quantity, tolerance = scene.question.quantity, scene.question.tolerance
+    asked = scene.required("question", "a ladder")
+    ladder, quantity, tolerance = ladder_of(scene), asked.quantity, asked.tolerance
     answer = walk(quantity, ladder, tolerance)
     every = walk(quantity, ladder, NEVER_MET).rungs
     rows = [

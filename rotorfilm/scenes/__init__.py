@@ -6,7 +6,6 @@ from ..core.sources import show
 
 if TYPE_CHECKING:
     from .export_scene import export_rotor_fmu as export_rotor_fmu
-    from .lubricant_table import Lubricant
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
         read_scene,
         varied,
     )
+    from .shared_tables import Lubricant
     from .solve_damper import run_damper
     from .solve_journal import Answer as Answer
 else:

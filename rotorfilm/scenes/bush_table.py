@@ -6,23 +6,7 @@ import math
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..bearings.bush import (
-    ApproximateShaft,
-    BushContact,
-    BushGeometry,
-    BushReaction,
-    BushWear,
-    ContactBalance,
-    ExactShaft,
-    Friction,
-    GlobalBalance,
-    LinerMaterial,
-    LocalMelting,
-    MeltingBush,
-    ShaftMaterial,
-    SharedMelting,
-    f4k20_bush,
-)
+from ..bearings import bush as bushes
 from ..core.errors import SceneError, brief
 from ..core.limits import WORN_NODES
 from ..core.progress import Report, silent
@@ -33,13 +17,13 @@ from .reading import Count, Quantity, Taking, fields_of, made_from, named, one_o
 if TYPE_CHECKING:
     from .scene import Scene
 
-MATERIALS = {"f4k20": f4k20_bush}
+MATERIALS = {"f4k20": bushes.f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
 (1993), section 4."""
 
-SHAFT_HEATS = {"exact": ExactShaft, "approximate": ApproximateShaft}
-BALANCES = {"contact": ContactBalance, "global": GlobalBalance}
-MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
+SHAFT_HEATS = {"exact": bushes.ExactShaft, "approximate": bushes.ApproximateShaft}
+BALANCES = {"contact": bushes.ContactBalance, "global": bushes.GlobalBalance}
+MELTINGS = {"shared": bushes.SharedMelting, "local": bushes.LocalMelting}
 
 PARTS = ("geometry", "liner", "shaft", "conductivity")
 """Parameters of a bush that are parts of it, or of several parts."""
@@ -48,18 +32,25 @@ FRICTION = (Quantity("1"), Quantity("1/K"), Quantity("1/K2"))
 
 
 @takes(Quantity("1"), *(list(FRICTION[:count]) for count in (1, 2, 3)))
-def _read_friction(where: str, value: Any) -> Friction:
+def _read_friction(where: str, value: Any) -> bushes.Friction:
     """Read a coefficient of friction: one number, or f0, f1 [1/K], f2 [1/K2] of f0 + f1 T + f2 T^2."""
     numbers = value if isinstance(value, list) else [value]
     if not 1 <= len(numbers) <= 3:
         raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {brief(value)}")
     f = [read(f"{where}[{k}]", x) for k, (read, x) in enumerate(zip(FRICTION, numbers, strict=False))]
-    return Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
+    return bushes.Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(BushReaction, without=("bush", "wear_depth", "temperature"))
-@fields_of(BushGeometry, LinerMaterial, ShaftMaterial, MeltingBush, without=PARTS, optional=True)
+@fields_of(bushes.BushReaction, without=("bush", "wear_depth", "temperature"))
+@fields_of(
+    bushes.BushGeometry,
+    bushes.LinerMaterial,
+    bushes.ShaftMaterial,
+    bushes.MeltingBush,
+    without=PARTS,
+    optional=True,
+)
 class BushTable(Taking):
     """`[bush]`: a polymer bush; a value that the table lacks is that of its material.
 
@@ -88,20 +79,20 @@ class BushTable(Taking):
     material: Annotated[str, one_of(MATERIALS)] = "f4k20"
     liner_conductivity: float | None = None
     shaft_conductivity: float | None = None
-    friction: Annotated[Friction | None, _read_friction] = None
-    shaft_heat: Annotated[ExactShaft | ApproximateShaft, named(SHAFT_HEATS)] = field(
-        default_factory=ExactShaft
+    friction: Annotated[bushes.Friction | None, _read_friction] = None
+    shaft_heat: Annotated[bushes.ExactShaft | bushes.ApproximateShaft, named(SHAFT_HEATS)] = field(
+        default_factory=bushes.ExactShaft
     )
-    balance: Annotated[ContactBalance | GlobalBalance, named(BALANCES)] = field(
-        default_factory=ContactBalance
+    balance: Annotated[bushes.ContactBalance | bushes.GlobalBalance, named(BALANCES)] = field(
+        default_factory=bushes.ContactBalance
     )
-    melting: Annotated[SharedMelting | LocalMelting, named(MELTINGS)]
+    melting: Annotated[bushes.SharedMelting | bushes.LocalMelting, named(MELTINGS)]
     nodes: Annotated[int, Count(WORN_NODES)]
 
     def __post_init__(self) -> None:
         self.reaction()
 
-    def build(self) -> MeltingBush:
+    def build(self) -> bushes.MeltingBush:
         """Return the bush; raise InputError where a value breaks its rule."""
         of = MATERIALS[self.material]()
 
@@ -110,7 +101,7 @@ class BushTable(Taking):
             own = {f.name: getattr(self, f.name) for f in fields(part) if hasattr(self, f.name)} | values
             return replace(part, **{name: value for name, value in own.items() if value is not None})
 
-        bush: MeltingBush = given(
+        bush: bushes.MeltingBush = given(
             of,
             geometry=given(of.geometry),
             liner=given(of.liner, conductivity=self.liner_conductivity),
@@ -118,13 +109,13 @@ class BushTable(Taking):
         )
         return bush
 
-    def wear(self) -> BushWear:
+    def wear(self) -> bushes.BushWear:
         """Return the model with one state, for a load that does not fall."""
-        return BushWear(bush=self.build(), melting_heat=self.melting_heat)
+        return bushes.BushWear(bush=self.build(), melting_heat=self.melting_heat)
 
-    def reaction(self) -> BushReaction:
+    def reaction(self) -> bushes.BushReaction:
         """Return the model with a worn profile, a bearing for a rotor."""
-        return made_from(BushReaction, self, bush=self.build())
+        return made_from(bushes.BushReaction, self, bush=self.build())
 
 
 # Contact and critical speeds of the unworn bush.
@@ -149,23 +140,23 @@ class BushAnswer(Readable):
         Outputs of the unworn bush at the speed asked for; empty without one.
     """
 
-    bush: MeltingBush
-    contact: BushContact
+    bush: bushes.MeltingBush
+    contact: bushes.BushContact
     settlement: float
     contact_angle: float
     onset_speed: float
     operation: dict[str, float]
 
     def _own_units(self) -> dict[str, str]:
-        return units(BushWear(bush=self.bush, melting_heat=1.0).outputs)
+        return units(bushes.BushWear(bush=self.bush, melting_heat=1.0).outputs)
 
 
-def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: float) -> BushAnswer:
+def solve_bush(bush: bushes.MeltingBush, load: float, speed: float | None, settlement: float) -> BushAnswer:
     """Return contact and critical speeds, and where a speed [rad/s] is given the operation there, unworn."""
     operation: dict[str, float] = {}
     if speed is not None:
         # The melting heat scales nothing but the rate of wear, which is left out.
-        model = BushWear(bush=bush, melting_heat=1.0)
+        model = bushes.BushWear(bush=bush, melting_heat=1.0)
         values = model.output(0.0, model.initial_state, [load, speed]).tolist()
         operation = {
             s.name: value for s, value in zip(model.outputs, values, strict=True) if s.name != "melt_rate"

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import cosim
 from ..analysis import simulate
 from ..core.errors import ContactError, InputError
 from ..core.model import Array, Stepped
@@ -15,35 +16,20 @@ from ..core.port import clearance_of, in_time
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
-from ..cosim import (
-    Adaptive,
-    Auto,
-    CoSimulation,
-    CouplingWatch,
-    GaussSeidel,
-    Jacobi,
-    Newton,
-    Scheme,
-    SIExp,
-    SIExp3,
-    SIMemory,
-    cosimulate,
-    critical_macro_step,
-)
 from ..native.spec import HasKernel
 from .export_scene import at_rest_on_film, export_scene
 from .reading import made_from
 from .scene import Scene
-from .schema import require_steps
+from .shared_tables import require_steps
 
-SCHEMES: dict[str, Scheme] = {
-    **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},
-    **{f"jacobi-{degree}": Jacobi(degree=degree) for degree in range(3)},
-    "si-exp": SIExp(),
-    "si-exp3": SIExp3(),
-    "si-memory": SIMemory(),
-    "newton": Newton(),
-    "adaptive": Adaptive(),
+SCHEMES: dict[str, cosim.Scheme] = {
+    **{f"gauss-seidel-{degree}": cosim.GaussSeidel(degree=degree) for degree in range(3)},
+    **{f"jacobi-{degree}": cosim.Jacobi(degree=degree) for degree in range(3)},
+    "si-exp": cosim.SIExp(),
+    "si-exp3": cosim.SIExp3(),
+    "si-memory": cosim.SIMemory(),
+    "newton": cosim.Newton(),
+    "adaptive": cosim.Adaptive(),
 }
 """Schemes by their names on the command line."""
 
@@ -103,12 +89,12 @@ class CosimAnswer(Readable):
     orbit_error: float
     eccentricity_ratio: float
     hold_defect: float
-    watch: CouplingWatch
+    watch: cosim.CouplingWatch
     work: dict[str, int]
     trials: tuple[TrialRow, ...]
 
 
-def scheme_named(name: str, tolerance: float) -> Scheme | Auto:
+def scheme_named(name: str, tolerance: float) -> cosim.Scheme | cosim.Auto:
     """Return the scheme of a name; `auto` and `adaptive` take the tolerance.
 
     Raises
@@ -117,15 +103,17 @@ def scheme_named(name: str, tolerance: float) -> Scheme | Auto:
         If there is no such scheme.
     """
     if name == "auto":
-        return Auto(tolerance=tolerance)
+        return cosim.Auto(tolerance=tolerance)
     if name == "adaptive":
-        return Adaptive(tolerance=tolerance)
+        return cosim.Adaptive(tolerance=tolerance)
     if name not in SCHEMES:
         raise InputError(f"--scheme must be one of {['auto', *SCHEMES]}, got {name!r}")
     return SCHEMES[name]
 
 
-def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> tuple[CosimAnswer, Trajectory]:
+def run_scene(
+    scene: Scene, scheme: cosim.Scheme | cosim.Auto, report: Report = silent
+) -> tuple[CosimAnswer, Trajectory]:
     """Couple the FMUs of a scene; return what that says, and the signals.
 
     A film without a kernel in the C library runs as a model in this process, because its FMU would not tell
@@ -157,7 +145,7 @@ def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> t
     return answer, result.trajectory
 
 
-def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulation:
+def _coupled(scene: Scene, scheme: cosim.Scheme | cosim.Auto, report: Report) -> cosim.CoSimulation:
     def progress(t: float) -> None:
         report(min(1.0, t / scene.duration), "coupled run")
 
@@ -166,7 +154,7 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
         # A mass-conserving film couples by the slopes of its force, which its FMU does not tell.
         native = not isinstance(film, Stepped) and isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
-        return cosimulate(
+        return cosim.cosimulate(
             rotor if fmus is None else fmus["rotor"],
             film if fmus is None else fmus["film"],
             macro_step=scene.macro_step,
@@ -176,14 +164,14 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
         )
 
 
-def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
+def _answer(scene: Scene, result: cosim.CoSimulation) -> CosimAnswer:
     own, clearance, scheme = result.trajectory, clearance_of(scene.bearing), result.scheme
     times = np.minimum(own.time, scene.duration)
     try:
         whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
-    known = not isinstance(scheme, Adaptive) and not getattr(in_time(scene.bearing), "states", ())
+    known = not isinstance(scheme, cosim.Adaptive) and not getattr(in_time(scene.bearing), "states", ())
     tried = () if result.choice is None else result.choice.trials
     return CosimAnswer(
         scheme=scheme.label,
@@ -200,7 +188,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
     )
 
 
-def critical_macro_angle(scene: Scene, scheme: Scheme | None = None) -> float | None:
+def critical_macro_angle(scene: Scene, scheme: cosim.Scheme | None = None) -> float | None:
     """Return where a scheme becomes unstable at the static equilibrium [rad]; None where it does not.
 
     Parameters
@@ -211,7 +199,7 @@ def critical_macro_angle(scene: Scene, scheme: Scheme | None = None) -> float | 
         As in `critical_macro_step`.
     """
     rotor, bearing = at_rest_on_film(scene)
-    limit = critical_macro_step(rotor, bearing, state=rotor.initial_state, scheme=scheme).macro_step
+    limit = cosim.critical_macro_step(rotor, bearing, state=rotor.initial_state, scheme=scheme).macro_step
     return None if limit is None else limit * abs(scene.speed)
 
 

@@ -13,23 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..analysis.circular_orbits import synchronous_orbits
+from ..bearings import damper as dampers
 from ..bearings.assemblies import Parallel, with_springs
-from ..bearings.damper import (
-    FULL_LIMITS,
-    RUPTURED_LIMITS,
-    ExtrapolatedDamper,
-    FiniteMapSqueeze,
-    FiniteSqueeze,
-    JFODamper,
-    JudgedDamper,
-    MapSqueeze,
-    PorousDamper,
-    ShortSqueeze,
-    SqueezeLaw,
-    feed_squeeze_number,
-    land_share,
-    layer_modes,
-)
 from ..bearings.films.geometry import FullFilm
 from ..core.answers import WorkUnit
 from ..core.errors import InputError, RotorfilmError, ValidityWarning
@@ -37,12 +22,10 @@ from ..core.port import PlanarReaction
 from ..core.results import CircularOrbit
 from ..rotors import RigidRotor
 from .damper_table import DamperTable
-from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable, require_kind
-from .families import Remark, SceneModels, messages
+from .families import SceneModels, messages, remarks_of
 from .film_rungs import MAP_MADE
-from .journal_tables import ATMOSPHERE, NOTABLE
-from .lubricant_table import Lubricant
-from .schema import require_steps
+from .journal_tables import ATMOSPHERE
+from .shared_tables import BladeLossTable, Lubricant, RunUpTable, UnbalanceTable, require_kind, require_steps
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -50,7 +33,7 @@ if TYPE_CHECKING:
 DEFECT_CELLS = (10, 20)
 """Cells of the map of finite length that defects are sampled with: within 5e-4 of the force, in a second."""
 
-TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
+TOP_BOUNDS = {dampers.FiniteSqueeze: 1e-6, dampers.FiniteMapSqueeze: 3e-4}
 """Verified errors of the force of the richest films: docs/accuracy.md."""
 
 RICH_MADE = WorkUnit("maps of the film of finite length made for estimates")
@@ -62,7 +45,7 @@ NO_RICHER = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class DamperFilm:
     """A film of a damper that may answer; the dampers are made when they are needed, for a map takes seconds.
 
@@ -88,18 +71,18 @@ class DamperFilm:
     """
 
     name: str
-    shape: PorousDamper
-    law: SqueezeLaw | None
-    rich_shape: PorousDamper
-    rich_law: SqueezeLaw | None
+    shape: dampers.PorousDamper
+    law: dampers.SqueezeLaw | None
+    rich_shape: dampers.PorousDamper
+    rich_law: dampers.SqueezeLaw | None
     prior: float
-    conserved: JFODamper | None = None
+    conserved: dampers.JFODamper | None = None
     frequency: float | None = None
 
     @property
     def makes_map(self) -> bool:
         """Whether the damper is made with a map, which takes seconds."""
-        return isinstance(self.law, FiniteMapSqueeze)
+        return isinstance(self.law, dampers.FiniteMapSqueeze)
 
     @property
     def bound(self) -> float:
@@ -119,7 +102,7 @@ class DamperFilm:
     @property
     def rich_work(self) -> dict[WorkUnit, int]:
         """Work of making the richer one."""
-        made = self.conserved is None and isinstance(self.rich_law, FiniteMapSqueeze)
+        made = self.conserved is None and isinstance(self.rich_law, dampers.FiniteMapSqueeze)
         return {RICH_MADE: 1} if made else {}
 
     @cached_property
@@ -128,31 +111,37 @@ class DamperFilm:
         if self.law is not None:
             return with_changes(self.shape, film=self.law)
         assert self.conserved is not None
-        return ExtrapolatedDamper(damper=self.conserved)
+        return dampers.ExtrapolatedDamper(damper=self.conserved)
 
     @cached_property
-    def rich(self) -> PorousDamper | ExtrapolatedDamper | JudgedDamper | None:
+    def rich(self) -> dampers.PorousDamper | dampers.ExtrapolatedDamper | dampers.JudgedDamper | None:
         """The damper with the richer film, and what the richest of all leaves out."""
         if self.conserved is not None:
             around, along = self.conserved.cells
             finer = self.conserved if self.law else replace(self.conserved, cells=(2 * around, 2 * along))
-            return ExtrapolatedDamper(damper=finer)
+            return dampers.ExtrapolatedDamper(damper=finer)
         if self.rich_law is None:
             return None
         damper = with_changes(self.rich_shape, film=self.rich_law)
-        return damper if self.frequency is None else JudgedDamper(damper=damper, frequency=self.frequency)
+        return (
+            damper
+            if self.frequency is None
+            else dampers.JudgedDamper(damper=damper, frequency=self.frequency)
+        )
 
     @cached_property
-    def moving(self) -> PorousDamper | ExtrapolatedDamper:
+    def moving(self) -> dampers.PorousDamper | dampers.ExtrapolatedDamper:
         """The damper on the map of its film, where it has one: a motion takes thousands of forces.
 
         One that conserves its oil on half as many lines and cells, for searches through hundreds of orbits.
         """
         if self.law is None:
-            return ExtrapolatedDamper(damper=self.reaction.coarser)
+            return dampers.ExtrapolatedDamper(damper=self.reaction.coarser)
         if self.frequency is None:
             return with_changes(self.shape, film=_mapped(self.law, self.shape))
-        return with_changes(self.shape, film=MapSqueeze() if isinstance(self.law, ShortSqueeze) else self.law)
+        return with_changes(
+            self.shape, film=dampers.MapSqueeze() if isinstance(self.law, dampers.ShortSqueeze) else self.law
+        )
 
     @cached_property
     def rich_moving(self) -> Any:
@@ -201,30 +190,25 @@ def plain_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     shape, top = _short(table), richest_law(_short(table))
     named = table.film
     found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
-    rich = FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, FiniteMapSqueeze) else top
+    rich = dampers.FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, dampers.FiniteMapSqueeze) else top
     return tuple(
-        DamperFilm(
-            name=name,
-            shape=own,
-            law=law,
-            rich_shape=shape,
-            rich_law=None if law == top else rich,
-            prior=prior,
-        )
+        DamperFilm(name, own, law, shape, None if law == top else rich, prior)
         for name, own, law, prior in found
     )
 
 
-def _short(table: DamperTable) -> PorousDamper:
+def _short(table: DamperTable) -> dampers.PorousDamper:
     """Return the damper of a scene with the short film, which takes no time to make."""
     with quiet():
         return replace(table, film=None).build()
 
 
-def _free(shape: PorousDamper, top: SqueezeLaw | None) -> list[tuple[str, PorousDamper, SqueezeLaw, float]]:
-    short = ShortSqueeze()
+def _free(
+    shape: dampers.PorousDamper, top: dampers.SqueezeLaw | None
+) -> list[tuple[str, dampers.PorousDamper, dampers.SqueezeLaw, float]]:
+    short = dampers.ShortSqueeze()
     slim = 0.02 * min(shape.slenderness**2, 1.0)
-    rungs: list[tuple[str, PorousDamper, SqueezeLaw, float]] = []
+    rungs: list[tuple[str, dampers.PorousDamper, dampers.SqueezeLaw, float]] = []
     if shape.cage is not None and not shape.is_fed:
         rungs.append(("short film, solid cage", with_changes(shape, cage=None), short, slim))
         if not shape.cage.thin:
@@ -238,23 +222,26 @@ def _free(shape: PorousDamper, top: SqueezeLaw | None) -> list[tuple[str, Porous
     return rungs if top is None else [*rungs, (f"finite film{own}", shape, top, 0.0)]
 
 
-def richest_law(damper: PorousDamper) -> SqueezeLaw | None:
+def richest_law(damper: dampers.PorousDamper) -> dampers.SqueezeLaw | None:
     """Return the film of finite length of a damper; None for a cavitated one with feed, which has none."""
     full = isinstance(damper.extent, FullFilm)
     if damper.is_fed and not full:
         return None
-    return FiniteSqueeze() if full else FiniteMapSqueeze()
+    return dampers.FiniteSqueeze() if full else dampers.FiniteMapSqueeze()
 
 
-def _mapped(law: SqueezeLaw, shape: PorousDamper) -> SqueezeLaw:
-    maps: dict[type, SqueezeLaw] = {ShortSqueeze: MapSqueeze(), FiniteSqueeze: FiniteMapSqueeze()}
+def _mapped(law: dampers.SqueezeLaw, shape: dampers.PorousDamper) -> dampers.SqueezeLaw:
+    maps: dict[type, dampers.SqueezeLaw] = {
+        dampers.ShortSqueeze: dampers.MapSqueeze(),
+        dampers.FiniteSqueeze: dampers.FiniteMapSqueeze(),
+    }
     return law if shape.is_fed else maps.get(type(law), law)
 
 
-def mapped_short(table: DamperTable) -> PorousDamper:
+def mapped_short(table: DamperTable) -> dampers.PorousDamper:
     """Return one land of the damper with the short film, on its map where it has one; see `lands`."""
     shape = with_changes(_short(table), viscosity=(1.0 - table.air_fraction) * table.viscosity)
-    return shape if table.needs_length else with_changes(shape, film=_mapped(ShortSqueeze(), shape))
+    return shape if table.needs_length else with_changes(shape, film=_mapped(dampers.ShortSqueeze(), shape))
 
 
 def lands(table: DamperTable) -> int:
@@ -262,7 +249,7 @@ def lands(table: DamperTable) -> int:
     return 2 if table.supply is not None and table.supply.circumferential_groove is not None else 1
 
 
-def with_changes(damper: PorousDamper, **changes: object) -> PorousDamper:
+def with_changes(damper: dampers.PorousDamper, **changes: object) -> dampers.PorousDamper:
     """Return the damper with other fields, without the warning of a short film: its error is estimated."""
     with quiet():
         return replace(damper, **changes)  # type: ignore[arg-type]
@@ -275,7 +262,9 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def on_springs(damper: PorousDamper | ExtrapolatedDamper | JudgedDamper, stiffness: float) -> PlanarReaction:
+def on_springs(
+    damper: dampers.PorousDamper | dampers.ExtrapolatedDamper | dampers.JudgedDamper, stiffness: float
+) -> PlanarReaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
     return with_springs(damper, stiffness) if stiffness else damper
 
@@ -325,117 +314,43 @@ def built_films(table: DamperTable, speed: float) -> tuple[DamperFilm, ...]:
     whole.require_range(speed)
     laws = [law for law in _laws(table) if table.film is None] or [_named(table)]
     shapes = {NO_INERTIA: with_changes(whole, density=0.0), "": whole} if table.density else {"": whole}
+    slim, at = 0.02 * min(whole.slenderness**2, 1.0), abs(speed)
+    priors = {name: slim if isinstance(law, dampers.ShortSqueeze) else 0.0 for name, law in laws}
     return tuple(
-        DamperFilm(
-            name=f"{name}{inertia}",
-            shape=shape,
-            law=law,
-            rich_shape=whole,
-            rich_law=_richest(table, law),
-            prior=0.02 * min(whole.slenderness**2, 1.0) if isinstance(law, ShortSqueeze) else 0.0,
-            frequency=abs(speed),
-        )
+        DamperFilm(f"{name}{inertia}", shape, law, whole, _richest(table, law), priors[name], frequency=at)
         for name, law in laws
         for inertia, shape in shapes.items()
         if table.film is None or not inertia
     )
 
 
-def _laws(table: DamperTable) -> list[tuple[str, SqueezeLaw]]:
-    short: list[tuple[str, SqueezeLaw]] = [] if table.needs_length else [("short film", ShortSqueeze())]
+def _laws(table: DamperTable) -> list[tuple[str, dampers.SqueezeLaw]]:
+    short: list[tuple[str, dampers.SqueezeLaw]] = (
+        [] if table.needs_length else [("short film", dampers.ShortSqueeze())]
+    )
     if isinstance(table.extent, FullFilm):
-        return [*short, ("finite film", FiniteSqueeze())]
-    return short if table.seals is not None else [*short, ("finite film", FiniteMapSqueeze())]
+        return [*short, ("finite film", dampers.FiniteSqueeze())]
+    return short if table.seals is not None else [*short, ("finite film", dampers.FiniteMapSqueeze())]
 
 
-def _named(table: DamperTable) -> tuple[str, SqueezeLaw]:
-    law = table.film or ShortSqueeze()
+def _named(table: DamperTable) -> tuple[str, dampers.SqueezeLaw]:
+    law = table.film or dampers.ShortSqueeze()
     return type(law).__name__, law
 
 
-def _richest(table: DamperTable, own: SqueezeLaw) -> SqueezeLaw:
+def _richest(table: DamperTable, own: dampers.SqueezeLaw) -> dampers.SqueezeLaw:
     if isinstance(table.extent, FullFilm):
-        return FiniteSqueeze()
+        return dampers.FiniteSqueeze()
     if table.seals is not None:
-        return ShortSqueeze()
-    return own if isinstance(own, FiniteMapSqueeze) else FiniteMapSqueeze(cells=DEFECT_CELLS)
+        return dampers.ShortSqueeze()
+    return own if isinstance(own, dampers.FiniteMapSqueeze) else dampers.FiniteMapSqueeze(cells=DEFECT_CELLS)
 
 
 # What every squeeze film of a damper leaves out, judged by dimensionless numbers.
 
 
-NOTABLE_MASS = 0.05
-"""Mass of the moving film / mass of the rotor that is worth a word."""
-
-
-NOTABLE_INERTIA = 0.1
-"""Pressure of the inertia / viscous pressure that is worth a word."""
-
-ON_ORBIT = "cavitation: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the "
-
-INERTIA = (
-    Remark(
-        "inertia",
-        NOTABLE_INERTIA,
-        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g});"
-        " [damper] density takes it in",
-    ),
-    Remark(
-        "added_mass",
-        NOTABLE_MASS,
-        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass; [damper] density takes "
-        "it in",
-    ),
-)
-"""What a film without inertia leaves out, by the numbers of `damper_numbers`."""
-
-REMARKS = (
-    Remark(
-        "thinning",
-        NOTABLE,
-        "heat: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the oil warms by about "
-        "{warming:.2g} K (Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
-        moves="heat",
-    ),
-    Remark(
-        "compression",
-        0.01,
-        "compressibility: {compression:.2%} by the largest pressure",
-        moves="compressibility",
-    ),
-)
-"""What the physics of a squeeze film leaves out, by the numbers of `damper_numbers`."""
-
-FULL = (
-    Remark(
-        "pressure",
-        1.0,
-        ON_ORBIT
-        + "full film carries a tension of {pressure:.2g} times the ambient pressure, where oil ruptures",
-    ),
-)
-"""The same of one that never ruptures."""
-
-RUPTURED = (
-    Remark(
-        "pressure",
-        NOTABLE,
-        ON_ORBIT + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture "
-        "where this film does",
-        below=True,
-    ),
-    Remark(
-        "pressure",
-        1.0 / NOTABLE,
-        ON_ORBIT + "pressure is {pressure:.2g} times the ambient one, which does not fill the cavity again "
-        "within a turn: [damper] supply takes a film that conserves its oil",
-    ),
-)
-"""The same of one that does."""
-
-
 def damper_numbers(
-    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
+    damper: dampers.PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
 
@@ -484,7 +399,7 @@ def damper_numbers(
     }
 
 
-def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: float) -> float:
+def largest_pressure(damper: dampers.PorousDamper, speed: float, eccentricity_ratio: float) -> float:
     """Return the largest pressure [Pa] of a short film on a circular orbit, in the middle of its length.
 
     (3/2) viscosity (L/c)^2 speed max of eps sin(theta) G(h): the parabola of a film without flow around.
@@ -492,23 +407,27 @@ def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: flo
     """
     theta = np.linspace(0.0, math.pi, 721)
     h = 1.0 + eccentricity_ratio * np.cos(theta)
-    modes = layer_modes(damper.layer)
+    modes = dampers.layer_modes(damper.layer)
     G = modes.weight @ (1.0 / (h**3 + modes.leak[:, None]))
     source = eccentricity_ratio * speed * np.sin(theta)
     scale = 1.5 * damper.viscosity * (damper.length / damper.clearance) ** 2
     if damper.seals is not None:
         leak = damper.squeeze_case.end_leak
-        scale *= land_share(damper.slenderness, leak).real / land_share(damper.slenderness, math.inf).real
+        scale *= (
+            dampers.land_share(damper.slenderness, leak).real
+            / dampers.land_share(damper.slenderness, math.inf).real
+        )
     return scale * float(np.max(source * G))
 
 
 def damper_remarks(
-    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
+    damper: dampers.PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
-    ruptures = FULL if isinstance(damper.extent, FullFilm) else RUPTURED
-    return messages((*(() if damper.has_inertia else INERTIA), *REMARKS, *ruptures), numbers)
+    ruptures = "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured"
+    inertia = () if damper.has_inertia else ("damper_inertia",)
+    return messages(remarks_of(*inertia, "damper", ruptures), numbers)
 
 
 # What a question about a damper leaves open: which of several orbits, and what the films leave out.
@@ -518,61 +437,30 @@ MIDDLING = 0.5
 """Eccentricity ratio of an orbit for the checks of a question that names no unbalance."""
 
 
-AIR = (
-    Remark(
-        "feed_squeeze",
-        1.0,
-        "air: {feed_squeeze:.2g} of what the ends suck is fed (feed-squeeze number), so that air is drawn in "
-        "and the damping falls, by how much only a measured [damper] air_fraction says",
-        below=True,
-    ),
-    Remark(
-        "air_fraction",
-        0.0,
-        "air: the oil of the answer has {air_fraction:.0%} less viscosity and density, the most that so much "
-        "air takes; the truth lies between it and that without air_fraction",
-    ),
-)
-"""Air in the oil, by the numbers of `built_remarks`."""
-
-SEALED = Remark(
-    "sealing",
-    0.0,
-    "seals: damping and added mass in small motion are {sealing:.3g} times those of open ends, so that the "
-    "leakage of the seals sets them",
-)
-FAST = Remark(
-    "beyond",
-    1.0,
-    "inertia of the film: squeeze Reynolds number {reynolds:.3g}, above {limit:g}, to which its model is "
-    "good",
-)
-
-
 def built_remarks(
-    table: DamperTable, damper: PorousDamper, speed: float, eccentricity_ratio: float
+    table: DamperTable, damper: dampers.PorousDamper, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
     """Return the remarks on seals, inertia and air, for an orbit at a speed [rad/s]."""
-    limit = (FULL_LIMITS if isinstance(damper.extent, FullFilm) else RUPTURED_LIMITS)[0]
+    limit = (dampers.FULL_LIMITS if isinstance(damper.extent, FullFilm) else dampers.RUPTURED_LIMITS)[0]
     reynolds = damper.reynolds_number(speed)
     numbers = {"reynolds": reynolds, "limit": limit, "beyond": reynolds / limit}
-    told = [FAST] if damper.has_inertia else []
+    told = ["damper_fast"] if damper.has_inertia else []
     if table.seals is not None:
-        share = land_share(damper.slenderness, damper.squeeze_case.end_leak).real
-        numbers["sealing"] = share / land_share(damper.slenderness, math.inf).real
-        told.append(SEALED)
+        share = dampers.land_share(damper.slenderness, damper.squeeze_case.end_leak).real
+        numbers["sealing"] = share / dampers.land_share(damper.slenderness, math.inf).real
+        told.append("damper_seals")
     numbers["air_fraction"], numbers["feed_squeeze"] = table.air_fraction, math.inf
     if table.feed_flow is not None and speed and eccentricity_ratio:
         amplitude = eccentricity_ratio * table.clearance
-        numbers["feed_squeeze"] = feed_squeeze_number(
+        numbers["feed_squeeze"] = dampers.feed_squeeze_number(
             damper, flow=table.feed_flow, amplitude=amplitude, frequency=abs(speed)
         )
-    return messages((*told, *AIR), numbers)
+    return messages(remarks_of(*told, "damper_air"), numbers)
 
 
 def rotor_remarks(
     table: DamperTable,
-    damper: PorousDamper,
+    damper: dampers.PorousDamper,
     stiffness: float,
     rotor: RigidRotor,
     oil: Lubricant,
@@ -603,7 +491,7 @@ def rotor_remarks(
     return (*(_which(found) if steady else ()), *built, *physics)
 
 
-def _orbits(damper: PorousDamper, stiffness: float, rotor: RigidRotor) -> tuple[CircularOrbit, ...]:
+def _orbits(damper: dampers.PorousDamper, stiffness: float, rotor: RigidRotor) -> tuple[CircularOrbit, ...]:
     """Return the orbits in the short film; none where that takes seconds, a cavitated film with feed."""
     slow = damper.is_fed and not isinstance(damper.extent, FullFilm)
     if slow or not rotor.unbalance:
@@ -647,7 +535,7 @@ class DamperScene(NamedTuple):
     """
 
     rotor: RigidRotor
-    support: PorousDamper | Parallel | JFODamper
+    support: dampers.PorousDamper | Parallel | dampers.JFODamper
     start: float
     duration: float
     step: float
@@ -671,16 +559,10 @@ def damper_models(scene: Scene) -> DamperScene:
     rotor = replace(rotor, position=scene.damper.offset)
     require_kind(excitation, ("unbalance", "blade_loss", "run_up"))
     if isinstance(excitation, UnbalanceTable):
-        if rotor.unbalance:
-            raise InputError(
-                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-                f"got {rotor.unbalance:g} beside {excitation.unbalance:g} kg m"
-            )
-        turned = excitation.unbalance_angle
-        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
+        rotor = excitation.given_to(rotor)
     if isinstance(excitation, BladeLossTable):
         start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
-        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
+        rotor = replace(rotor, unbalance_angle=rotor.unbalance_angle + scene.speed * start)
     if isinstance(excitation, RunUpTable):
         profile = excitation.profile(scene.speed)
         rotor, duration = replace(rotor, speed=profile), profile.times[-1]

@@ -7,25 +7,8 @@ import warnings
 from dataclasses import dataclass, replace
 from typing import Annotated
 
+from ..bearings import damper as dampers
 from ..bearings.assemblies import Parallel, with_springs
-from ..bearings.damper import (
-    AxialFeed,
-    DamperSupply,
-    EndSeal,
-    FiniteMapSqueeze,
-    FiniteSqueeze,
-    JFODamper,
-    MapSqueeze,
-    PorousDamper,
-    PublishedSqueeze,
-    RadialFeed,
-    ShortSqueeze,
-    SqueezeLaw,
-    aerated_damper,
-    gap_seal,
-    land_share,
-    leak_test_seal,
-)
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
 from ..core.errors import InputError, ValidityWarning, require_non_negative
 from .reading import Keyed, Taking, Variant, fields_of, made_from
@@ -69,14 +52,14 @@ class SealsTable:
             )
         _ = self.seal(viscosity=1.0, radius=1.0)
 
-    def seal(self, *, viscosity: float, radius: float) -> EndSeal:
+    def seal(self, *, viscosity: float, radius: float) -> dampers.EndSeal:
         """Return the seals of a film of a viscosity [Pa s] and a radius [m]."""
         if self.gap is not None and self.gap_length is not None:
-            found = gap_seal(height=self.gap, length=self.gap_length, viscosity=viscosity)
+            found = dampers.gap_seal(height=self.gap, length=self.gap_length, viscosity=viscosity)
         elif self.flow is not None and self.pressure is not None:
-            found = leak_test_seal(flow=self.flow, pressure=self.pressure, radius=radius)
+            found = dampers.leak_test_seal(flow=self.flow, pressure=self.pressure, radius=radius)
         else:
-            found = EndSeal(leakage=self.leakage or 0.0)
+            found = dampers.EndSeal(leakage=self.leakage or 0.0)
         return replace(found, uncertainty=self.uncertainty)
 
 
@@ -86,7 +69,7 @@ class SealsTable:
 CELLS = (48, 8)
 """Of a film that conserves its oil and is stepped through in time."""
 
-FEEDS = {"radial": RadialFeed, "axial": AxialFeed}
+FEEDS = {"radial": dampers.RadialFeed, "axial": dampers.AxialFeed}
 """`feed = {kind = "radial", ...}`: how lubricant is fed, through the cage or at both ends."""
 
 LARGEST_AROUND = 0.2
@@ -94,18 +77,18 @@ LARGEST_AROUND = 0.2
 
 EXTENTS = {"half_sommerfeld": HalfSommerfeld, "full": FullFilm}
 
-SQUEEZES: dict[str, Keyed[SqueezeLaw]] = {
-    "short": Keyed(ShortSqueeze),
-    "map": Keyed(MapSqueeze),
-    "finite": Keyed(FiniteSqueeze),
-    "finite_map": Keyed(FiniteMapSqueeze),
-    "published": Keyed(PublishedSqueeze),
+SQUEEZES: dict[str, Keyed[dampers.SqueezeLaw]] = {
+    "short": Keyed(dampers.ShortSqueeze),
+    "map": Keyed(dampers.MapSqueeze),
+    "finite": Keyed(dampers.FiniteSqueeze),
+    "finite_map": Keyed(dampers.FiniteMapSqueeze),
+    "published": Keyed(dampers.PublishedSqueeze),
 }
 """`film = {name = "short"}`: squeeze films by their names in scene files."""
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(PorousDamper)
+@fields_of(dampers.PorousDamper)
 class DamperTable(Taking):
     """`[damper]`: a squeeze-film damper and its retainer springs.
 
@@ -135,11 +118,11 @@ class DamperTable(Taking):
     """
 
     extent: Annotated[FullFilm | HalfSommerfeld, Variant("kind", EXTENTS)]
-    feed: Annotated[RadialFeed | AxialFeed | None, Variant("kind", FEEDS)] = None
-    film: Annotated[SqueezeLaw | None, Variant("name", SQUEEZES)] = None
+    feed: Annotated[dampers.RadialFeed | dampers.AxialFeed | None, Variant("kind", FEEDS)] = None
+    film: Annotated[dampers.SqueezeLaw | None, Variant("name", SQUEEZES)] = None
     seals: SealsTable | None = None
     stiffness: float = 0.0
-    supply: DamperSupply | None = None
+    supply: dampers.DamperSupply | None = None
     offset: tuple[float, float] = (0.0, 0.0)
     feed_flow: float | None = None
     air_fraction: float = 0.0
@@ -155,24 +138,24 @@ class DamperTable(Taking):
             # Which film answers is not known yet; a run of this one warns when it is built.
             self.build()
 
-    def build(self) -> PorousDamper:
+    def build(self) -> dampers.PorousDamper:
         """Return the damper without its springs; raise InputError where a value breaks its rule.
 
         Its film laws know no supply. Two lands beside a groove are one of them, in oil twice as viscous.
         """
-        film = self.film or (FiniteSqueeze() if self.needs_length else ShortSqueeze())
+        film = self.film or (dampers.FiniteSqueeze() if self.needs_length else dampers.ShortSqueeze())
         groove = None if self.supply is None else self.supply.circumferential_groove
         if groove is not None:
             land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
-            return made_from(PorousDamper, self, film=film, seals=None, length=land, viscosity=twice)
-        damper = made_from(PorousDamper, self, film=film, seals=self.seal)
+            return made_from(dampers.PorousDamper, self, film=film, seals=None, length=land, viscosity=twice)
+        damper = made_from(dampers.PorousDamper, self, film=film, seals=self.seal)
         if not self.air_fraction:
             return damper
-        aired = aerated_damper(damper, self.air_fraction)
+        aired = dampers.aerated_damper(damper, self.air_fraction)
         return replace(damper, viscosity=aired.viscosity, density=aired.density)
 
     @property
-    def seal(self) -> EndSeal | None:
+    def seal(self) -> dampers.EndSeal | None:
         """The seals, None for open ends."""
         if self.seals is None:
             return None
@@ -192,7 +175,7 @@ class DamperTable(Taking):
         s = 0.5 * self.length / self.radius
         if leak == 0.0:
             return math.inf
-        return (s**2 / 3.0 + s / leak) / land_share(s, leak).real - 1.0
+        return (s**2 / 3.0 + s / leak) / dampers.land_share(s, leak).real - 1.0
 
     @property
     def is_built(self) -> bool:
@@ -214,7 +197,7 @@ class DamperTable(Taking):
         """The static force that holds the rotor at its offset [N]."""
         return self.stiffness * self.offset[0], self.stiffness * self.offset[1]
 
-    def conserved(self, supply: DamperSupply) -> JFODamper:
+    def conserved(self, supply: dampers.DamperSupply) -> dampers.JFODamper:
         """Return the damper that conserves its oil, with its springs; raise InputError where it cannot."""
         alone = {"cage": None, "feed": None, "extent": HalfSommerfeld(), "seals": None, "density": 0.0}
         for name, wanted in {**alone, "offset": (0.0, 0.0), "air_fraction": 0.0}.items():
@@ -223,15 +206,15 @@ class DamperTable(Taking):
                     f"{name} must be left out beside supply, as the film that conserves its oil has a solid "
                     f"cage, open ends and no inertia, and ruptures, got {getattr(self, name)!r}"
                 )
-        return made_from(JFODamper, self, supply=supply)
+        return made_from(dampers.JFODamper, self, supply=supply)
 
-    def support(self) -> PorousDamper | Parallel | JFODamper:
+    def support(self) -> dampers.PorousDamper | Parallel | dampers.JFODamper:
         """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
         if self.supply is not None and self.film is None:
             return replace(self.conserved(self.supply), cells=CELLS)
         return self.plain()
 
-    def plain(self) -> PorousDamper | Parallel:
+    def plain(self) -> dampers.PorousDamper | Parallel:
         """Return the damper of a film that knows no supply, with its springs, if it has some."""
         damper = self.build()
         return with_springs(damper, self.stiffness) if self.stiffness else damper

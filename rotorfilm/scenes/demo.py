@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from .. import studies
 from ..analysis import equilibrium, speed_parameter
 from ..bearings.journal import JournalBearing, fitted_bearing
 from ..bearings.oil import GRADES, Cooling, Oil
-from ..core.errors import InputError, PartialResultError
+from ..core.errors import PartialResultError
 from ..core.files import write_atomically
 from ..core.frames import write_csv
 from ..core.model import Array
@@ -26,14 +27,6 @@ from ..core.results import Trajectory, orbit_distance, to_plain
 from ..core.units import CELSIUS
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..cosim.watch import quietly
-from ..studies import (
-    StudyModel,
-    StudyResult,
-    comparison_bearing,
-    journal_accuracy,
-    journal_rungs,
-    journal_stability,
-)
 from ..studies.journal_accuracy import SPEED
 from .cosimulate_scene import critical_macro_angle, monolithic_solution
 from .export_scene import at_rest_on_film, export_scene
@@ -127,7 +120,7 @@ def attitude_angle(bearing: JournalBearing, eccentricity_ratio: Array) -> Array:
 
 
 def attitude_angles(
-    bearing: JournalBearing, rungs: Sequence[StudyModel], eccentricity_ratio: Array
+    bearing: JournalBearing, rungs: Sequence[studies.StudyModel], eccentricity_ratio: Array
 ) -> dict[str, Array]:
     """Return the attitude angles (n,) [rad] of the bearing with the film of each rung, by its name."""
     return {
@@ -345,8 +338,8 @@ class DemoResult(Readable):
     critical_macro_angle: float | None
     coupling: CouplingStudy
     attitude_angle: dict[str, Array]
-    stability: StudyResult
-    accuracy: StudyResult
+    stability: studies.StudyResult
+    accuracy: studies.StudyResult
 
     @property
     def scene_run(self) -> CoupledRun:
@@ -385,23 +378,22 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     RotorfilmError
         What the steps raise; see `Scene.solve`, `export_scene` and `study_coupling`.
     """
-    if scene.rigid_rotor is None:
-        raise InputError("rigid_rotor is required for the demonstration, got no such table")
+    scene.required("rigid_rotor", "the demonstration")
     slenderness, rungs = scene.journal_bearing.slenderness, demo_rungs()
-    plain = comparison_bearing(slenderness)
+    plain = studies.comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)
     report(0.0, "equilibrium, stiffness and damping, whirl threshold")
     answer = scene.describe()
     report(0.02, "locus by every film")
     angles = attitude_angles(plain, rungs, np.array(ECCENTRICITY_RATIOS))
-    stability = journal_stability(
+    stability = studies.journal_stability(
         slenderness,
         eccentricity_ratio=ECCENTRICITY_RATIOS,
         rungs=rungs,
         cells=REFERENCE_CELLS,
         report=part_of(report, 0.03, 0.12),
     )
-    accuracy = journal_accuracy(
+    accuracy = studies.journal_accuracy(
         slenderness,
         states=STATES,
         rungs=rungs,
@@ -435,9 +427,9 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     return result
 
 
-def demo_rungs() -> tuple[StudyModel, ...]:
+def demo_rungs() -> tuple[studies.StudyModel, ...]:
     """Return the films that the demonstration compares."""
-    return tuple(rung for rung in journal_rungs() if rung.name in RUNGS)
+    return tuple(rung for rung in studies.journal_rungs() if rung.name in RUNGS)
 
 
 def write_results(result: DemoResult, folder: Path) -> None:

@@ -14,7 +14,7 @@ from ..core.files import written_together
 from ..core.inputs import arguments
 from ..core.port import Reaction, from_rest
 from ..fmu import export_fmu, export_ssp
-from ..rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
+from ..rotors import FlexibleRotor, Reduction, SteadyRotor, mount, reduce_rotor
 from ..rotors.force_law import LawRotor
 from ..rotors.rigid import RigidRotor
 from ..rotors.structure import station_names
@@ -162,10 +162,8 @@ def at_rest_on_film(scene: Scene) -> tuple[RigidRotor, Any]:
         If the film cannot carry the load.
     """
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
-    place = (float(at.position[0]), float(at.position[1]))
-    return replace(scene.rotor, position=place), from_rest(
-        scene.bearing, at.position, scene.speed, at.temperature
-    )
+    bearing = from_rest(scene.bearing, at.position, scene.speed, at.temperature)
+    return replace(scene.rotor, position=tuple(at.position.tolist())), bearing
 
 
 def film_models(scene: Scene) -> SceneModels:
@@ -203,7 +201,7 @@ def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
     reduced = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
-    rotor, at = _at_rest(reduced, bearings, speed)
+    rotor, at = at_rest(reduced, bearings, speed)
     step = scene.cosimulation.macro_angle / (abs(speed) or 1.0)
     return mount(rotor, from_shaft_rest(bearings, at)), step, speed
 
@@ -252,8 +250,8 @@ def export_rotor_fmu(
     reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
     start = {}
     if bearings is not None:
-        rotor, at = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
-        reduction = replace(reduction, rotor=rotor)
+        resting, at = at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
+        reduction = replace(reduction, rotor=resting)
         start = {
             name: -value
             for station, load in at.loads.items()
@@ -264,13 +262,10 @@ def export_rotor_fmu(
     return reduction
 
 
-def _at_rest(
-    rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
-) -> tuple[ReducedRotor, RotorEquilibrium]:
+def at_rest(rotor: Any, bearings: Mapping[str, Reaction], speed: float) -> tuple[Any, RotorEquilibrium]:
     """Return the rotor as it rests in its bearings at a speed [rad/s], and that equilibrium."""
     at = rotor_equilibrium(rotor, bearings, speed)
-    rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
-    return replace(rotor, initial=tuple(rest.tolist())), at
+    return replace(rotor, initial=(*at.displacement.tolist(), *[0.0] * len(at.displacement))), at
 
 
 def from_shaft_rest(bearings: Mapping[str, Reaction], at: RotorEquilibrium) -> dict[str, Reaction]:

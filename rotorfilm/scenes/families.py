@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable, Mapping
-from importlib import import_module
+from functools import cache
+from importlib import import_module, resources
 from typing import Any, NamedTuple
 
 from ..core.answers import LeftOutRemark
@@ -39,7 +41,7 @@ FILM = "scenes.export_scene.film_models"
 FAMILIES = {
     "journal": Family("scenes.journal_tables.JournalTable", FILM),
     "bush": Family("scenes.bush_table.BushTable", answer="scenes.bush_table.answer_bush"),
-    "contact": Family("scenes.contact_table.ContactTable", answer="scenes.solve_contact.answer_contact"),
+    "contact": Family("scenes.contact.ContactTable", answer="scenes.contact.answer_contact"),
     "shaft": Family("scenes.shaft_table.ShaftTable", answer="scenes.solve_shaft.solve_rotor"),
     "damper": Family(
         "scenes.damper_table.DamperTable",
@@ -130,7 +132,7 @@ class Remark(NamedTuple):
     limit : float
         Of that number.
     text : str
-        In braces the numbers by their names, with their formats.
+        In braces the numbers by their names, and `limit`, with their formats.
     below : bool
         Whether it is said below the limit, not above it.
     moves : str
@@ -145,13 +147,28 @@ class Remark(NamedTuple):
 
     def line(self, numbers: Mapping[str, float]) -> str:
         """Return the text with its numbers; a `LeftOutRemark` where they tell how much it moves an answer."""
-        text = self.text.format_map(numbers)
+        text = self.text.format_map({"limit": self.limit, **numbers})
         return LeftOutRemark(text, self.moves, float(numbers[self.number])) if self.moves else text
 
     def applies(self, numbers: Mapping[str, float]) -> bool:
         """Return whether the limit is passed; not-a-number passes none."""
         value = numbers[self.number]
         return value < self.limit if self.below else value > self.limit
+
+
+def remarks_of(*subjects: str) -> tuple[Remark, ...]:
+    """Return what is said of subjects, tables of the file of remarks."""
+    return tuple(Remark(**remark) for subject in subjects for remark in _remarks()[subject])
+
+
+@cache
+def _remarks() -> dict[str, Any]:
+    return tomllib.loads(resources.files(__package__).joinpath("remarks.toml").read_text("utf-8"))
+
+
+def isothermal(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
+    """Return remarks without those on the warming of a film, which one of an oil has in it."""
+    return tuple(remark for remark in remarks if remark.number not in ("thinning", "unknown"))
 
 
 def messages(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:

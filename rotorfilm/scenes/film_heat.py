@@ -17,19 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..analysis import equilibrium, heated_equilibrium
 from ..analysis.coefficients import film_coefficients
-from ..bearings.journal import (
-    AdiabaticWalls,
-    BushRing,
-    FilmProfile,
-    HeatedFilm,
-    HeatedJFOFilm,
-    HeatedState,
-    JFOFilm,
-    JournalBearing,
-    LayeredTemperature,
-    MeanTemperature,
-    Walls,
-)
+from ..bearings import journal
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import RING
 from ..bearings.pads import PadBearing, TiltingPadBearing
@@ -97,7 +85,7 @@ class WarmRest(JournalEquilibrium):
         return film_coefficients(self.reaction, self.rest.position, self.rest.speed)
 
 
-def bush_of(bearing: Any) -> Walls:
+def bush_of(bearing: Any) -> journal.Walls:
     """Return the bush that a temperature field is in: of steel, to `RING` times the radius.
 
     It carries as much heat to the ambient as the housing conductance of the bearing's cooling; where that is
@@ -105,14 +93,14 @@ def bush_of(bearing: Any) -> Walls:
     makes its net heat zero. Tilting pads take no heat.
     """
     if isinstance(bearing, TiltingPadBearing):
-        return AdiabaticWalls()
+        return journal.AdiabaticWalls()
     _, cooling = bearing.cooled
     R, outer = bearing.radius, RING * bearing.radius
     wanted = cooling.housing_conductance / (2.0 * math.pi * R * bearing.length)
     if wanted > 0.0:
         outer = min(outer, R * math.exp(0.5 * STEEL_CONDUCTIVITY / (R * wanted)))
     resistance = R * math.log(outer / R) / STEEL_CONDUCTIVITY
-    return BushRing(
+    return journal.BushRing(
         outer_radius=outer,
         conductivity=STEEL_CONDUCTIVITY,
         transfer=wanted / (1.0 - resistance * wanted) * R / outer,
@@ -121,7 +109,10 @@ def bush_of(bearing: Any) -> Walls:
 
 
 def uniform_rest(
-    bearing: JournalBearing | JFOFilm, load: ArrayLike, speed: float, temperature: float | None = None
+    bearing: journal.JournalBearing | journal.JFOFilm,
+    load: ArrayLike,
+    speed: float,
+    temperature: float | None = None,
 ) -> WarmRest:
     """Return the rest on a film of one temperature [K], that of its balance if none is given (T1)."""
     _, cooling = bearing.cooled
@@ -145,28 +136,28 @@ def uniform_rest(
 
 
 def warm_field(
-    bearing: JournalBearing | JFOFilm, cells: tuple[int, int], profile: FilmProfile
-) -> HeatedFilm | HeatedJFOFilm:
+    bearing: journal.JournalBearing | journal.JFOFilm, cells: tuple[int, int], profile: journal.FilmProfile
+) -> journal.HeatedFilm | journal.HeatedJFOFilm:
     """Return a film with a temperature field; one that conserves its oil where openings end within it."""
     if ends_within(bearing):
-        bearing = JFOFilm(bearing=bearing)  # type: ignore[arg-type]  # no JFOFilm
-    if isinstance(bearing, JFOFilm):
+        bearing = journal.JFOFilm(bearing=bearing)  # type: ignore[arg-type]  # no JFOFilm
+    if isinstance(bearing, journal.JFOFilm):
         film = replace(bearing, cells=cells)
-        return HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
+        return journal.HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
     around, along = cells
     if isinstance(bearing, PadBearing):
         around *= (len(bearing.arcs) + 1) // 2  # as many on each pad as on one of two
-    return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=(around, along), profile=profile)
+    return journal.HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=(around, along), profile=profile)
 
 
-def ends_within(bearing: JournalBearing | JFOFilm) -> bool:
+def ends_within(bearing: journal.JournalBearing | journal.JFOFilm) -> bool:
     """Return whether a bearing has openings that end within it, beside which only conserved oil is known."""
-    if isinstance(bearing, JFOFilm):
+    if isinstance(bearing, journal.JFOFilm):
         return False
     return bool(bearing.geometry.pockets) or bearing.geometry.circumferential
 
 
-def field_rest(film: HeatedFilm | HeatedJFOFilm, load: ArrayLike, speed: float) -> WarmRest:
+def field_rest(film: journal.HeatedFilm | journal.HeatedJFOFilm, load: ArrayLike, speed: float) -> WarmRest:
     """Return the rest on a film with a temperature field (T2, T3)."""
     whole: Any = film  # a force at rest, of a film that conserves its oil, is what these take
     found = heated_equilibrium(whole, load, speed)
@@ -174,7 +165,10 @@ def field_rest(film: HeatedFilm | HeatedJFOFilm, load: ArrayLike, speed: float) 
 
 
 def rest_of_state(
-    bearing: JournalBearing | JFOFilm, at: Equilibrium, film: Reaction, state: HeatedState
+    bearing: journal.JournalBearing | journal.JFOFilm,
+    at: Equilibrium,
+    film: Reaction,
+    state: journal.HeatedState,
 ) -> WarmRest:
     """Return a rest on a film whose temperature is that of a state."""
     (oil, cooling), flow = bearing.cooled, state.side_flow
@@ -203,16 +197,16 @@ def rest_of_state(
 # these do.
 
 
-PROFILE, CELLS = LayeredTemperature(8), (80, 8)
+PROFILE, CELLS = journal.LayeredTemperature(8), (80, 8)
 """Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
 
-def richest_profile(bearing: Any) -> FilmProfile:
+def richest_profile(bearing: Any) -> journal.FilmProfile:
     """Return the profile across the film towards which steps lead.
 
     The oil beside a wall that takes no heat gets too hot: for tilting pads it is the mean.
     """
-    return MeanTemperature() if isinstance(bearing, TiltingPadBearing) else PROFILE
+    return journal.MeanTemperature() if isinstance(bearing, TiltingPadBearing) else PROFILE
 
 
 HALF = (CELLS[0] // 2, CELLS[1] // 2)
@@ -255,7 +249,7 @@ class HeatSteps:
         By T1 or T2.
     """
 
-    bearing: JournalBearing | JFOFilm
+    bearing: journal.JournalBearing | journal.JFOFilm
     own: WarmRest
 
     @property
@@ -303,7 +297,7 @@ class HeatSteps:
             found.append(self._moved(rest_of_state(bearing, at, after, state), here))
         return tuple(found)
 
-    def _film(self, cells: tuple[int, int]) -> HeatedFilm | HeatedJFOFilm:
+    def _film(self, cells: tuple[int, int]) -> journal.HeatedFilm | journal.HeatedJFOFilm:
         return warm_field(self.bearing, cells, richest_profile(self.bearing))
 
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
@@ -313,7 +307,7 @@ class HeatSteps:
         openings feed start only where there is oil, which is not the film of one temperature.
         """
         own, film = self.own, self._film(cells)
-        fed = isinstance(film, HeatedFilm) and film.bearing.geometry.openings()
+        fed = isinstance(film, journal.HeatedFilm) and film.bearing.geometry.openings()
         if own.field is not None or fed:
             return own
         state = film.warmed_from(own.rest.position, own.rest.speed, own.temperature, closing=True)
@@ -453,9 +447,11 @@ class FieldLevel:
         """That of one mean across the film, on these cells."""
         return replace(self, level="T2", layers=0, seconds=0.25 * self.seconds)
 
-    def rest(self, bearing: JournalBearing | JFOFilm, load: ArrayLike, speed: float) -> WarmRest:
+    def rest(
+        self, bearing: journal.JournalBearing | journal.JFOFilm, load: ArrayLike, speed: float
+    ) -> WarmRest:
         """Return where a journal rests on this film of a bearing on an oil."""
-        profile = LayeredTemperature(self.layers) if self.layers else MeanTemperature()
+        profile = journal.LayeredTemperature(self.layers) if self.layers else journal.MeanTemperature()
         return field_rest(warm_field(bearing, self.cells, profile), load, speed)
 
 
@@ -543,7 +539,7 @@ def _varied(bearing: Any) -> Iterator[tuple[str, list[Any]]]:
 
     for text in oil.assumed:
         yield text, [replace(bearing, oil=thinner_when_hot(oil))]
-    open_around = not isinstance(bearing, JournalBearing) or bearing.geometry.openings()
+    open_around = not isinstance(bearing, journal.JournalBearing) or bearing.geometry.openings()
     if open_around and cooling.carry_over == default.carry_over:
         low, high = CARRIED
         text = f"carry_over of the grooves: {cooling.carry_over:g}, in use are {low:g} to {high:g}"
@@ -566,5 +562,5 @@ def thinner_when_hot(oil: Oil) -> Oil:
 
 def ring_conductance(radius: float, length: float) -> float:
     """Return the heat flow through `HOUSING` [W/K] of a bearing of these dimensions [m]."""
-    ring = BushRing(outer_radius=2.0 * radius, conductivity=50.0, transfer=80.0)
+    ring = journal.BushRing(outer_radius=2.0 * radius, conductivity=50.0, transfer=80.0)
     return 2.0 * math.pi * radius * length * ring.mean_transfer(radius)

@@ -12,24 +12,8 @@ from numpy.typing import ArrayLike
 
 from ..analysis.coefficients import film_coefficients
 from ..analysis.equilibrium import MAXIMUM_ECCENTRICITY
+from ..bearings import journal
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import (
-    ComplementarityArc,
-    ExtrapolatedFilm,
-    GroovedMapFilm,
-    JFOFilm,
-    JournalBearing,
-    MapFilm,
-    ReynoldsFilm,
-    RotatingArc,
-    ShortFilm,
-    SplittingFilm,
-    film_name,
-    film_state,
-    fitted_bearing,
-    has_losses,
-    is_mappable,
-)
 from ..bearings.reaction import InertialModel
 from ..core.answers import DISAGREEMENT, WorkUnit
 from ..core.errors import InputError, require_vector
@@ -47,13 +31,13 @@ from ..core.port import (
 from ..core.results import Equilibrium
 from .journal_tables import has_map
 
-COARSE_MAP = GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
+COARSE_MAP = journal.GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 """Made in a fifth of the time of the map with openings, with errors some four times as large."""
 
 MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
 
-def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     """Return the films that can answer for a bearing, the cheapest first.
 
     Parameters
@@ -68,7 +52,7 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     elif tabulated:
         rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
     elif plain:
-        low, high = MapFilm().slenderness_range
+        low, high = journal.MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
         rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
     else:
@@ -78,14 +62,14 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     return tuple(rungs)
 
 
-def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+def point_films(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     """Return the films for some equilibria: a map that must be made first costs more than any grid."""
     films = film_rungs(bearing, fixed=fixed)
     return tuple(film for film in films if fixed or not film.makes_map)
 
 
 def turn_films(
-    bearing: JournalBearing, *, fixed: bool, grids: tuple[tuple[int, int], ...], maps: bool
+    bearing: journal.JournalBearing, *, fixed: bool, grids: tuple[tuple[int, int], ...], maps: bool
 ) -> tuple[FilmRung, ...]:
     """Return the films for states all round a turn: the map that is there, else the short film and grids.
 
@@ -109,135 +93,138 @@ def turn_films(
 
 def _is_kept(film: FilmRung, grids: tuple[tuple[int, int], ...], *, maps: bool) -> bool:
     law = film.reaction.film
-    on_grid = isinstance(law, ExtrapolatedFilm) and law.film.cells in grids
-    return on_grid or isinstance(law, ShortFilm) or (maps and isinstance(law, MapFilm | GroovedMapFilm))
+    on_grid = isinstance(law, journal.ExtrapolatedFilm) and law.film.cells in grids
+    return (
+        on_grid
+        or isinstance(law, journal.ShortFilm)
+        or (maps and isinstance(law, journal.MapFilm | journal.GroovedMapFilm))
+    )
 
 
 def _with_coarser_check(film: FilmRung) -> FilmRung:
     """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
     if not film.bounded:
         return film
-    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
+    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name=grid_name(FINE))
 
 
-def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
+def extrapolated(bearing: journal.JournalBearing, cells: tuple[int, int]) -> journal.JournalBearing:
     """Return the bearing with the film in two dimensions, extrapolated from two grids."""
     own = getattr(bearing.fitted_film, "mobility", None)
-    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells, mobility=own)))
+    grid = journal.ReynoldsFilm(cells=cells, mobility=own)
+    return journal.fitted_bearing(bearing, journal.ExtrapolatedFilm(film=grid))
 
 
-def _map(bearing: JournalBearing) -> FilmRung:
-    rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
+def _map(bearing: journal.JournalBearing) -> FilmRung:
+    rung = _rung("map", bearing, journal.MapFilm(), _rich(False, FINEST), (1e-6, 1e-4), bounded=True)
     return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)
 
 
-def _grooved_maps(bearing: JournalBearing) -> list[FilmRung]:
+def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:
     """Return the maps of a bearing with openings: a coarse one too, where the fine one is to be made."""
-    low, high = GroovedMapFilm().slenderness_range
-    if not (is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
+    low, high = journal.GroovedMapFilm().slenderness_range
+    if not (journal.is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
         return []
-    fine = _opened("map with grooves", bearing, GroovedMapFilm(), 1e-5, 1e-3)
-    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, 3e-4, 5e-3)
+    fine = _opened("map with grooves", bearing, journal.GroovedMapFilm(), (1e-5, 1e-3))
+    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, (3e-4, 5e-3))
     return [coarse, fine] if fine.makes_map else [fine]
 
 
 def _opened(
-    name: str, bearing: JournalBearing, film: GroovedMapFilm, position_prior: float, slope_prior: float
+    name: str, bearing: journal.JournalBearing, film: journal.GroovedMapFilm, priors: tuple[float, float]
 ) -> FilmRung:
-    rich = FINE, "2-D 384 x 16 extr."
-    rung = _rung(name, bearing, film, rich, position_prior, slope_prior)
+    rung = _rung(name, bearing, film, _rich(False, FINE), priors)
     return replace(rung, making=_making_time(rung.reaction))
 
 
-def _making_time(bearing: JournalBearing) -> float:
+def _making_time(bearing: journal.JournalBearing) -> float:
     """Return about how long the map with openings of a bearing takes [s]; 0 where it is there."""
     film = bearing.fitted_film
-    return film.making_time(bearing.slenderness) if isinstance(film, GroovedMapFilm) else 0.0
+    return film.making_time(bearing.slenderness) if isinstance(film, journal.GroovedMapFilm) else 0.0
 
 
-def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+def _plain_films(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     """Return films of closed form: they are for bearings without openings."""
     slim = min(bearing.slenderness**2, 1.0)
-    films: tuple[tuple[str, FilmLaw, float, float], ...] = (
-        ("short film", ShortFilm(), 0.1 * slim, 0.1 * slim),
-        ("splitting (2, all)", SplittingFilm(order=(2, None), rupture=RotatingArc()), 2e-3, 5e-3),
-        ("splitting (6, all)", SplittingFilm(order=(6, None), rupture=RotatingArc()), 1e-3, 3e-3),
-    )
-    rich = _rich(tabulated, FINE)
-    return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
+    arc, rich = journal.RotatingArc(), _rich(tabulated, FINE)
+    return [
+        _rung("short film", bearing, journal.ShortFilm(), rich, (0.1 * slim, 0.1 * slim)),
+        *(
+            _rung(
+                f"splitting ({n}, all)",
+                bearing,
+                journal.SplittingFilm(order=(n, None), rupture=arc),
+                rich,
+                priors,
+            )
+            for n, priors in ((2, (2e-3, 5e-3)), (6, (1e-3, 3e-3)))
+        ),
+    ]
 
 
-def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+def _grids(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     rich = _rich(tabulated, MEDIUM)
-    coarse = _rung("2-D 48 x 4", bearing, ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
+    coarse = _rung("2-D 48 x 4", bearing, journal.ReynoldsFilm(cells=(48, 4)), rich, (1e-3, 1e-3))
     levels = (
-        ((48, 8), FINE, 3e-5, 1e-3),
-        ((96, 8), FINE, 5e-6, 3e-4),
-        ((192, 16), FINEST, 1e-6, 1e-4),
-        ((384, 16), FINEST, 5e-7, 5e-5),
+        ((48, 8), FINE, (3e-5, 1e-3)),
+        ((96, 8), FINE, (5e-6, 3e-4)),
+        ((192, 16), FINEST, (1e-6, 1e-4)),
+        ((384, 16), FINEST, (5e-7, 5e-5)),
     )
+    films = [journal.ExtrapolatedFilm(film=journal.ReynoldsFilm(cells=cells)) for cells, *_ in levels]
     finer = [
-        _rung(
-            f"2-D {cells[0]} x {cells[1]} extr.",
-            bearing,
-            ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)),
-            _rich(tabulated, above),
-            *priors,
-        )
-        for cells, above, *priors in levels
+        _rung(grid_name(cells), bearing, film, _rich(tabulated, above), priors)
+        for film, (cells, above, priors) in zip(films, levels, strict=True)
     ]
     if not tabulated:  # the free arc is found for length / diameter .1 to 4
         return [coarse, *finer]
-    free = SplittingFilm(order=(6, None), constant=True, rupture=ComplementarityArc())
-    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), 1e-5, 1e-4)
+    free = journal.SplittingFilm(order=(6, None), constant=True, rupture=journal.ComplementarityArc())
+    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), (1e-5, 1e-4))
     return [coarse, *finer[:2], arc, *finer[2:]]
 
 
-def _named(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+def _named(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     """Return the rung of a scene that names its film, after a coarser map of it where that is made sooner."""
-    film = bearing.fitted_film
-    fine = isinstance(film, MapFilm) or (isinstance(film, ReynoldsFilm) and film.cells[0] > 96)
-    rich = _rich(tabulated and not isinstance(film, MapFilm), FINEST if fine else FINE)
-    rung = _rung(film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, MapFilm))
+    film, mapped = bearing.fitted_film, isinstance(bearing.fitted_film, journal.MapFilm)
+    fine = mapped or (isinstance(film, journal.ReynoldsFilm) and film.cells[0] > 96)
+    rich = _rich(tabulated and not mapped, FINEST if fine else FINE)
+    rung = _rung(journal.film_name(film), bearing, film, rich, (0.0, 0.0), bounded=mapped)
     rung = replace(rung, making=_making_time(rung.reaction))
-    if not (rung.makes_map and film == GroovedMapFilm(geometry=bearing.geometry)):
+    if not (rung.makes_map and film == journal.GroovedMapFilm(geometry=bearing.geometry)):
         return [rung]
-    return [_opened(film_name(COARSE_MAP), bearing, COARSE_MAP, 0.0, 0.0), rung]
+    return [_opened(journal.film_name(COARSE_MAP), bearing, COARSE_MAP, (0.0, 0.0)), rung]
 
 
 def _rich(tabulated: bool, cells: tuple[int, int]) -> tuple[tuple[int, int] | None, str]:
     """Return the cells of the richer film, None for the map where there is one, and its name."""
-    return (None, "map") if tabulated else (cells, f"2-D {cells[0]} x {cells[1]} extr.")
+    return (None, "map") if tabulated else (cells, grid_name(cells))
+
+
+def grid_name(cells: tuple[int, int]) -> str:
+    """Return the name of a film in two dimensions that is extrapolated from two grids."""
+    return f"2-D {cells[0]} x {cells[1]} extr."
 
 
 def _rung(
     name: str,
-    bearing: JournalBearing,
+    bearing: journal.JournalBearing,
     film: FilmLaw,
     rich: tuple[tuple[int, int] | None, str],
-    position_prior: float,
-    slope_prior: float,
-    *,
+    priors: tuple[float, float],
     bounded: bool = False,
 ) -> FilmRung:
-    cells, rich_name = rich
-    grid = grid_of(film)
-    return FilmRung(
-        name=name,
-        reaction=fitted_bearing(bearing, film),
-        rich=fitted_bearing(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
-        rich_name=rich_name,
-        position_prior=position_prior,
-        prior=slope_prior,
-        bounded=bounded,
-        call_time=CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells),
+    (cells, rich_name), grid, own = rich, grid_of(film), journal.fitted_bearing(bearing, film)
+    richer = (
+        journal.fitted_bearing(bearing, journal.MapFilm()) if cells is None else extrapolated(bearing, cells)
     )
+    time = CALL_TIME if grid is None else CELL_TIME * math.prod(grid.cells)
+    return FilmRung(name, own, richer, rich_name, *priors, bounded=bounded, call_time=time)
 
 
-def grid_of(film: FilmLaw) -> ReynoldsFilm | None:
+def grid_of(film: FilmLaw) -> journal.ReynoldsFilm | None:
     """Return the film in two dimensions that a law is, or is extrapolated from; None of any other."""
-    own = film.film if isinstance(film, ExtrapolatedFilm) else film
-    return own if isinstance(own, ReynoldsFilm) else None
+    own = film.film if isinstance(film, journal.ExtrapolatedFilm) else film
+    return own if isinstance(own, journal.ReynoldsFilm) else None
 
 
 # A candidate of films: one that may answer, and the richer one that its defect is sampled with.
@@ -250,7 +237,7 @@ CELL_TIME, CALL_TIME = 4e-7, 1e-5
 """About what a force with derivatives takes for each cell of a grid, and in closed form or by a map [s]."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class FilmCandidate:
     """A film that may answer, and the richer one that its defect is sampled with.
 
@@ -351,10 +338,7 @@ class FilmCandidate:
         position, still = np.array([0.3, 0.4]) * minimum_radial_clearance(self.reaction), np.zeros(2)
 
         def sampled(reaction: PlanarReaction) -> Callable[[], object]:
-            return lambda: (
-                reaction.force(position, still, speed),
-                reaction.jacobian(position, still, speed),
-            )
+            return lambda: (reaction.force(position, still, speed), reaction.jacobian(position, still, speed))
 
         return {self.tangents: sampled(self.reaction), self.defects(smooth=False): sampled(self.rich)}
 
@@ -435,7 +419,7 @@ class FilmCandidate:
 
 def any_candidate(film: Any) -> FilmCandidate:
     """Return a film as a candidate of which nothing is known beforehand."""
-    return FilmCandidate(name="", reaction=film, rich=film, rich_name="", position_prior=0.0, prior=0.0)
+    return FilmCandidate("", film, film, "", 0.0, 0.0)
 
 
 def with_losses(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ...]:
@@ -456,9 +440,11 @@ def with_pressures(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ..
 
 def has_pressure(bearing: Any) -> bool:
     """Return whether the film of a bearing knows its pressure, place by place."""
-    if isinstance(bearing, JournalBearing):
-        return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm | SplittingFilm)
-    return isinstance(bearing, JFOFilm) or hasattr(bearing, "pressure")
+    if isinstance(bearing, journal.JournalBearing):
+        return isinstance(
+            bearing.film, journal.ReynoldsFilm | journal.ExtrapolatedFilm | journal.SplittingFilm
+        )
+    return isinstance(bearing, journal.JFOFilm) or hasattr(bearing, "pressure")
 
 
 def maximum_pressure(bearing: Any, position: Array, speed: float) -> float:
@@ -466,13 +452,13 @@ def maximum_pressure(bearing: Any, position: Array, speed: float) -> float:
 
     That at a node of its grid, the finer one of an extrapolated film; of pads the largest on any of them.
     """
-    if isinstance(bearing, JFOFilm):
+    if isinstance(bearing, journal.JFOFilm):
         return float(np.max(bearing.solve(position, speed).pressure))
-    if not isinstance(bearing, JournalBearing):
+    if not isinstance(bearing, journal.JournalBearing):
         pressures = (bearing.pressure(k, position, np.zeros(2), speed) for k in range(len(bearing.pads)))
         return max(float(np.max(one.pressure)) for one in pressures)
     law = replace(bearing, film=grid_of(bearing.film) or bearing.film)
-    found = film_state(law, position, np.zeros(2), speed).maximum_pressure
+    found = journal.film_state(law, position, np.zeros(2), speed).maximum_pressure
     assert found is not None  # see `has_pressure`
     return found
 
@@ -621,7 +607,7 @@ LOSS_BOUNDS = ((0.95, 1e-3), (0.99, 3e-3))
 """Eccentricity ratio up to which, and largest error of power loss and side flow there: docs/accuracy.md."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class FilmRung(FilmCandidate):
     """A film that may answer for a journal bearing.
 
@@ -635,13 +621,13 @@ class FilmRung(FilmCandidate):
         With the richer one.
     """
 
-    reaction: JournalBearing
-    rich: JournalBearing
+    reaction: journal.JournalBearing
+    rich: journal.JournalBearing
 
     @property
     def has_losses(self) -> bool:
         """Whether its law knows power loss and flow of oil."""
-        return has_losses(self.reaction)
+        return journal.has_losses(self.reaction)
 
     def with_pressure(self) -> FilmRung | None:
         """Return the candidate beside a richer film on a grid, as a map knows no pressure."""
@@ -650,12 +636,11 @@ class FilmRung(FilmCandidate):
         grid = grid_of(self.reaction.film)
         fine = grid is not None and math.prod(grid.cells) >= math.prod(MEDIUM)
         cells = FINEST if fine else FINE
-        rich_name = f"2-D {cells[0]} x {cells[1]} extr."
-        return replace(self, rich=extrapolated(self.reaction, cells), rich_name=rich_name)
+        return replace(self, rich=extrapolated(self.reaction, cells), rich_name=grid_name(cells))
 
-    def on_grid(self, bearing: JournalBearing) -> bool:
+    def on_grid(self, bearing: journal.JournalBearing) -> bool:
         """Return whether the film of one of both bearings lives on a grid in two dimensions."""
-        return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
+        return isinstance(bearing.film, journal.ReynoldsFilm | journal.ExtrapolatedFilm)
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
@@ -663,8 +648,8 @@ class FilmRung(FilmCandidate):
             for amplitude, position, slope in MAP_BOUNDS:
                 if eccentricity_ratio <= amplitude:
                     return slope if slopes else position
-        film = self.reaction.fitted_film if isinstance(self.reaction, JournalBearing) else None
-        if isinstance(film, GroovedMapFilm):
+        film = self.reaction.fitted_film if isinstance(self.reaction, journal.JournalBearing) else None
+        if isinstance(film, journal.GroovedMapFilm):
             return film.built_table(self.reaction.slenderness).bound(eccentricity_ratio, slopes=slopes)
         return math.inf
 

@@ -10,17 +10,7 @@ from typing import Annotated, Any
 
 from ..analysis import equilibrium
 from ..bearings import journal
-from ..bearings.films.geometry import (
-    Complementarity,
-    FeedHole,
-    FixedOnset,
-    FreeOnset,
-    FullFilm,
-    Groove,
-    HalfSommerfeld,
-    MaximumGapOnset,
-    Pad,
-)
+from ..bearings.films import geometry
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
@@ -29,9 +19,9 @@ from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarnin
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, messages
-from .lubricant_table import Lubricant, OiledTable
+from .families import isothermal, messages, remarks_of
 from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
+from .shared_tables import Lubricant, OiledTable
 
 ORDER = Count(FUNCTIONS)
 
@@ -56,10 +46,14 @@ RUPTURES: dict[str, Callable[[], Keyed]] = {
 }
 """`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
 
-CAVITATIONS = {"complementarity": Complementarity, "half_sommerfeld": HalfSommerfeld, "full": FullFilm}
+CAVITATIONS = {
+    "complementarity": geometry.Complementarity,
+    "half_sommerfeld": geometry.HalfSommerfeld,
+    "full": geometry.FullFilm,
+}
 """What the two-dimensional film does in tension, by name."""
 
-STARTS = {"free": FreeOnset, "widest_gap": MaximumGapOnset, "line": FixedOnset}
+STARTS = {"free": geometry.FreeOnset, "widest_gap": geometry.MaximumGapOnset, "line": geometry.FixedOnset}
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
 
@@ -128,9 +122,9 @@ class JournalTable(OiledTable):
     """
 
     film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
-    pads: tuple[Pad, ...] = ()
-    grooves: tuple[Groove, ...] = ()
-    feed_holes: tuple[FeedHole, ...] = ()
+    pads: tuple[geometry.Pad, ...] = ()
+    grooves: tuple[geometry.Groove, ...] = ()
+    feed_holes: tuple[geometry.FeedHole, ...] = ()
 
     def __post_init__(self) -> None:
         # Without a viscosity there is no bearing before `on` has given the oil.
@@ -226,12 +220,6 @@ def has_map(bearing: JournalBearing) -> bool:
 ATMOSPHERE = 1e5
 """Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
 
-NOTABLE = 0.25
-"""Relative change of the film that is worth a word."""
-
-TILT = 0.1
-"""Tilt of the journal [mrad] that an ordinary machine has; a smaller margin is worth a word."""
-
 
 COARSE = (48, 4)
 """Cells of a film whose loss and flow tell how far the oil warms where its own would take long."""
@@ -248,56 +236,8 @@ SLIGHT = 0.1
 """Eccentricity ratio below which the oil that leaves is too little to take all heat along."""
 
 
-REMARKS = (
-    Remark(
-        "thinning",
-        NOTABLE,
-        "heat: the oil warms by about {warming:.2g} K ({power:.3g} W in the film, {side_flow:.3g} m3/s out "
-        "of its ends, Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
-        moves="heat",
-    ),
-    Remark(
-        "unknown",
-        0.0,
-        "heat: not known, as the coarse film that would tell it has no answer under this load",
-    ),
-    Remark(
-        "turbulence",
-        0.0,
-        f"turbulence: Taylor vortices above {TAYLOR}, the film has {{taylor:.3g}}; turbulent above Reynolds "
-        f"number {TURBULENT:g}, it has {{reynolds:.4g}}",
-        moves="turbulence",
-    ),
-    Remark("inertia", 1.0, "inertia of the film: {inertia:.2g} of the viscous stress"),
-    Remark(
-        "pressure",
-        1.0,
-        "cavitation: the load makes {pressure:.2g} times the ambient pressure, so that the oil may hold "
-        "tension and rupture elsewhere",
-        below=True,
-    ),
-    Remark(
-        "compression",
-        0.01,
-        "compressibility: {compression:.2%} by the mean pressure",
-        moves="compressibility",
-    ),
-    Remark(
-        "tilt",
-        TILT,
-        "misalignment: a tilt of {tilt:.2g} mrad closes even a centered film",
-        below=True,
-    ),
-)
-"""What the physics of a journal's film leaves out, by the numbers of `journal_numbers`."""
-
-
 def journal_numbers(
-    bearing: JournalBearing,
-    oil: Lubricant,
-    speed: float,
-    load: tuple[float, float],
-    film: Any = None,
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float], film: Any = None
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
@@ -369,6 +309,8 @@ def film_numbers(
         "reynolds": flow.reynolds,
         "taylor": flow.taylor,
         "turbulence": flow.turbulence,
+        "taylor_limit": TAYLOR,
+        "turbulent": TURBULENT,
         "inertia": omega * c**2 / kinematic,
         "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
         "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
@@ -416,12 +358,12 @@ def film_remarks(
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
-    remarks: tuple[Remark, ...] = REMARKS
+    remarks = remarks_of("journal")
     film: Any = None
     if isinstance(bearing, JFOFilm):
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
     if bearing.is_warming:
-        remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
+        remarks = isothermal(remarks)
         warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
         bearing, film = warm, film and film.at_temperature(warm.temperature)
     return messages(remarks, journal_numbers(bearing, oil, speed, load, film))
@@ -466,8 +408,8 @@ class BearingData(Readable):
     slenderness: float
     clearance: float
     viscosity: float
-    pads: tuple[Pad, ...]
-    grooves: tuple[Groove | FeedHole, ...]
+    pads: tuple[geometry.Pad, ...]
+    grooves: tuple[geometry.Groove | geometry.FeedHole, ...]
     supply_pressure: float
     circumferential_groove: float | None = None
 

@@ -6,123 +6,24 @@ import dataclasses
 import inspect
 import math
 import textwrap
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from importlib import resources
 from typing import Any
 
 from ..core.readable import explained
 from ..core.sources import offered
+from . import reading
 from .families import FAMILIES, table_of
-from .reading import (
-    Beside,
-    Count,
-    Quantity,
-    Reader,
-    Table,
-    TableList,
-    TableType,
-    Variant,
-    choose,
-    flag,
-    keyed,
-    text,
-    twice_of,
-)
-from .schema import SCHEMA, OperationTable, RigidRotorTable
+from .shared_tables import SCHEMA, OperationTable, RigidRotorTable
 
 WIDTH = 110
 """Longest line of a scene, where a value leaves room for its comment."""
 
 Values = Mapping[str, Any]
 
-JOURNAL = {"diameter": "100 mm", "length": "30 mm", "clearance": "0.1 mm", "viscosity": "0.1 Pa s"}
-
-PADS = {"diameter": "100 mm", "length": "50 mm", "viscosity": "20 mPa s"}
-ROTOR: Values = {"operation": {"speed": "3000 rpm"}, "rigid_rotor": {"mass": "200 kg"}}
-
-EXAMPLES: dict[str, Values] = {
-    "journal": {"journal": {**PADS, "clearance": "80 um"}, **ROTOR},
-    "bush": {
-        "bush": {"melting_heat": "1e8 J/m3", "material": "f4k20"},
-        "operation": {"speed": "9 rad/s", "load": "3750 N"},
-    },
-    "contact": {
-        "contact": {
-            "diameter": "20 mm",
-            "modulus": "206 GPa",
-            "poisson_ratio": 0.3,
-            "viscosity": "8 mPa s",
-            "pressure_coefficient": "5 1/GPa",
-            "speed": "0.9 m/s",
-            "load": "10 N",
-            "mass": "33 g",
-            "cells": 24,
-        }
-    },
-    "shaft": {
-        "shaft": {
-            "material": {"young_modulus": "211 GPa", "shear_modulus": "81.2 GPa", "density": "7810 kg/m3"},
-            "elements": [{"length": "1.5 m", "outer_diameter": "50 mm", "pieces": 4}],
-            "bearings": [
-                {"name": "left", "node": 0, "journal": JOURNAL},
-                {"name": "right", "node": 4, "journal": JOURNAL},
-            ],
-            "disks": [{"node": 2, "width": "70 mm", "outer_diameter": "350 mm", "inner_diameter": "50 mm"}],
-            "unbalances": [{"node": 2, "unbalance": "500 g mm"}],
-            "speeds": {"first": "500 rpm", "last": "2500 rpm", "count": 6},
-            "highest_frequency": "100 Hz",
-        }
-    },
-    "damper": {
-        "damper": {
-            "diameter": "100 mm",
-            "length": "25 mm",
-            "clearance": "0.1 mm",
-            "viscosity": "10 mPa s",
-            "stiffness": "2e6 N/m",
-        },
-        "operation": {"speed": "6000 rpm"},
-        "rigid_rotor": {"mass": "10 kg", "unbalance": "200 g mm"},
-    },
-    "lobed_journal": {
-        "lobed_journal": {**PADS, "preset": "elliptical", "assembled_clearance": "70 um", "preload": 0.5},
-        **ROTOR,
-    },
-    "pressure_dam": {
-        "pressure_dam": {
-            **PADS,
-            "pad_clearance": "80 um",
-            "depth": "140 um",
-            "end": "145 deg",
-            "share": 0.75,
-        },
-        **ROTOR,
-    },
-    "tilting_pad": {
-        "tilting_pad": {
-            **PADS,
-            "assembled_clearance": "70 um",
-            "preload": 0.3,
-            "pad_count": 5,
-            "loading": "between_pads",
-            "extent": "60 deg",
-        },
-        **ROTOR,
-    },
-    "ball_bearing": {
-        "ball_bearing": {
-            "balls": 16,
-            "ball_diameter": "7.938 mm",
-            "pitch_diameter": "46.5 mm",
-            "contact_angle": "15 deg",
-            "ball_material": "silicon_nitride",
-            "arrangement": "back_to_back",
-            "distance": "20 mm",
-            "preload": "150 N",
-        },
-        "operation": {"speed": "18000 rpm", "load": "200 N"},
-    },
-}
-"""Tables of a scene that has an answer, with values as a file has them, by the name of the element."""
+SHARED: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
+"""Tables that more than one element has."""
 
 
 def new_scene(name: str) -> str:
@@ -138,28 +39,24 @@ def new_scene(name: str) -> str:
     SceneError
         If there is no such element.
     """
-    _ = choose("NAME", name, FAMILIES)
-    shared: dict[str, type] = {"operation": OperationTable, "rigid_rotor": RigidRotorTable}
+    _ = reading.choose("NAME", name, FAMILIES)
     title = name.replace("_", " ")
     parts = [
         "# Keys behind a # may be left out. Their defaults stand there, or dots where there is none.",
         f'schema = {SCHEMA}\ntitle = "A {title} scene of rotorfilm"\n',
     ]
-    for key, values in EXAMPLES.get(name, {name: {}}).items():
-        table = shared.get(key) or table_of(name)
+    document = resources.files(__package__).joinpath("new_scenes.toml").read_text(encoding="utf-8")
+    for key, values in tomllib.loads(document).get(name, {name: {}}).items():
+        table = SHARED.get(key) or table_of(name)
         parts.append("\n".join(table_lines(key, table, values)) + "\n")
     asked = [one for one in offered("ladders_of")(name) if one != "cosimulation_error"]
-    parts.append(
-        "\n".join(
-            [
-                "# [question]  # asks for one quantity, by the cheapest model that is good enough",
-                *_wrapped(f"quantity: {', '.join(asked)}"),
-                f'# quantity = "{asked[0]}"',
-                '# tolerance = "1 %"  # largest relative error\n',
-            ]
-        )
+    question = (
+        "# [question]  # asks for one quantity, by the cheapest model that is good enough",
+        *_wrapped(f"quantity: {', '.join(asked)}"),
+        f'# quantity = "{asked[0]}"',
+        '# tolerance = "1 %"  # largest relative error\n',
     )
-    return "\n".join(parts)
+    return "\n".join([*parts, *question])
 
 
 def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
@@ -167,58 +64,62 @@ def table_lines(name: str, table: type, values: Values) -> Iterator[str]:
     wording = (inspect.getdoc(table) or "").partition("\n")[0].partition(": ")[2]
     yield from _wrapped(wording[:1].upper() + wording[1:])
     yield f"[{name}]"
-    readers = keyed(table).readers
+    readers = reading.keyed(table).readers
     defaults = {field.name: field for field in dataclasses.fields(table)}
     for key, value in values.items():
-        field = key if key in readers else next(one for one, read in readers.items() if twice_of(read) == key)
+        field = (
+            key
+            if key in readers
+            else next(one for one, read in readers.items() if reading.twice_of(read) == key)
+        )
         yield from _line(f"{key} = {toml(value)}", comment(table, field, twice=field != key))
     for field, reader in readers.items():
-        if field in values or twice_of(reader) in values or isinstance(reader, Beside):
+        if field in values or reading.twice_of(reader) in values or isinstance(reader, reading.Beside):
             continue
         yield from _line(f"# {field} = {_placeholder(reader, defaults[field])}", comment(table, field))
 
 
 def comment(table: type, field: str, *, twice: bool = False) -> str:
     """Return the unit and the meaning of a key, and what may stand in it."""
-    wording, reader = explained(table, field), keyed(table).readers[field]
+    wording, reader = explained(table, field), reading.keyed(table).readers[field]
     meaning = " ".join(wording.meaning.split()).replace("`", "")
     parts = [f"twice the {field}" if twice else "", meaning.rstrip("."), _inside(reader)]
     unit = f"[{wording.unit}] " if wording.unit and wording.unit != "1" else ""
     return f"{unit}{'; '.join(part for part in parts if part)}".strip()
 
 
-def _inside(reader: Reader) -> str:
+def _inside(reader: reading.Reader) -> str:
     """Return the keys, or the names, that a value may have."""
-    if isinstance(reader, Table | TableList):
-        each = "keys" if isinstance(reader, Table) else "keys of each"
+    if isinstance(reader, reading.Table | reading.TableList):
+        each = "keys" if isinstance(reader, reading.Table) else "keys of each"
         return f"{each}: {', '.join(_keys(reader.table))}"
-    if isinstance(reader, Variant):
+    if isinstance(reader, reading.Variant):
         return f"{reader.tag}: {', '.join(reader.variants)}"
     names = _names(reader)
     return f"one of {', '.join(names)}" if names else ""
 
 
-def _names(reader: Reader) -> Mapping[str, Any]:
+def _names(reader: reading.Reader) -> Mapping[str, Any]:
     """Return the names that a reader says it takes, if it takes nothing else."""
     shapes: tuple[Any, ...] = getattr(reader, "takes", ())
     return shapes[0] if len(shapes) == 1 and isinstance(shapes[0], Mapping) else {}
 
 
-def _keys(table: TableType[Any]) -> Iterator[str]:
-    for name, reader in keyed(table).readers.items():
-        unit = reader.unit if isinstance(reader, Quantity) and reader.unit != "1" else ""
+def _keys(table: reading.TableType[Any]) -> Iterator[str]:
+    for name, reader in reading.keyed(table).readers.items():
+        unit = reader.unit if isinstance(reader, reading.Quantity) and reader.unit != "1" else ""
         yield f"{name} [{unit}]" if unit else name
 
 
-def _placeholder(reader: Reader, field: dataclasses.Field[Any]) -> str:
+def _placeholder(reader: reading.Reader, field: dataclasses.Field[Any]) -> str:
     """Return the default of a key as TOML, or dots for what has none that a file may state."""
     default = field.default
-    if isinstance(reader, Quantity):
+    if isinstance(reader, reading.Quantity):
         known = isinstance(default, float) and math.isfinite(default)
         number = f"{default:.6g}" if known else "..."
         return f'"{number} {reader.unit}"' if reader.unit != "1" else number
-    written: tuple[Callable[..., Any] | type, ...] = (text, flag)
-    plain = isinstance(reader, Count) or reader in written
+    written: tuple[Callable[..., Any] | type, ...] = (reading.text, reading.flag)
+    plain = isinstance(reader, reading.Count) or reader in written
     return toml(default) if plain and isinstance(default, int | str) else "..."
 
 

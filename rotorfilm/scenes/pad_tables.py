@@ -8,29 +8,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from ..analysis import equilibrium
-from ..bearings.pads import (
-    SETS,
-    Lobe,
-    LobedBearing,
-    PadFilm,
-    PadGridFilm,
-    PadMapFilm,
-    PressureDamBearing,
-    RecessedPad,
-    TiltingPadBearing,
-    even_pivots,
-    is_pad_mappable,
-    lobe_set,
-    pressure_dam_pads,
-)
+from ..bearings import pads as pad_bearings
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, messages
+from .families import isothermal, messages, remarks_of
 from .film_rungs import minimum_radial_clearance
-from .journal_tables import NOTABLE, REMARKS, film_numbers, warmed
-from .lubricant_table import Lubricant, OiledTable
+from .journal_tables import film_numbers, warmed
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
+from .shared_tables import Lubricant, OiledTable
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -38,23 +24,23 @@ if TYPE_CHECKING:
 # The films of pads in scene files: schema 1.
 
 
-PAD_FILMS: dict[str, Callable[[], Keyed[PadFilm]]] = {
-    "map": lambda: keys_of(PadMapFilm),
-    "reynolds": lambda: keys_of(PadGridFilm, "cells"),
+PAD_FILMS: dict[str, Callable[[], Keyed[pad_bearings.PadFilm]]] = {
+    "map": lambda: keys_of(pad_bearings.PadMapFilm),
+    "reynolds": lambda: keys_of(pad_bearings.PadGridFilm, "cells"),
 }
 """`film = {name = "map"}`: the films of a pad by their names."""
 
 
-def usual_film(extents: Iterable[float], radius: float, length: float) -> PadFilm:
+def usual_film(extents: Iterable[float], radius: float, length: float) -> pad_bearings.PadFilm:
     """Return the film of pads of these extents [rad] where the file names none: the map, else a grid."""
     slenderness = length / (2.0 * radius) if radius else 0.0
-    mappable = all(is_pad_mappable(extent, slenderness) for extent in extents)
-    return PadMapFilm() if mappable else PadGridFilm()
+    mappable = all(pad_bearings.is_pad_mappable(extent, slenderness) for extent in extents)
+    return pad_bearings.PadMapFilm() if mappable else pad_bearings.PadGridFilm()
 
 
-def pad_film_name(film: PadFilm | PressureDamBearing) -> str:
+def pad_film_name(film: pad_bearings.PadFilm | pad_bearings.PressureDamBearing) -> str:
     """Return what a film of pads, or that of a bearing with recesses, is called in print."""
-    if not isinstance(film, PadGridFilm | PressureDamBearing):
+    if not isinstance(film, pad_bearings.PadGridFilm | pad_bearings.PressureDamBearing):
         return "map of a pad"
     extrapolated = " extr." if getattr(film, "extrapolated", True) else ""
     return f"2-D {film.cells[0]} x {film.cells[1]}{extrapolated} on each pad"
@@ -64,7 +50,7 @@ def pad_film_name(film: PadFilm | PressureDamBearing) -> str:
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(LobedBearing, without=("lobes", "film"))
+@fields_of(pad_bearings.LobedBearing, without=("lobes", "film"))
 class PadTable(OiledTable):
     """The table of a lobed, pressure-dam or tilting-pad bearing.
 
@@ -101,7 +87,7 @@ class PadTable(OiledTable):
 
     def repeated_inputs(self, bearing: AnyPads) -> tuple[PadData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        film: Any = bearing if isinstance(bearing, PressureDamBearing) else bearing.film
+        film: Any = bearing if isinstance(bearing, pad_bearings.PressureDamBearing) else bearing.film
         return echo_of_pads(self.data, bearing), pad_film_name(film)
 
     def remarks(
@@ -119,7 +105,7 @@ class PadTable(OiledTable):
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
         bearing = self.build()
         film = getattr(bearing, "film", None)
-        if isinstance(film, PadMapFilm):
+        if isinstance(film, pad_bearings.PadMapFilm):
             for extent in sorted(set(bearing.extents)):
                 film.table(extent, bearing.slenderness, report)
 
@@ -166,7 +152,7 @@ class LobedData(PadData):
         Angles in the bearing frame [rad].
     """
 
-    lobes: tuple[Lobe, ...]
+    lobes: tuple[pad_bearings.Lobe, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,7 +187,7 @@ class DamData(PadData):
         Angles in the bearing frame [rad].
     """
 
-    pads: tuple[RecessedPad, ...]
+    pads: tuple[pad_bearings.RecessedPad, ...]
 
 
 def echo_of_pads(kind: type[PadData], bearing: AnyPads) -> PadData:
@@ -226,22 +212,10 @@ def echo_of_pads(kind: type[PadData], bearing: AnyPads) -> PadData:
 # What the physics of films on pads leaves out, judged by dimensionless numbers.
 
 
-PAD_REMARKS = (
-    Remark(
-        "thinning",
-        NOTABLE,
-        "heat: along one pad the oil warms by about {warming:.2g} K if it keeps its heat, which takes "
-        "{thinning:.0%} of its viscosity; nor does hot oil go on from pad to pad",
-        moves="heat",
-    ),
-    *(remark for remark in REMARKS if remark.number not in ("thinning", "unknown")),
-)
-"""What the physics of films on pads leaves out, by the numbers of `pad_numbers`."""
-
 REMARK_CELLS, DAM_CELLS = (48, 4), (32, 8)
 """Of films whose temperature is wanted in no time."""
 
-AnyPads = LobedBearing | PressureDamBearing | TiltingPadBearing
+AnyPads = pad_bearings.LobedBearing | pad_bearings.PressureDamBearing | pad_bearings.TiltingPadBearing
 
 
 def pad_numbers(
@@ -274,22 +248,22 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
 
     Of films on an oil it is said at their temperature, and that they warm is not left out.
     """
-    remarks: tuple[Remark, ...] = PAD_REMARKS
+    common, own = isothermal(remarks_of("journal")), remarks_of("pads")
     if bearing.oil is not None:
-        remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
+        own = isothermal(own)
         bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
-    return messages(remarks, pad_numbers(bearing, oil, speed, load))
+    return messages((*own, *common), pad_numbers(bearing, oil, speed, load))
 
 
 def quick_pads(bearing: AnyPads) -> AnyPads:
     """Return a bearing with its own films, or on coarse grids where those would take long."""
-    if isinstance(bearing, PressureDamBearing):
+    if isinstance(bearing, pad_bearings.PressureDamBearing):
         return replace(bearing, cells=DAM_CELLS)
     film = bearing.film
-    if not isinstance(film, PadMapFilm) or any(
+    if not isinstance(film, pad_bearings.PadMapFilm) or any(
         film.making_time(extent, bearing.slenderness) for extent in bearing.extents
     ):
-        return replace(bearing, film=PadGridFilm(cells=REMARK_CELLS))
+        return replace(bearing, film=pad_bearings.PadGridFilm(cells=REMARK_CELLS))
     return bearing
 
 
@@ -311,7 +285,7 @@ OF_PRESET = ("preload", "extent", "offset", "turned")
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(lobe_set, without=("name",), optional=True)
+@fields_of(pad_bearings.lobe_set, without=("name",), optional=True)
 class LobedTable(PadTable):
     """`[lobed_journal]`: a journal bearing of fixed pads: elliptical, of several lobes, of offset halves.
 
@@ -329,9 +303,9 @@ class LobedTable(PadTable):
     """
 
     data = LobedData
-    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
-    preset: Annotated[str | None, one_of(SETS)] = None
-    lobes: tuple[Lobe, ...] = ()
+    film: Annotated[pad_bearings.PadFilm | None, Variant("name", PAD_FILMS)] = None
+    preset: Annotated[str | None, one_of(pad_bearings.SETS)] = None
+    lobes: tuple[pad_bearings.Lobe, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.preset is None) is (not self.lobes):
@@ -342,11 +316,11 @@ class LobedTable(PadTable):
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
         super().__post_init__()
 
-    def build(self) -> LobedBearing:
+    def build(self) -> pad_bearings.LobedBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        lobes = self.lobes or lobe_set(self.preset or "", **self.given(OF_PRESET))
+        lobes = self.lobes or pad_bearings.lobe_set(self.preset or "", **self.given(OF_PRESET))
         film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
-        return made_from(LobedBearing, self, lobes=lobes, film=film)
+        return made_from(pad_bearings.LobedBearing, self, lobes=lobes, film=film)
 
 
 # `[pressure_dam]` of a scene: fixed pads with recesses.
@@ -357,7 +331,7 @@ FURTHER = ("track_depth", "track_share", "groove", "preload")
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(pressure_dam_pads, optional=True)
+@fields_of(pad_bearings.pressure_dam_pads, optional=True)
 class DamTable(PadTable):
     """`[pressure_dam]`: a journal bearing of fixed pads with a pressure dam, a step or a relief track.
 
@@ -378,7 +352,7 @@ class DamTable(PadTable):
 
     data = DamData
     film_key = "cells"
-    pads: tuple[RecessedPad, ...] = ()
+    pads: tuple[pad_bearings.RecessedPad, ...] = ()
     cells: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
@@ -391,11 +365,11 @@ class DamTable(PadTable):
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
         super().__post_init__()
 
-    def build(self) -> PressureDamBearing:
+    def build(self) -> pad_bearings.PressureDamBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        pads = self.pads or pressure_dam_pads(**self.given((*NEEDED, *FURTHER)))
-        cells = self.cells or PressureDamBearing.cells
-        return made_from(PressureDamBearing, self, pads=pads, cells=cells)
+        pads = self.pads or pad_bearings.pressure_dam_pads(**self.given((*NEEDED, *FURTHER)))
+        cells = self.cells or pad_bearings.PressureDamBearing.cells
+        return made_from(pad_bearings.PressureDamBearing, self, pads=pads, cells=cells)
 
 
 # `[tilting_pad]` of a scene: a bearing of tilting pads.
@@ -409,7 +383,7 @@ LOADINGS = {"on_pad": False, "between_pads": True}
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(TiltingPadBearing, without=("start",))
+@fields_of(pad_bearings.TiltingPadBearing, without=("start",))
 class TiltingTable(PadTable):
     """`[tilting_pad]`: a journal bearing of equal tilting pads.
 
@@ -426,7 +400,7 @@ class TiltingTable(PadTable):
     """
 
     data = TiltingData
-    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
+    film: Annotated[pad_bearings.PadFilm | None, Variant("name", PAD_FILMS)] = None
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
     loading: Annotated[str | None, one_of(LOADINGS)] = None
     pivots: Annotated[
@@ -444,10 +418,10 @@ class TiltingTable(PadTable):
             )
         super().__post_init__()
 
-    def build(self) -> TiltingPadBearing:
+    def build(self) -> pad_bearings.TiltingPadBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
-            pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
+            pivots = pad_bearings.even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
         film = self.film or usual_film([self.extent], self.radius, self.length)
-        return made_from(TiltingPadBearing, self, pivots=pivots, film=film)
+        return made_from(pad_bearings.TiltingPadBearing, self, pivots=pivots, film=film)

@@ -5,92 +5,89 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 
 from ..analysis import equilibrium
-from ..bearings.rolling import (
-    BallBearing,
-    BallLoads,
-    BearingPair,
-    RaceControl,
-    RollingMaterial,
-    RunningBalls,
-    StaticBalls,
-    back_to_back,
-    ball_films,
-    face_to_face,
-    film_parameter,
-)
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief, require_positive
+from ..bearings import rolling
+from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_positive
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
-from .families import Remark, messages
-from .lubricant_table import Lubricant, LubricantTable
-from .reading import Count, Keyed, Quantity, Table, flag, made_from, named, one_of, takes
+from .families import messages, remarks_of
+from .reading import (
+    Count,
+    Keyed,
+    Quantity,
+    Several,
+    Table,
+    Taking,
+    fields_of,
+    made_from,
+    named,
+    one_of,
+    takes,
+)
+from .shared_tables import Lubricant, LubricantTable
 
+ANGLES = "two angles, about x and about y"
 MOST_BALLS = 200
 """Balls of a row: thin slewing rings have about so many."""
 
-ARRANGEMENTS: dict[str, Callable[..., BearingPair]] = {
-    "back_to_back": back_to_back,
-    "face_to_face": face_to_face,
-    "tandem": lambda bearing, distance, **_: BearingPair(
+ARRANGEMENTS: dict[str, Callable[..., rolling.BearingPair]] = {
+    "back_to_back": rolling.back_to_back,
+    "face_to_face": rolling.face_to_face,
+    "tandem": lambda bearing, distance, **_: rolling.BearingPair(
         bearing=bearing, distance=distance, directions=(1, 1)
     ),
 }
 """Pairs, by the name in scene files."""
 
-MATERIALS = {"steel": RollingMaterial.steel, "silicon_nitride": RollingMaterial.silicon_nitride}
+MATERIALS = {
+    "steel": rolling.RollingMaterial.steel,
+    "silicon_nitride": rolling.RollingMaterial.silicon_nitride,
+}
 OWN_MATERIAL = Keyed(
-    RollingMaterial,
+    rolling.RollingMaterial,
     {"young_modulus": Quantity("Pa"), "poisson_ratio": Quantity("1"), "density": Quantity("kg/m3")},
 )
-INERTIAS = {"static": StaticBalls, "running": RunningBalls, "race_control": RaceControl}
+INERTIAS = {
+    "static": rolling.StaticBalls,
+    "running": rolling.RunningBalls,
+    "race_control": rolling.RaceControl,
+}
 BALL_LAWS = {
-    "traction_coefficient": RunningBalls,
-    "slide_to_roll_ratio": RunningBalls,
-    "outer_control": RaceControl,
+    "traction_coefficient": rolling.RunningBalls,
+    "slide_to_roll_ratio": rolling.RunningBalls,
+    "outer_control": rolling.RaceControl,
 }
 """Which law a number of the table belongs to."""
 
 
 @takes(MATERIALS, Table(OWN_MATERIAL))
-def read_material(where: str, value: Any) -> RollingMaterial:
+def read_material(where: str, value: Any) -> rolling.RollingMaterial:
     """Read the name of a material, or its properties."""
     if isinstance(value, str):
         return named(MATERIALS)(where, value)
     return Table(OWN_MATERIAL)(where, value)
 
 
-@takes([Quantity("rad"), Quantity("rad")])
-def read_tilt(where: str, value: Any) -> tuple[float, float]:
-    """Read two angles."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise SceneError(f"{where} must be two angles, about x and about y, got {brief(value)}")
-    about_x, about_y = (Quantity("rad")(f"{where}[{k}]", one) for k, one in enumerate(value))
-    return about_x, about_y
-
-
 @dataclass(frozen=True, kw_only=True)
-class BallTable:
+@fields_of(rolling.RunningBalls, rolling.RaceControl, optional=True)
+@fields_of(rolling.BallBearing, without=("films", "law", "waviness"))
+class BallTable(Taking):
     """`[ball_bearing]`: a deep groove or angular contact ball bearing, or a pair of angular contact bearings.
 
     Parameters
     ----------
     balls : int
         Number of balls of a row.
-    ball_diameter, pitch_diameter : float [m]
-        Of a ball, and of the circle on which the centers of the balls lie.
     internal_clearance : float or None [m]
         Radial internal clearance of a deep groove bearing; give this or the contact angle.
     contact_angle : float or None [rad]
         Of the unloaded balls of an angular contact bearing.
-    inner_conformity, outer_conformity : float [1]
-        Groove radius over ball diameter.
     ball_material, ring_material : RollingMaterial
         "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density. Steel unless
         given.
@@ -128,30 +125,18 @@ class BallTable:
     """
 
     balls: Annotated[int, Count(MOST_BALLS, 3)]
-    ball_diameter: Annotated[float, Quantity("m")]
-    pitch_diameter: Annotated[float, Quantity("m")]
-    internal_clearance: Annotated[float | None, Quantity("m")] = None
-    contact_angle: Annotated[float | None, Quantity("rad")] = None
-    inner_conformity: Annotated[float, Quantity("1")] = BallBearing.inner_conformity
-    outer_conformity: Annotated[float, Quantity("1")] = BallBearing.outer_conformity
-    ball_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
-    ring_material: Annotated[RollingMaterial, read_material] = field(default_factory=RollingMaterial.steel)
-    growth: Annotated[float, Quantity("m")] = 0.0
-    axial_displacement: Annotated[float, Quantity("m")] = 0.0
-    axial_load: Annotated[float | None, Quantity("N")] = None
-    tilt: Annotated[tuple[float, float], read_tilt] = (0.0, 0.0)
-    cage_angle: Annotated[float, Quantity("rad")] = 0.0
-    damping: Annotated[float, Quantity("N.s/m")] = 0.0
+    ball_material: Annotated[rolling.RollingMaterial, read_material]
+    ring_material: Annotated[rolling.RollingMaterial, read_material]
+    tilt: Annotated[tuple[float, float], Several(Quantity("rad"), 2, 2, ANGLES)]
     arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
-    distance: Annotated[float | None, Quantity("m")] = None
-    preload: Annotated[float | None, Quantity("N")] = None
-    inertia: Annotated[StaticBalls | RunningBalls | RaceControl | None, named(INERTIAS)] = None
-    traction_coefficient: Annotated[float | None, Quantity("1")] = None
-    slide_to_roll_ratio: Annotated[float | None, Quantity("1")] = None
-    outer_control: Annotated[bool | None, flag] = None
-    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
-    pressure_coefficient: Annotated[float | None, Quantity("1/Pa")] = None
-    roughness: Annotated[float | None, Quantity("m")] = None
+    distance: float | None = None
+    preload: float | None = None
+    inertia: Annotated[
+        rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl | None, named(INERTIAS)
+    ] = None
+    viscosity: float | None = None
+    pressure_coefficient: float | None = None
+    roughness: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("viscosity", "pressure_coefficient", "roughness"):
@@ -195,9 +180,9 @@ class BallTable:
         fresh = lubricant.cooling.supply_temperature
         return replace(self, viscosity=float(lubricant.oil.viscosity(fresh)))
 
-    def _law(self) -> StaticBalls | RunningBalls | RaceControl:
+    def _law(self) -> rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl:
         """Return the law of the balls with the numbers that the file gives."""
-        law = self.inertia or RunningBalls()
+        law = self.inertia or rolling.RunningBalls()
         given = {name: getattr(self, name) for name in BALL_LAWS if getattr(self, name) is not None}
         for name, value in given.items():
             if not isinstance(law, BALL_LAWS[name]):
@@ -212,9 +197,9 @@ class BallTable:
             name: getattr(self, name) for name in ("axial_displacement", "axial_load", "tilt", "damping")
         }
         if self.arrangement is None:
-            return made_from(BallBearing, self, law=law)
+            return made_from(rolling.BallBearing, self, law=law)
         alone = {"axial_displacement": 0.0, "axial_load": None, "tilt": (0.0, 0.0), "damping": 0.0}
-        one = made_from(BallBearing, self, law=law, **alone)
+        one = made_from(rolling.BallBearing, self, law=law, **alone)
         if self.arrangement == "tandem" and self.preload is not None:
             raise InputError(f"preload must not be given in tandem, got {self.preload!r}")
         pair = ARRANGEMENTS[self.arrangement](one, distance=self.distance, preload=self.preload)
@@ -223,16 +208,12 @@ class BallTable:
     def repeated_inputs(self, bearing: Balls) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing, and the name of the law of its balls."""
         name = law_name(bearing)
-        if isinstance(bearing, BearingPair):
+        if isinstance(bearing, rolling.BearingPair):
             return made_from(PairData, self, arrangement=self.arrangement or "", preload=self.preload), name
         return made_from(BallData, self), name
 
     def remarks(
-        self,
-        bearing: Balls,
-        oil: Lubricant,
-        speed: float,
-        load: tuple[float, float],
+        self, bearing: Balls, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
         return ball_remarks(bearing, speed, load, self.oil, self.roughness)
@@ -242,9 +223,9 @@ class BallTable:
 
 
 LAW_NAMES = {
-    StaticBalls: "static balls",
-    RunningBalls: "running balls",
-    RaceControl: "running balls under race control",
+    rolling.StaticBalls: "static balls",
+    rolling.RunningBalls: "running balls",
+    rolling.RaceControl: "running balls under race control",
 }
 
 
@@ -258,32 +239,13 @@ def law_name(bearing: Balls) -> str:
 # What answers repeat of ball bearings.
 
 
+NOT_REPEATED = ("ball_material", "ring_material", "axial_displacement", "tilt", "cage_angle", "damping")
+
+
 @dataclass(frozen=True, kw_only=True)
+@fields_of(rolling.BallBearing, without=("films", "law", "waviness", *NOT_REPEATED))
 class BallData(Readable):
-    """A ball bearing as it was understood.
-
-    Attributes
-    ----------
-    balls : int
-        Of a row.
-    ball_diameter, pitch_diameter : float [m]
-    internal_clearance : float or None [m]
-    contact_angle : float or None [rad]
-    inner_conformity, outer_conformity : float [1]
-    growth : float [m]
-        Of the inner ring.
-    axial_load : float or None [N]
-    """
-
-    balls: int
-    ball_diameter: float
-    pitch_diameter: float
-    internal_clearance: float | None
-    contact_angle: float | None
-    inner_conformity: float
-    outer_conformity: float
-    growth: float
-    axial_load: float | None
+    """A ball bearing as it was understood."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -307,7 +269,7 @@ class PairData(BallData):
 # A shaft at rest in ball bearings: where it is, what each ball carries, and what follows from that.
 
 
-Balls = BallBearing | BearingPair
+Balls = rolling.BallBearing | rolling.BearingPair
 
 STEPS, EXACT = 3, 1e-9
 """Newton steps by which a richer law moves a rest, and the share of the load that may be left of it."""
@@ -354,7 +316,7 @@ class BallEquilibriumCase:
     force: Array
     stiffness: Array
     axial_stiffness: float
-    balls: BallLoads
+    balls: rolling.BallLoads
 
     @property
     def most_loaded(self) -> int:
@@ -384,23 +346,23 @@ class BallEquilibriumCase:
         """Return lambda [1], the smallest film over the roughness [m]; nan where one is not known."""
         if oil is None or roughness is None or self.speed == 0.0:
             return math.nan
-        return film_parameter(
+        return rolling.film_parameter(
             single_of(self.bearing), self.balls, speed=self.speed, **oil._asdict(), roughness=roughness
         )
 
 
-def single_of(bearing: Balls) -> BallBearing:
+def single_of(bearing: Balls) -> rolling.BallBearing:
     """Return a bearing itself, or one of a pair."""
-    return bearing.bearing if isinstance(bearing, BearingPair) else bearing
+    return bearing.bearing if isinstance(bearing, rolling.BearingPair) else bearing
 
 
 def with_single(bearing: Balls, **changes: Any) -> Balls:
     """Return a bearing, or a pair, whose single bearing is changed."""
     single = replace(single_of(bearing), **changes)
-    return replace(bearing, bearing=single) if isinstance(bearing, BearingPair) else single
+    return replace(bearing, bearing=single) if isinstance(bearing, rolling.BearingPair) else single
 
 
-def with_law(bearing: Balls, law: StaticBalls | RunningBalls | RaceControl) -> Balls:
+def with_law(bearing: Balls, law: rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl) -> Balls:
     """Return a bearing with another law of its balls."""
     return with_single(bearing, law=law)
 
@@ -433,7 +395,7 @@ def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> BallE
     """
     free = not any(load)
     try:
-        still = with_law(bearing, StaticBalls())
+        still = with_law(bearing, rolling.StaticBalls())
         place = np.zeros(2) if free else equilibrium(still, load, speed).position
         near = rest_at(still, place, speed)
         found, left = moved_to(bearing, near, load)
@@ -470,7 +432,7 @@ def rest_near(bearing: Balls, near: BallEquilibriumCase, load: tuple[float, floa
 def on_films(near: BallEquilibriumCase, oil: RaceOil) -> Balls:
     """Return the bearing of a rest with the oil films of its most loaded ball in all contacts."""
     load = float(near.balls.inner_load.max())
-    films = ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
+    films = rolling.ball_films(single_of(near.bearing), load=load, speed=near.speed, **oil._asdict())
     return with_single(near.bearing, films=films)
 
 
@@ -479,38 +441,6 @@ def on_films(near: BallEquilibriumCase, oil: RaceOil) -> Balls:
 
 APART, TOUCHING = 3.0, 1.0
 """Film parameters above which the surfaces are apart, and below which they touch."""
-
-HEAVY = 0.06
-"""Centrifugal force over the contact load beyond which balls are not to be taken as static."""
-
-REMARKS = (
-    Remark(
-        "sliding",
-        1.0,
-        "sliding: the gyroscopic moment asks for a traction coefficient of {traction:.3g}, and balls slide "
-        "beyond about {most_traction:.3g}",
-    ),
-    Remark(
-        "lifted",
-        0.0,
-        "lift-off: {lifted:.0f} of {all:.0f} balls have left the inner race, or inertia only holds them, in "
-        "spite of thrust or preload",
-    ),
-    Remark("idle_rows", 0.0, "loss of contact: {idle_rows:.0f} of 2 rows carry nothing"),
-    Remark(
-        "neglected_inertia",
-        HEAVY,
-        "inertia: the centrifugal force of a ball would be {neglected_inertia:.2g} of the largest contact "
-        "load, and static balls have none",
-    ),
-    Remark(
-        "film_parameter",
-        TOUCHING,
-        "mixed lubrication: the film parameter is {film_parameter:.2g}, below 1 the surfaces touch",
-        below=True,
-    ),
-)
-"""What the physics of a ball bearing leaves out, by the numbers of `ball_numbers`."""
 
 
 def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: float | None) -> dict[str, float]:
@@ -533,7 +463,7 @@ def ball_numbers(rest: BallEquilibriumCase, oil: RaceOil | None, roughness: floa
         film_parameter : lambda, nan without oil and roughness.
     """
     balls, bearing = rest.balls, rest.bearing
-    idle, is_pair = _idle(rest), isinstance(bearing, BearingPair)
+    idle, is_pair = _idle(rest), isinstance(bearing, rolling.BearingPair)
     traction, most = float(balls.traction.max()), bearing.running[0].most_traction
     return {
         "traction": traction,
@@ -556,23 +486,23 @@ def ball_remarks(
             rest = rest_under(bearing, load, speed)
         except RotorfilmError as error:
             return (f"rest: none found, {error}",)
-        return messages(REMARKS, ball_numbers(rest, oil, roughness))
+        return messages(remarks_of("ball_bearing"), ball_numbers(rest, oil, roughness))
 
 
 def _idle(rest: BallEquilibriumCase) -> Array:
     """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
     bearing = rest.bearing
-    preloaded = isinstance(bearing, BearingPair) and bearing.approach > 0.0
+    preloaded = isinstance(bearing, rolling.BearingPair) and bearing.approach > 0.0
     if not (preloaded or (single_of(bearing).separates and bearing.axial_load is not None)):
         return np.zeros(rest.balls.inner_load.size, dtype=bool)
-    pressed = with_law(bearing, StaticBalls()).loads(rest.displacement).inner_load
+    pressed = with_law(bearing, rolling.StaticBalls()).loads(rest.displacement).inner_load
     return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
 
 
 def _neglected(bearing: Balls, rest: BallEquilibriumCase) -> float:
     """Return the centrifugal force that static balls do not have, over the largest contact load."""
-    if not isinstance(single_of(bearing).law, StaticBalls):
+    if not isinstance(single_of(bearing).law, rolling.StaticBalls):
         return 0.0
-    running = with_law(bearing, RunningBalls())
+    running = with_law(bearing, rolling.RunningBalls())
     centrifugal = running.loads(rest.displacement, rest.speed).centrifugal_force.max()
     return float(centrifugal / rest.contact_load)

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import rotors
 from ..bearings.linear import LinearBearing, TabulatedBearing
 from ..core.errors import InputError
 from ..core.files import read_text
@@ -26,18 +27,6 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import PlanarReaction, require_massless, require_reaction
 from ..core.results import Coefficients
-from ..rotors import (
-    ClassicalBeam,
-    Coupling,
-    Disk,
-    ElasticMaterial,
-    LayeredElement,
-    ShaftElement,
-    ShaftRotor,
-    SpeedProfile,
-    Station,
-    Support,
-)
 
 if TYPE_CHECKING:
     from ross import BearingElement, Rotor
@@ -61,12 +50,12 @@ class RossRotor:
         By station: LinearBearing, or TabulatedBearing where the file has a table over speed.
     """
 
-    rotor: ShaftRotor
+    rotor: rotors.ShaftRotor
     bearings: dict[str, LinearBearing | TabulatedBearing]
 
 
 @arguments
-def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRotor:
+def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> RossRotor:
     """Return the rotor in a TOML or JSON file that ROSS saved.
 
     Parameters
@@ -105,11 +94,11 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
         raise InputError(f"{file} must have the key {missing} in each of its elements") from None
 
 
-def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor:
+def _read(file: Path, data: RossTable, speed: float | rotors.SpeedProfile) -> RossRotor:
     tables = {name: table for name, table in data.items() if isinstance(table, dict) and name != "parameters"}
     alpha, beta = _whole_damping(file, data.get("parameters", {}))
     couplings = _of(tables, "CouplingElement")
-    pieces: list[tuple[int, ShaftElement | Coupling]] = [
+    pieces: list[tuple[int, rotors.ShaftElement | rotors.Coupling]] = [
         *(
             (table["n"], _element(name, table, beta, own=not (alpha or beta)))
             for name, table in _of(tables, "ShaftElement").items()
@@ -126,15 +115,15 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
         if table.get("n") not in housings
     }
     bearings = {label: read_bearing(name, table) for label, (name, table) in stations.items()}
-    rotor = ShaftRotor(
+    rotor = rotors.ShaftRotor(
         elements=chain,
         disks=_disks(_of(tables, "DiskElement"), couplings),
         stations=tuple(
-            Station(node=table["n"], name=label, support=_support_of(name, table, housings))
+            rotors.Station(node=table["n"], name=label, support=_support_of(name, table, housings))
             for label, (name, table) in stations.items()
         ),
         speed=speed,
-        beam=ClassicalBeam(),
+        beam=rotors.ClassicalBeam(),
         mass_damping=alpha,
         stiffness_damping=beta,
     )
@@ -153,11 +142,11 @@ def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, 
     return {name: table for name, table in tables.items() if name.startswith(f"{kind}_")}
 
 
-def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -> tuple[Disk, ...]:
+def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -> tuple[rotors.Disk, ...]:
     """Return the disks, and both sides of each coupling as disks."""
     sides = ((side, f"_{end}", t) for t in couplings.values() for side, end in enumerate("lr"))
     return tuple(
-        Disk(
+        rotors.Disk(
             node=int(t["n"]) + side,
             mass=t[f"m{end}"],
             diametral_inertia=t[f"Id{end}"],
@@ -167,17 +156,17 @@ def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -
     )
 
 
-def _coupling(name: str, table: RossTable) -> Coupling:
+def _coupling(name: str, table: RossTable) -> rotors.Coupling:
     for kind in ("kt", "kr"):
         if table[f"{kind}_x"] != table[f"{kind}_y"]:
             raise InputError(f"{kind}_x must be {kind}_y, got {table[f'{kind}_x']!r} in {name!r}")
     damped = [key for key in ("ct_x", "ct_y", "cr_x", "cr_y") if table.get(key)]
     if damped:
         raise InputError(f"{damped[0]} must be 0, got {table[damped[0]]!r} in {name!r}")
-    return Coupling(stiffness=table["kt_x"], tilt_stiffness=table["kr_x"])
+    return rotors.Coupling(stiffness=table["kt_x"], tilt_stiffness=table["kr_x"])
 
 
-def _element(name: str, table: RossTable, beta: float, *, own: bool) -> ShaftElement:
+def _element(name: str, table: RossTable, beta: float, *, own: bool) -> rotors.ShaftElement:
     """Return an element with its own proportional damping, or beside beta [s] of the whole rotor."""
     alpha, beta = (table.get("alpha", 0.0), table.get("beta", 0.0)) if own else (0.0, beta)
     if beta and (table.get("axial_force") or table.get("torque")):
@@ -194,13 +183,13 @@ def _element(name: str, table: RossTable, beta: float, *, own: bool) -> ShaftEle
             f"shear_method_calc must be 'cowper', got {table['shear_method_calc']!r} in {name!r}"
         )
     material = table["material"]
-    return ShaftElement(
+    return rotors.ShaftElement(
         length=table["L"],
         outer_diameter=table["odl"],
         inner_diameter=table["idl"],
         end_outer_diameter=table["odr"],
         end_inner_diameter=table["idr"],
-        material=ElasticMaterial(
+        material=rotors.ElasticMaterial(
             young_modulus=material["E"], shear_modulus=material["G_s"], density=material["rho"]
         ),
         shear_coefficient=None if shears else math.inf,
@@ -212,30 +201,30 @@ def _element(name: str, table: RossTable, beta: float, *, own: bool) -> ShaftEle
 
 
 def _chain(
-    file: Path, pieces: list[tuple[int, ShaftElement | Coupling]]
-) -> tuple[ShaftElement | LayeredElement | Coupling, ...]:
+    file: Path, pieces: list[tuple[int, rotors.ShaftElement | rotors.Coupling]]
+) -> tuple[rotors.ShaftElement | rotors.LayeredElement | rotors.Coupling, ...]:
     """Return the elements from node to node; those between the same two nodes are layers of one."""
     ordered = sorted(pieces, key=lambda item: item[0])
-    chain: list[ShaftElement | LayeredElement | Coupling] = []
+    chain: list[rotors.ShaftElement | rotors.LayeredElement | rotors.Coupling] = []
     for node, group in groupby(ordered, key=lambda item: item[0]):
         between = [piece for _, piece in group]
-        layers = tuple(piece for piece in between if isinstance(piece, ShaftElement))
+        layers = tuple(piece for piece in between if isinstance(piece, rotors.ShaftElement))
         if node != len(chain):
             raise InputError(f"{file} must have a ShaftElement at every node, got none at node {len(chain)}")
         if len(between) > 1 and len(layers) < len(between):
             raise InputError(f"{file} must have a coupling alone between its nodes, got more at node {node}")
-        chain.append(LayeredElement(layers=layers) if len(layers) > 1 else between[0])
+        chain.append(rotors.LayeredElement(layers=layers) if len(layers) > 1 else between[0])
     if not chain:
         raise InputError(f"{file} must have a ShaftElement, got none")
     return tuple(chain)
 
 
 def _supports(
-    chain: tuple[ShaftElement | LayeredElement | Coupling, ...],
+    chain: tuple[rotors.ShaftElement | rotors.LayeredElement | rotors.Coupling, ...],
     masses: Mapping[str, RossTable],
     bearings: Mapping[str, RossTable],
     alpha: float,
-) -> dict[int, Support]:
+) -> dict[int, rotors.Support]:
     """Return the housings that carry bearings, by the node that ROSS gives them beyond the shaft's.
 
     Their masses have the proportional damping alpha [1/s] of the whole rotor.
@@ -258,13 +247,13 @@ def _supports(
         if not isinstance(spring, LinearBearing):
             raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
         damping = np.asarray(spring.damping) + alpha * mass["mx"] * np.eye(2)
-        found[node] = Support(
+        found[node] = rotors.Support(
             mass=mass["mx"], stiffness=np.asarray(spring.stiffness).tolist(), damping=damping.tolist()
         )
     return found
 
 
-def _support_of(name: str, table: RossTable, supports: Mapping[int, Support]) -> Support | None:
+def _support_of(name: str, table: RossTable, supports: Mapping[int, rotors.Support]) -> rotors.Support | None:
     link = table.get("n_link")
     if link is None:
         return None

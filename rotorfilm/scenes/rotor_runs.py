@@ -10,30 +10,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..analysis import equilibrium, rotor_equilibrium, simulate, simulate_rotor
+from .. import rotors
+from ..analysis import simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
 from ..core.model import Array
-from ..core.port import Reaction, from_rest
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from ..rotors import (
-    BaseExcitedRotor,
-    MotorDrivenRotor,
-    RigidRotor,
-    ShaftRotor,
-    mount,
-)
-from .excitation_table import (
-    BladeLossTable,
-    GroundTable,
-    MotorTable,
-    RunUpTable,
-    UnbalanceTable,
-    require_kind,
-)
-from .export_scene import from_shaft_rest
+from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
+from .shared_tables import BladeLossTable, GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -87,7 +74,7 @@ class RotorRun(Readable):
 class _Parts(NamedTuple):
     """A rotor at rest in its bearings, by station, and how long it runs [s]."""
 
-    rotor: RigidRotor | ShaftRotor
+    rotor: rotors.RigidRotor | rotors.ShaftRotor
     bearings: dict[str, Reaction]
     duration: float
     fastest: float
@@ -214,15 +201,13 @@ def _parts(scene: Scene) -> _Parts:
     return _Parts(rotor, bearings, duration, fastest)
 
 
-def _on_shaft(scene: Scene) -> tuple[ShaftRotor, dict[str, Reaction]]:
+def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
-    assert scene.shaft is not None
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
     rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
-    at = rotor_equilibrium(rotor, bearings, scene.speed)
-    still = at.displacement
-    return replace(rotor, initial=(*still, *0.0 * still)), from_shaft_rest(bearings, at)
+    resting, at = at_rest(rotor, bearings, scene.speed)
+    return resting, from_shaft_rest(bearings, at)
 
 
 def _massless(name: str, bearing: Reaction) -> Reaction:
@@ -233,29 +218,15 @@ def _massless(name: str, bearing: Reaction) -> Reaction:
     return replace(bearing, added_mass=False)
 
 
-def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
-    """Return the rigid rotor of a scene, and its bearing."""
-    rotor, bearing = _rigid_parts(scene)
-    if isinstance(scene.excitation, UnbalanceTable):
-        if rotor.unbalance:
-            raise InputError(
-                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
-                f"got {rotor.unbalance:g} beside {scene.excitation.unbalance:g} kg m"
-            )
-        one = scene.excitation
-        rotor = replace(rotor, unbalance=one.unbalance, unbalance_angle=one.unbalance_angle)
-    return rotor, {"": bearing}
-
-
-def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
-    """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
+def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
+    """Return the rigid rotor of a scene at rest on its film or in its damper, and its bearing."""
     if scene.damper is not None and scene.rigid_rotor is not None:
-        return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
-    rotor, bearing = scene.rotor, scene.bearing
-    at = equilibrium(bearing, scene.static_load, scene.speed)
-    return replace(rotor, position=tuple(at.position.tolist())), from_rest(
-        bearing, at.position, scene.speed, at.temperature
-    )
+        rotor, bearing = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
+    else:
+        rotor, bearing = at_rest_on_film(scene)
+    if isinstance(scene.excitation, UnbalanceTable):
+        rotor = scene.excitation.given_to(rotor)
+    return rotor, {"": bearing}
 
 
 def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
@@ -264,23 +235,25 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
     if isinstance(scene.excitation, MotorTable):
         return _on_motor(scene.excitation, parts, times)
     if isinstance(scene.excitation, GroundTable):
-        rotor = BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
-    if isinstance(parts.rotor, RigidRotor):
+        rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
+    if isinstance(parts.rotor, rotors.RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
     if any(getattr(bearing, "states", ()) for bearing in parts.bearings.values()):
         return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
-    return simulate_rotor(mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL)
+    return simulate_rotor(
+        rotors.mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL
+    )
 
 
 def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
     """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
     rotor, last = parts.rotor, next(reversed(parts.bearings))
-    if isinstance(rotor, ShaftRotor):
+    if isinstance(rotor, rotors.ShaftRotor):
         own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
         rotor = replace(rotor, stations=own)
-    driven = MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
+    driven = rotors.MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
     others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
-    mounted: Any = mount(driven, others) if others else driven
+    mounted: Any = rotors.mount(driven, others) if others else driven
     found = simulate(mounted, parts.bearings[last], duration=parts.duration, times=times, rtol=RTOL)
     plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if last else set()
     return replace(

@@ -24,19 +24,22 @@ from ..core.progress import Report, silent
 from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
-from .excitation_table import (
+from .families import FAMILIES, brought, table_of
+from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
+from .shared_tables import (
     EXCITATIONS,
+    SCHEMA,
+    CosimulationTable,
     ExcitationTable,
     FilmTable,
+    LubricantTable,
+    OperationTable,
+    RigidRotorTable,
     UnbalanceTable,
     film_table,
     film_tables,
     oil_remarks,
 )
-from .families import FAMILIES, brought, table_of
-from .lubricant_table import LubricantTable
-from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
-from .schema import SCHEMA, CosimulationTable, OperationTable, RigidRotorTable
 
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing
@@ -45,36 +48,10 @@ if TYPE_CHECKING:
 # `[question]`: the quantity that is asked for, and how accurate it must be.
 
 
-QUANTITIES = {
-    "eccentricity_ratio": "static eccentricity / clearance",
-    "minimum_film": "smallest film thickness at rest, or in a contact [m]",
-    "attitude_angle": "from the load line to the journal [rad]",
-    "stiffness": "K of a film or of balls at its equilibrium [N/m]",
-    "damping": "C of a film at its equilibrium [N s/m]",
-    "axial_stiffness": "of a ball bearing along the shaft [N/m]",
-    "contact_load": "largest of a ball on a race [N]",
-    "contact_angle": "of the most loaded ball on the inner race [rad]",
-    "film_parameter": "lambda of a ball bearing: smallest film / roughness",
-    "power_loss": "heat made in a film at its equilibrium [W]",
-    "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
-    "maximum_pressure": "largest in a film at its equilibrium [Pa]",
-    "temperature": "of the oil that leaves a film of an oil at its equilibrium, in the mean [K]",
-    "maximum_temperature": "highest in a film of an oil at its equilibrium [K]",
-    "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
-    "critical_speed": "first critical speed of a rotor, or speed at which a bush melts [rad/s]",
-    "unbalance_amplitude": "largest semi-axis of the synchronous orbit [m]",
-    "unbalance_phase": "of the synchronous orbit after the unbalance [rad]",
-    "unbalance_force": "largest force on the bearing in the synchronous orbit [N]",
-    "peak_displacement": "largest displacement in a run-up, after a lost blade, in an earthquake [m]",
-    "jump_up": "unbalance at which the orbit in a damper jumps to the larger one [kg m]",
-    "jump_down": "unbalance at which the orbit in a damper falls to the smaller one [kg m]",
-    "transmissibility": "force on the housing / centrifugal force of the unbalance",
-    "central_film": "film thickness in the middle of a contact, the smallest over time [m]",
-    "approach": "of a ball towards its plane, the largest over time [m]",
-    "wear": "how much farther a bush settles because it melts, at the end of its run [m]",
-    "cosimulation_error": "largest distance of coupled and monolithic orbit / clearance",
-}
-"""What a scene may ask for; the families that answer are listed in docs/questions.md."""
+QUANTITIES: dict[str, str] = tomllib.loads(
+    resources.files(__package__).joinpath("quantities.toml").read_text("utf-8")
+)
+"""What a scene may ask for, by the name in `question.quantity`."""
 
 
 @takes(Quantity("1"))
@@ -303,6 +280,21 @@ class Scene:
         """Return the table of a family by its name in the file; None if the scene has none."""
         return self.tables.get(name)
 
+    def required(self, name: str, what: str) -> Any:
+        """Return a table by its name; raise InputError, naming what it is for, if there is none."""
+        found = getattr(self, name)
+        if found is None:
+            raise InputError(f"{name} is required for {what}, got no such table")
+        return found
+
+    def excited_by(self, what: str, *kinds: type) -> Any:
+        """Return the excitation; raise InputError, naming what it is for, unless it is of these kinds."""
+        if not isinstance(self.excitation, kinds):
+            named = " or ".join(f'"{name}"' for name, table in EXCITATIONS.items() if table in kinds)
+            got = "none" if self.excitation is None else repr(self.excitation)
+            raise InputError(f"excitation of kind {named} is required for {what}, got {got}")
+        return self.excitation
+
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the bearing's film leaves out and should not, one line each."""
@@ -349,16 +341,14 @@ class Scene:
     @property
     def journal_bearing(self) -> JournalBearing:
         """The bearing of `[journal]`; raises InputError if the scene has none."""
-        if self.journal is None:
-            raise InputError("journal is required, got no such table")
-        return self.journal.bearing()
+        found: JournalBearing = self.required("journal", "a journal bearing").bearing()
+        return found
 
     @property
     def rotor(self) -> RigidRotor:
         """The rotor under the static load; raises InputError if the scene has none."""
-        if self.rigid_rotor is None:
-            raise InputError("rigid_rotor is required for a transient and for a rotor FMU, got no such table")
-        return self.rigid_rotor.build(self.speed, self.static_load)
+        table: RigidRotorTable = self.required("rigid_rotor", "a transient and for a rotor FMU")
+        return table.build(self.speed, self.static_load)
 
     @property
     def macro_step(self) -> float:
@@ -380,9 +370,8 @@ class Scene:
 
     @property
     def _operation(self) -> OperationTable:
-        if self.operation is None:
-            raise InputError("operation is required for a speed and a load, got no such table")
-        return self.operation
+        found: OperationTable = self.required("operation", "a speed and a load")
+        return found
 
 
 def parse_scene(document: str, source: str) -> Scene:

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
@@ -18,37 +19,9 @@ from ..core.inputs import nearest
 from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..core.model import Array
 from ..core.port import Reaction
-from ..rotors import (
-    Beam,
-    ClassicalBeam,
-    Coupling,
-    Disk,
-    ElasticMaterial,
-    FourthOrderBeam,
-    ShaftElement,
-    ShaftRotor,
-    Station,
-    Support,
-    Unbalance,
-)
-from .excitation_table import UnbalanceTable
+from . import reading
 from .journal_tables import JournalTable
-from .lubricant_table import LubricantTable
-from .reading import (
-    Count,
-    Several,
-    Table,
-    TableList,
-    Taking,
-    fields_of,
-    keys_of,
-    made_from,
-    named,
-    read_table,
-    require_table,
-    takes,
-    text,
-)
+from .shared_tables import LubricantTable, UnbalanceTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
 
@@ -56,7 +29,7 @@ from .reading import (
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
 
-COUPLING = keys_of(Coupling, "stiffness", "tilt_stiffness")
+COUPLING = reading.keys_of(rotors.Coupling, "stiffness", "tilt_stiffness")
 """An entry of `shaft.elements` with a stiffness: a coupling between two nodes."""
 
 SEAL_KEYS = (
@@ -69,19 +42,19 @@ SEAL_KEYS = (
     "inlet_loss",
     "inlet_swirl",
 )
-SEAL = keys_of(AnnularSeal, *SEAL_KEYS)
+SEAL = reading.keys_of(AnnularSeal, *SEAL_KEYS)
 """`seal` of a bearing: an annular seal, with its added mass."""
 
 NAMES = 1_000_000
 """Most names of a list."""
 
-ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
+ANY_MATERIAL = rotors.ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
 """With it the parts of a shaft check their own keys, before the shaft has its material."""
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(ShaftElement, without=("shear_coefficient", "mass_damping", "stiffness_damping"))
-class PieceTable(Taking):
+@reading.fields_of(rotors.ShaftElement, without=("shear_coefficient", "mass_damping", "stiffness_damping"))
+class PieceTable(reading.Taking):
     """An entry of `shaft.elements`: a piece of shaft, in so many equally long elements.
 
     Parameters
@@ -94,35 +67,35 @@ class PieceTable(Taking):
         Another one than that of the shaft.
     """
 
-    pieces: Annotated[int, Count(SHAFT_ELEMENTS)] = 1
-    material: ElasticMaterial | None = None
+    pieces: Annotated[int, reading.Count(SHAFT_ELEMENTS)] = 1
+    material: rotors.ElasticMaterial | None = None
 
     def __post_init__(self) -> None:
         self.build(ANY_MATERIAL)
 
-    def build(self, material: ElasticMaterial) -> tuple[ShaftElement, ...]:
+    def build(self, material: rotors.ElasticMaterial) -> tuple[rotors.ShaftElement, ...]:
         """Return the elements."""
-        whole = made_from(ShaftElement, self, material=self.material or material)
+        whole = reading.made_from(rotors.ShaftElement, self, material=self.material or material)
         return whole.split(self.pieces)
 
 
-@takes([(Table(COUPLING), Table(PieceTable)), ...])
-def read_pieces(where: str, value: Any) -> tuple[PieceTable | Coupling, ...]:
+@reading.takes([(reading.Table(COUPLING), reading.Table(PieceTable)), ...])
+def read_pieces(where: str, value: Any) -> tuple[PieceTable | rotors.Coupling, ...]:
     """Read the elements of a shaft: an entry with a stiffness is a coupling."""
     if not isinstance(value, list) or not value:
         raise SceneError(f"{where} must be a list of tables, got {brief(value)}")
-    pieces: list[PieceTable | Coupling] = []
+    pieces: list[PieceTable | rotors.Coupling] = []
     for k, entry in enumerate(value):
-        if "stiffness" in require_table(f"{where}[{k}]", entry):
-            pieces.append(read_table(COUPLING, f"{where}[{k}].", entry))
+        if "stiffness" in reading.require_table(f"{where}[{k}]", entry):
+            pieces.append(reading.read_table(COUPLING, f"{where}[{k}].", entry))
         else:
-            pieces.append(read_table(PieceTable, f"{where}[{k}].", entry))
+            pieces.append(reading.read_table(PieceTable, f"{where}[{k}].", entry))
     return tuple(pieces)
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(Disk)
-class DiskTable(Taking):
+@reading.fields_of(rotors.Disk)
+class DiskTable(reading.Taking):
     """An entry of `shaft.disks`: a disk of given size, or of given mass and inertia.
 
     Parameters
@@ -147,13 +120,13 @@ class DiskTable(Taking):
             raise InputError("mass, or else width and outer_diameter, is required, got both or neither")
         self.build(ANY_MATERIAL)
 
-    def build(self, material: ElasticMaterial) -> Disk:
+    def build(self, material: rotors.ElasticMaterial) -> rotors.Disk:
         """Return the disk, of this material unless it has a density."""
         if self.mass is not None:
-            return made_from(Disk, self)
+            return reading.made_from(rotors.Disk, self)
         assert self.width is not None  # checked in __post_init__, as the next
         assert self.outer_diameter is not None
-        solid = Disk.solid(
+        solid = rotors.Disk.solid(
             self.node,
             density=material.density if self.density is None else self.density,
             width=self.width,
@@ -190,8 +163,8 @@ class BearingTable:
     journal: JournalTable | None = None
     stiffness: float | Pair | None = None
     damping: float | Pair = 0.0
-    seal: Annotated[AnnularSeal | None, Table(SEAL)] = None
-    support: Support | None = None
+    seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
+    support: rotors.Support | None = None
 
     def __post_init__(self) -> None:
         if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
@@ -218,12 +191,12 @@ class BearingTable:
         assert self.stiffness is not None  # checked in __post_init__
         return LinearBearing(stiffness=self.stiffness, damping=self.damping)
 
-    def station(self) -> Station:
+    def station(self) -> rotors.Station:
         """Return where it is."""
-        return made_from(Station, self)
+        return reading.made_from(rotors.Station, self)
 
 
-class BearingList(TableList):
+class BearingList(reading.TableList):
     """Reader of `shaft.bearings`."""
 
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
@@ -290,7 +263,7 @@ class CompressorTable:
     stage_speed: float | None = None
     average_density: float | None = None
     nodes: tuple[CouplingShare, ...] = ()
-    supports: Annotated[tuple[str, ...], Several(text, 1, NAMES, "a list of names")] = ()
+    supports: Annotated[tuple[str, ...], reading.Several(reading.text, 1, NAMES, "a list of names")] = ()
     smallest_clearance: float | None = None
     largest_clearance: float | None = None
 
@@ -337,7 +310,10 @@ def _with_clearance(bearing: BearingTable, clearance: float) -> BearingTable:
 # `[shaft]`: a flexible rotor, its disks and its bearings.
 
 
-BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
+BEAMS: dict[str, type[rotors.Beam]] = {
+    "fourth_order": rotors.FourthOrderBeam,
+    "classical": rotors.ClassicalBeam,
+}
 """Beam elements by their names in scene files."""
 
 
@@ -355,7 +331,7 @@ class SpeedRangeTable:
 
     first: float
     last: float
-    count: Annotated[int, Count(SPEEDS, 2)] = 60
+    count: Annotated[int, reading.Count(SPEEDS, 2)] = 60
 
     def __post_init__(self) -> None:
         require_positive("first", self.first)
@@ -368,8 +344,10 @@ class SpeedRangeTable:
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(ShaftRotor, without=("speed", "stations", "gravity", "initial", "axial", "torsional"))
-class ShaftTable(Taking):
+@reading.fields_of(
+    rotors.ShaftRotor, without=("speed", "stations", "gravity", "initial", "axial", "torsional")
+)
+class ShaftTable(reading.Taking):
     """`[shaft]`: a flexible rotor in its bearings.
 
     Parameters
@@ -394,13 +372,13 @@ class ShaftTable(Taking):
         What API 617 asks.
     """
 
-    material: ElasticMaterial
-    elements: Annotated[tuple[PieceTable | Coupling, ...], read_pieces]
+    material: rotors.ElasticMaterial
+    elements: Annotated[tuple[PieceTable | rotors.Coupling, ...], read_pieces]
     bearings: Annotated[tuple[BearingTable, ...], BearingList(BearingTable)]
     speeds: SpeedRangeTable
     disks: tuple[DiskTable, ...]
     unbalances: tuple[UnbalanceTable, ...]
-    beam: Annotated[Beam, named(BEAMS)]
+    beam: Annotated[rotors.Beam, reading.named(BEAMS)]
     highest_frequency: float | None = None
     compressor: CompressorTable | None = None
 
@@ -438,18 +416,19 @@ class ShaftTable(Taking):
         """Number of nodes, at the ends of the elements."""
         return 1 + sum(one.pieces if isinstance(one, PieceTable) else 1 for one in self.elements)
 
-    def build(self, speed: float = 0.0, extra: tuple[UnbalanceTable, ...] = ()) -> ShaftRotor:
+    def build(self, speed: float = 0.0, extra: tuple[UnbalanceTable, ...] = ()) -> rotors.ShaftRotor:
         """Return the rotor at a speed [rad/s], with further unbalances."""
         elements = (
-            (piece,) if isinstance(piece, Coupling) else piece.build(self.material) for piece in self.elements
+            (piece,) if isinstance(piece, rotors.Coupling) else piece.build(self.material)
+            for piece in self.elements
         )
-        return made_from(
-            ShaftRotor,
+        return reading.made_from(
+            rotors.ShaftRotor,
             self,
             elements=tuple(chain.from_iterable(elements)),
             disks=tuple(disk.build(self.material) for disk in self.disks),
             stations=tuple(bearing.station() for bearing in self.bearings),
-            unbalances=tuple(made_from(Unbalance, one) for one in (*self.unbalances, *extra)),
+            unbalances=tuple(reading.made_from(rotors.Unbalance, one) for one in (*self.unbalances, *extra)),
             speed=speed,
         )
 

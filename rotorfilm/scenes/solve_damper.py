@@ -9,14 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..analysis import (
-    Fold,
-    OrbitCoefficients,
-    SynchronousOrbits,
-    orbit_coefficients,
-    simulate,
-    synchronous_orbits,
-)
+from .. import analysis
 from ..bearings.assemblies import with_springs
 from ..bearings.damper import DamperGroups, JFODamper, damper_groups
 from ..core.errors import ContactError, InputError
@@ -28,8 +21,8 @@ from ..core.results import CircularOrbit, Trajectory
 from ..cosim import CoSimulation, cosimulate
 from ..rotors import RigidRotor
 from .damper_films import DamperScene, damper_models
-from .excitation_table import UnbalanceTable
 from .export_scene import export_scene
+from .shared_tables import UnbalanceTable
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -57,10 +50,10 @@ class DamperAnswer(Readable):
 
     groups: DamperGroups
     orbits: tuple[CircularOrbit, ...]
-    folds: tuple[Fold, ...]
+    folds: tuple[analysis.Fold, ...]
     contact_unbalance: float | None
-    small_motion: OrbitCoefficients
-    response: SynchronousOrbits
+    small_motion: analysis.OrbitCoefficients
+    response: analysis.SynchronousOrbits
     unbalance_scale: float
 
 
@@ -88,13 +81,13 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
     unbalance = rotor.unbalance or added
     support: Reaction = with_springs(damper, stiffness) if stiffness else damper
     alone = RigidRotor(mass=rotor.mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
-    response = synchronous_orbits(alone, support, unbalance * np.linspace(0.005, 2.0, 400))
+    response = analysis.synchronous_orbits(alone, support, unbalance * np.linspace(0.005, 2.0, 400))
     return DamperAnswer(
         groups=damper_groups(damper, mass=rotor.mass, speed=speed, stiffness=stiffness, unbalance=unbalance),
         orbits=response.at(unbalance),
         folds=response.folds,
         contact_unbalance=response.contact_unbalance,
-        small_motion=orbit_coefficients(support, 0.01, speed),
+        small_motion=analysis.orbit_coefficients(support, 0.01, speed),
         response=response,
         unbalance_scale=rotor.mass * damper.clearance,
     )
@@ -148,7 +141,9 @@ def run_damper(scene: Scene) -> DamperRun:
     steps = 2.0 * np.pi / fastest / STEPS_A_TURN if isinstance(models.support, JFODamper) else np.inf
 
     def run() -> Trajectory:
-        return simulate(models.rotor, models.support, duration=end, times=times, rtol=RTOL, max_step=steps)
+        return analysis.simulate(
+            models.rotor, models.support, duration=end, times=times, rtol=RTOL, max_step=steps
+        )
 
     return _followed(models, run)
 

@@ -10,19 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..analysis import (
-    Campbell,
-    CriticalSpeed,
-    RotorThreshold,
-    StabilityLevelOne,
-    campbell,
-    critical_speeds,
-    resonant_speeds,
-    rotor_equilibrium,
-    rotor_modes,
-    rotor_threshold,
-    stability_level_one,
-)
+from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
@@ -34,10 +22,9 @@ from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
-from .excitation_table import GroundTable, UnbalanceTable, oil_remarks, require_kind
-from .families import Remark, messages, prefixed
+from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
-from .lubricant_table import Lubricant
+from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
 
 if TYPE_CHECKING:
     import control
@@ -83,13 +70,13 @@ class RotorAnswer(Drawable):
     states: int
     loads: Mapping[str, Array]
     residual: float
-    critical_speeds: tuple[CriticalSpeed, ...]
-    threshold: RotorThreshold
-    campbell: Campbell
+    critical_speeds: tuple[analysis.CriticalSpeed, ...]
+    threshold: analysis.RotorThreshold
+    campbell: analysis.Campbell
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
     remarks: tuple[str, ...] = ()
-    level_one: StabilityLevelOne | None = None
+    level_one: analysis.StabilityLevelOne | None = None
 
     def _own_units(self) -> dict[str, str]:
         return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
@@ -112,24 +99,26 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    if scene.shaft is None:
-        raise InputError("shaft is required for the analyses of a flexible rotor, got no such table")
-    rotor, bearings = scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
-    speeds = scene.shaft.speeds.build()
-    highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
+    shaft: ShaftTable = scene.required("shaft", "the analyses of a flexible rotor")
+    rotor, bearings, speeds = (
+        shaft.build(extra=added_unbalance(scene)),
+        shaft.build_bearings(),
+        shaft.speeds.build(),
+    )
+    highest = shaft.highest_frequency or 2.0 * float(speeds[-1])
     report(0.0, "equilibrium")
-    at = rotor_equilibrium(rotor, bearings, float(speeds[0]))
+    at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[0]))
     report(0.05, "modes over speed")
-    chart = campbell(rotor, bearings, speeds, highest)
+    chart = analysis.campbell(rotor, bearings, speeds, highest)
     report(0.35, "critical speeds")
-    critical = critical_speeds(rotor, bearings, speeds)
+    critical = analysis.critical_speeds(rotor, bearings, speeds)
     report(0.65, "threshold of stability")
-    threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
+    threshold = analysis.rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
     report(0.85, "unbalance response")
-    turned = resonant_speeds(speeds, critical)
+    turned = analysis.resonant_speeds(speeds, critical)
     response = driven_by_unbalance(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
-    found, remarks = None, level_one_remarks(scene) if scene.shaft.compressor is not None else ()
-    if scene.shaft.compressor is not None:
+    found, remarks = None, level_one_remarks(scene) if shaft.compressor is not None else ()
+    if shaft.compressor is not None:
         report(0.95, "stability by API 617")
         found = solve_level_one(scene)
     own = (
@@ -208,7 +197,7 @@ def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
 # What a scene with a compressor is asked: stability by API 617.
 
 
-def solve_level_one(scene: Scene) -> StabilityLevelOne:
+def solve_level_one(scene: Scene) -> analysis.StabilityLevelOne:
     """Return the stability analysis of level I of the compressor of a scene.
 
     Parameters
@@ -226,7 +215,7 @@ def solve_level_one(scene: Scene) -> StabilityLevelOne:
         If it has no forward whirl with a resonance.
     """
     shaft, table = _compressor(scene)
-    return stability_level_one(
+    return analysis.stability_level_one(
         shaft.build(),
         table.cases(shaft.bearings),
         table.speed,
@@ -279,38 +268,6 @@ def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
 STIFF = 1e10
 """Stiffness of bearings [N/m] by which the weight is shared out."""
 
-SLENDER = 4.0
-"""Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
-
-GROWTH = 1e-6
-"""Growth rate / frequency from which a whirl counts as unstable."""
-
-STEPPED = 2.0
-"""Ratio of neighboring diameters from which the material in the corner of a step does not carry."""
-
-
-BEAM = (
-    Remark(
-        "slenderness",
-        SLENDER,
-        "beam theory: {slenderness:.2g} diameters long, cross sections may not stay plane",
-        below=True,
-    ),
-    Remark(
-        "step",
-        STEPPED,
-        "beam theory: diameters change by {step:.2g} in a step, whose corner does not carry",
-    ),
-)
-"""Where a shaft is no beam."""
-
-UNSTABLE = Remark(
-    "growth",
-    GROWTH,
-    "stability: the rotor whirls by itself at {whirl:.2f} of the speed; orbits that repeat with each turn do "
-    "not last",
-)
-
 
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
@@ -318,7 +275,7 @@ def shaft_remarks(
     """Return the neglected effects that matter, one line each, of a shaft in its bearings at a speed."""
     seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
     stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
-    loads = rotor_equilibrium(rotor, stiff, speed).loads
+    loads = analysis.rotor_equilibrium(rotor, stiff, speed).loads
     lines = list(beam_remarks(rotor))
     for name, bearing in bearings.items():
         if isinstance(bearing, JournalBearing):
@@ -340,17 +297,17 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         return ()
     length, diameters = sum(piece.length for piece in pieces), [piece.outer_diameter for piece in pieces]
     largest = max((max(a, b) / min(a, b) for a, b in pairwise(diameters)), default=1.0)
-    return messages(BEAM, {"slenderness": length / max(diameters), "step": largest})
+    return messages(remarks_of("beam"), {"slenderness": length / max(diameters), "step": largest})
 
 
 def stability_remark(rotor: ShaftRotor, bearings: Mapping[str, Reaction], speed: float) -> tuple[str, ...]:
     """Return that a rotor whirls by itself, if the model of the file does: no orbit is steady then."""
     try:
-        modes = rotor_modes(rotor, bearings, speed)
+        modes = analysis.rotor_modes(rotor, bearings, speed)
     except RotorfilmError:
         return ()  # the rungs say what is wrong
     growth = modes.eigenvalues.real / np.abs(modes.eigenvalues)
     if not growth.size:
         return ()
     k = int(np.argmax(growth))
-    return messages([UNSTABLE], {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})
+    return messages(remarks_of("whirl"), {"growth": growth[k], "whirl": modes.frequency[k] / abs(speed)})

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         bearing_thresholds as bearing_thresholds,
         bearing_types as bearing_types,
     )
-    from .bush_tiers import bush_tiers as bush_tiers
+    from .bush_accuracy import bush_tiers as bush_tiers
     from .contact_precision import contact_precision as contact_precision, decay_time as decay_time
     from .coupling_cost import coupling_cost as coupling_cost, coupling_limits as coupling_limits
     from .damper_accuracy import damper_accuracy as damper_accuracy

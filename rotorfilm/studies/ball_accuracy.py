@@ -10,15 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..analysis import VariableCompliance, coefficients, equilibrium, variable_compliance
-from ..bearings.rolling import (
-    BallBearing,
-    BallLoads,
-    PalmgrenBalls,
-    RollingMaterial,
-    StaticBalls,
-    back_to_back,
-    ball_films,
-)
+from ..bearings import rolling
 from ..core.errors import InputError, RotorfilmError, require_count, require_finite, require_kind
 from ..core.inputs import arguments
 from ..core.model import Array
@@ -87,8 +79,8 @@ def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent
 
 
 def _drawn(
-    bearing: BallBearing, random: np.random.Generator
-) -> tuple[BallBearing, tuple[float, float], float]:
+    bearing: rolling.BallBearing, random: np.random.Generator
+) -> tuple[rolling.BallBearing, tuple[float, float], float]:
     """Return a bearing with its thrust, a radial load [N] and a speed [rad/s]."""
     pressure, speed = (math.exp(random.uniform(*np.log(span))) for span in (PRESSURES, SPEEDS))
     reference = bearing.contacts[0].load_at(pressure) * bearing.balls
@@ -98,15 +90,15 @@ def _drawn(
     return replace(bearing, axial_load=thrust), (0.0, -0.3 * thrust), speed
 
 
-def _laws(bearing: BallBearing) -> dict[str, PlanarReaction]:
+def _laws(bearing: rolling.BallBearing) -> dict[str, PlanarReaction]:
     """Return the models of a bearing; the closed form has no contact angle."""
-    laws: dict[str, PlanarReaction] = {STATIC: replace(bearing, law=StaticBalls()), RUNNING: bearing}
+    laws: dict[str, PlanarReaction] = {STATIC: replace(bearing, law=rolling.StaticBalls()), RUNNING: bearing}
     if not bearing.separates:
-        laws[CLOSED] = PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
+        laws[CLOSED] = rolling.PalmgrenBalls(balls=bearing.balls, ball_diameter=bearing.ball_diameter)
     return laws
 
 
-def _errors(bearing: BallBearing, load: tuple[float, float], speed: float) -> dict[str, float]:
+def _errors(bearing: rolling.BallBearing, load: tuple[float, float], speed: float) -> dict[str, float]:
     """Return the errors of the models that have an answer; none where the reference has none."""
     try:
         best = _stiffness(_on_films(bearing, load, speed), load, speed)
@@ -122,10 +114,12 @@ def _errors(bearing: BallBearing, load: tuple[float, float], speed: float) -> di
     return found
 
 
-def _on_films(bearing: BallBearing, load: tuple[float, float], speed: float) -> BallBearing:
+def _on_films(bearing: rolling.BallBearing, load: tuple[float, float], speed: float) -> rolling.BallBearing:
     """Return the bearing with the films of its most loaded ball."""
     most = float(balls_under(bearing, load, speed).inner_load.max())
-    films = ball_films(bearing, load=most, speed=speed, viscosity=VISCOSITY, pressure_coefficient=COEFFICIENT)
+    films = rolling.ball_films(
+        bearing, load=most, speed=speed, viscosity=VISCOSITY, pressure_coefficient=COEFFICIENT
+    )
     return replace(bearing, films=films)
 
 
@@ -209,19 +203,19 @@ class BallCurves(Readable):
         return table(rows)
 
 
-def usual_bearing() -> BallBearing:
+def usual_bearing() -> rolling.BallBearing:
     """Return a hybrid bearing of a spindle: 16 balls of 7.938 mm, 25 deg."""
-    return BallBearing(
+    return rolling.BallBearing(
         balls=16,
         ball_diameter=7.938e-3,
         pitch_diameter=46.5e-3,
         contact_angle=math.radians(25.0),
-        ball_material=RollingMaterial.silicon_nitride(),
+        ball_material=rolling.RollingMaterial.silicon_nitride(),
     )
 
 
 def ball_curves(
-    bearing: BallBearing,
+    bearing: rolling.BallBearing,
     speeds: ArrayLike,
     *,
     thrust: float = 500.0,
@@ -248,7 +242,7 @@ def ball_curves(
     EquilibriumError
         If there is no rest at one of the speeds.
     """
-    require_kind("bearing", bearing, BallBearing, "a BallBearing")
+    require_kind("bearing", bearing, rolling.BallBearing, "a BallBearing")
     if not bearing.separates:
         raise InputError(f"bearing must have a contact angle, got {bearing.contact_angle!r}")
     grid = np.atleast_1d(require_finite("speeds", speeds))
@@ -257,7 +251,8 @@ def ball_curves(
     alone = [bearing.rest((0.0, 0.0, thrust, 0.0, 0.0), speed).balls for speed in grid.tolist()]
     report(0.3, "bearing")
     pairs = [
-        back_to_back(bearing, distance=DISTANCE * bearing.ball_diameter, preload=one) for one in preloads
+        rolling.back_to_back(bearing, distance=DISTANCE * bearing.ball_diameter, preload=one)
+        for one in preloads
     ]
     still = np.zeros(5)
     stiffness = np.array([[pair.stiffness(still, speed) for speed in grid.tolist()] for pair in pairs])
@@ -279,13 +274,13 @@ def ball_curves(
     )
 
 
-def balls_under(bearing: BallBearing, load: tuple[float, float], speed: float) -> BallLoads:
+def balls_under(bearing: rolling.BallBearing, load: tuple[float, float], speed: float) -> rolling.BallLoads:
     """Return the balls of a bearing under a radial load [N], with tilts held, and z as the bearing says."""
     place = equilibrium(bearing, load, speed).position
     return bearing.loads((*place, bearing.axial_place(place, speed), *bearing.tilt), speed)
 
 
-def grooved(bearing: BallBearing) -> BallBearing:
+def grooved(bearing: rolling.BallBearing) -> rolling.BallBearing:
     """Return a deep groove bearing with the same balls and races."""
     clearance = GROOVE_SHARE * bearing.ball_diameter
     return replace(bearing, contact_angle=None, internal_clearance=clearance, axial_load=None)

@@ -13,14 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..analysis import coefficients, equilibrium, whirl_threshold
 from ..analysis.whirl import is_stable
-from ..bearings.pads import (
-    LobedBearing,
-    PressureDamBearing,
-    TiltingPadBearing,
-    even_pivots,
-    lobe_set,
-    pressure_dam_pads,
-)
+from ..bearings import pads
 from ..core.errors import EquilibriumError, InputError, require_finite, require_positive
 from ..core.port import Reaction, rigid_exponents, states_rest
 from ..core.progress import Report, silent
@@ -59,16 +52,16 @@ def bearing_types(slenderness: float) -> dict[str, Reaction]:
         "viscosity": VISCOSITY,
         "assembled_clearance": CLEARANCE,
     }
-    tilting = partial(TiltingPadBearing, **made, preload=TILTING_PRELOAD, extent=math.radians(60.0))
+    tilting = partial(pads.TiltingPadBearing, **made, preload=TILTING_PRELOAD, extent=math.radians(60.0))
     return {
-        "two grooves": LobedBearing(**made, lobes=lobe_set("elliptical", preload=0.0)),
-        "pressure dam": PressureDamBearing(**made, pads=pressure_dam_pads(**DAM)),
+        "two grooves": pads.LobedBearing(**made, lobes=pads.lobe_set("elliptical", preload=0.0)),
+        "pressure dam": pads.PressureDamBearing(**made, pads=pads.pressure_dam_pads(**DAM)),
         **{
-            name.replace("_", " "): LobedBearing(**made, lobes=lobe_set(name, preload=PRELOAD))
+            name.replace("_", " "): pads.LobedBearing(**made, lobes=pads.lobe_set(name, preload=PRELOAD))
             for name in ("elliptical", "offset_halves", "three_lobe", "four_lobe")
         },
-        "tilting pads, load on a pad": tilting(pivots=even_pivots(5, between_pads=False)),
-        "tilting pads, load between": tilting(pivots=even_pivots(5, between_pads=True)),
+        "tilting pads, load on a pad": tilting(pivots=pads.even_pivots(5, between_pads=False)),
+        "tilting pads, load between": tilting(pivots=pads.even_pivots(5, between_pads=True)),
     }
 
 

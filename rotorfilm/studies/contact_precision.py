@@ -11,23 +11,7 @@ from time import process_time
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..bearings.contact import (
-    HERTZ_LOAD,
-    AdaptiveSteps,
-    ContactGrid,
-    ContactLaw,
-    ContactRun,
-    ContactScheme,
-    ContactState,
-    FixedSteps,
-    PointContact,
-    SineLoad,
-    SmallMotion,
-    StaggeredScheme,
-    UpwindScheme,
-    ball_transient,
-    reduce_contact,
-)
+from ..bearings import contact as contacts
 from ..core.errors import ValidityWarning
 from ..core.model import Array
 from ..core.progress import Report, silent
@@ -37,7 +21,7 @@ SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
 PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
 """Of the cases of Panovko (2011), section 4."""
 
-LOAD = SineLoad(amplitude=0.5, frequency=2.0)
+LOAD = contacts.SineLoad(amplitude=0.5, frequency=2.0)
 INERTIA = 1.0
 RIDES = 5
 """Runs of a reduced law, the shortest of which counts."""
@@ -86,7 +70,7 @@ def contact_precision(
         Told how far the work is.
     """
     report(0.0, "reference")
-    exact = _full(cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)()
+    exact = _full(cells, contacts.UpwindScheme(), contacts.AdaptiveSteps(tolerance=tolerance), duration)()
     times = np.linspace(0.0, duration, 2001)
     models = [*_full_models(cells, duration), *_law_models(cells // 2, duration, orders)]
     return run_study(
@@ -105,38 +89,41 @@ def _model(family: str, label: str, run: Callable[[], Series], repeats: int = 1)
 def _full_models(cells: int, duration: float) -> Iterator[StudyModel]:
     coarse, middle = cells // 2, 3 * cells // 4
     middle -= middle % 2
-    published = FixedSteps(step=PUBLISHED_STEP, order=1)
-    run = _full(PUBLISHED_CELLS, StaggeredScheme(), published, duration)
+    published = contacts.FixedSteps(step=PUBLISHED_STEP, order=1)
+    run = _full(PUBLISHED_CELLS, contacts.StaggeredScheme(), published, duration)
     yield _model("published scheme", f"dt {PUBLISHED_STEP:g}", run)
     for step in (0.2, 0.1, 0.05, 0.025):
-        run = _full(middle, UpwindScheme(), FixedSteps(step=step, order=1), duration)
+        run = _full(middle, contacts.UpwindScheme(), contacts.FixedSteps(step=step, order=1), duration)
         yield _model(f"Euler, {middle} cells", f"dt {step:g}", run)
     for size in (coarse, middle):
         for step in (0.2, 0.1, 0.05):
-            run = _full(size, UpwindScheme(), FixedSteps(step=step), duration)
+            run = _full(size, contacts.UpwindScheme(), contacts.FixedSteps(step=step), duration)
             yield _model(f"BDF2, {size} cells", f"dt {step:g}", run)
         for tolerance in (1e-3, 1e-4):
-            run = _full(size, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)
+            run = _full(size, contacts.UpwindScheme(), contacts.AdaptiveSteps(tolerance=tolerance), duration)
             yield _model(f"adaptive, {size} cells", f"tol {tolerance:g}", run)
 
 
 def _law_models(cells: int, duration: float, orders: tuple[int, ...]) -> Iterator[StudyModel]:
-    contact = published_contact(cells, UpwindScheme())
+    contact = published_contact(cells, contacts.UpwindScheme())
     for order in orders:
-        run = partial(_ridden, reduce_contact(contact, order), duration)
+        run = partial(_ridden, contacts.reduce_contact(contact, order), duration)
         yield _model("reduced law", f"order {order}", run, RIDES)
 
 
-def _ridden(law: ContactLaw, duration: float) -> Series:
-    mass = INERTIA / HERTZ_LOAD
-    motion = ball_transient(
+def _ridden(law: contacts.ContactLaw, duration: float) -> Series:
+    mass = INERTIA / contacts.HERTZ_LOAD
+    motion = contacts.ball_transient(
         law, mass=mass, load=LOAD, start=law.operating, duration=duration, samples=401, rtol=1e-4
     )
     return motion.time, motion["z"]
 
 
 def _full(
-    cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps, duration: float
+    cells: int,
+    scheme: contacts.ContactScheme,
+    control: contacts.AdaptiveSteps | contacts.FixedSteps,
+    duration: float,
 ) -> Callable[[], Series]:
     contact = published_contact(cells, scheme)
     rest = contact.stationary()
@@ -149,10 +136,10 @@ def _full(
     return run
 
 
-def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
+def published_contact(cells: int, scheme: contacts.ContactScheme) -> contacts.PointContact:
     """Return the contact of the published cases on cells x cells."""
-    grid = ContactGrid(cells=(cells, cells))
-    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+    grid = contacts.ContactGrid(cells=(cells, cells))
+    return contacts.PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
 
 
 def as_published() -> AbstractContextManager[object]:
@@ -170,7 +157,7 @@ STIFFNESS = 1.57
 """Static stiffness of the contact, from which the search for its natural motion starts."""
 
 
-def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
+def decay_time(run: contacts.ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
     """Return the time in which delta's oscillation about `rest` falls by e, from its peaks; 0 if none."""
     spline = CubicSpline(run.time, run.delta - rest)
     peaks = spline.derivative().roots(extrapolate=False)
@@ -181,10 +168,13 @@ def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np
 
 
 def natural_motions(
-    contact: PointContact, rest: ContactState, inertias: Sequence[float], report: Report = silent
+    contact: contacts.PointContact,
+    rest: contacts.ContactState,
+    inertias: Sequence[float],
+    report: Report = silent,
 ) -> Array:
     """Return s of the natural motions exp(s t) about rest with some inertias, by the linearized equations."""
-    small = SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
+    small = contacts.SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
     found = []
     for number, W in enumerate(inertias):
         report(number / len(inertias), f"natural motion, W = {W:g}")

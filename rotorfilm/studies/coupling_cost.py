@@ -8,23 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from .. import cosim
 from ..analysis import simulate
 from ..bearings.journal import JournalBearing, MapFilm, ShortFilm
 from ..core.errors import PartialResultError
 from ..core.model import Array, Dynamic
 from ..core.progress import Report, silent
 from ..core.results import Trajectory, orbit_distance
-from ..cosim import (
-    GaussSeidel,
-    InProcessSlave,
-    Jacobi,
-    Newton,
-    Scheme,
-    SIExp,
-    SIExp3,
-    couple,
-    critical_macro_step,
-)
 from ..cosim.watch import quietly
 from ..rotors.rigid import JeffcottRotor, RigidRotor
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
@@ -36,15 +26,15 @@ SPEED = 157.0
 """Angular speed [rad/s]; in dimensionless form nothing depends on it."""
 
 
-EXPLICIT: tuple[Scheme, ...] = (
-    *(GaussSeidel(degree=degree) for degree in range(3)),
-    *(Jacobi(degree=degree) for degree in range(3)),
+EXPLICIT: tuple[cosim.Scheme, ...] = (
+    *(cosim.GaussSeidel(degree=degree) for degree in range(3)),
+    *(cosim.Jacobi(degree=degree) for degree in range(3)),
 )
 """Schemes with a longest stable macro step."""
 
 MODELS = tuple(
     StudyModel(name=scheme.label, family=scheme.label, law=scheme)
-    for scheme in (*EXPLICIT, SIExp(), SIExp3(), Newton())
+    for scheme in (*EXPLICIT, cosim.SIExp(), cosim.SIExp3(), cosim.Newton())
 )
 """All schemes; those that are not explicit are stable where explicit ones are not."""
 
@@ -140,7 +130,7 @@ def cost_case() -> tuple[RigidRotor, JournalBearing]:
     return rotor, bearing
 
 
-def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, object]:
+def coupled_run(scheme: cosim.Scheme, angle: float, exact: Trajectory) -> dict[str, object]:
     """Return error and work of a scheme at a macro step [rad], by the headings of their columns.
 
     The error is the largest distance from the monolithic solution / clearance, None for a refused run;
@@ -154,13 +144,13 @@ def coupled_run(scheme: Scheme, angle: float, exact: Trajectory) -> dict[str, ob
 
 
 def _coupled(
-    rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float, duration: float
+    rotor: Dynamic, bearing: JournalBearing, scheme: cosim.Scheme, step: float, duration: float
 ) -> tuple[Any, str]:
     """Return a coupled run, and why it ended early."""
-    slaves = InProcessSlave(rotor), InProcessSlave(bearing)
+    slaves = cosim.InProcessSlave(rotor), cosim.InProcessSlave(bearing)
     try:
         with quietly():
-            return couple(*slaves, macro_step=step, duration=duration, scheme=scheme), ""
+            return cosim.couple(*slaves, macro_step=step, duration=duration, scheme=scheme), ""
     except PartialResultError as failure:
         return failure.partial, str(failure)
 
@@ -229,11 +219,11 @@ def coupling_limits(
 
 
 def _limits(
-    scheme: Scheme, eccentricity: float, ratio: float, run: bool
+    scheme: cosim.Scheme, eccentricity: float, ratio: float, run: bool
 ) -> tuple[float | None, float | None]:
     """Return the limit of a scheme by theory [s] and, if asked, that from where a run of it grows."""
     rotor, bearing, state = limit_case(eccentricity, ratio)
-    theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
+    theory = cosim.critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
     return theory, None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
 
 
@@ -275,7 +265,9 @@ def limit_case(
     return light, bearing, state
 
 
-def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, theory: float) -> float | None:
+def simulated_limit(
+    rotor: Dynamic, bearing: JournalBearing, scheme: cosim.Scheme, theory: float
+) -> float | None:
     """Return the macro step from which a small disturbance of a run grows [s]; None if not near `theory`.
 
     It is searched for within 4 % of the theory, to 0.5 %.
@@ -290,7 +282,7 @@ def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, the
     return 0.5 * (low + high)
 
 
-def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> float:
+def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: cosim.Scheme, step: float) -> float:
     """Return how much a small alternation of the force grows over some steps, after others."""
     moved = nudged(rotor, DISTURBANCE * bearing.clearance)
     run = _coupled(moved, bearing, scheme, step, (SETTLED + COUNTED) * step)[0].trajectory

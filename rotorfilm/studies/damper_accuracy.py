@@ -7,18 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..bearings.damper import (
-    FiniteMapSqueeze,
-    FiniteSqueeze,
-    MapSqueeze,
-    PorousCage,
-    PorousDamper,
-    PublishedSqueeze,
-    ShortSqueeze,
-    SqueezeCase,
-    SqueezeFilm,
-    SqueezeLaw,
-)
+from ..bearings import damper
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
 from ..core.errors import ValidityWarning, require_count, require_positive
 from ..core.progress import Report, silent
@@ -59,23 +48,23 @@ class SeriesSqueeze:
 
     count: int
 
-    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+    def bind(self, case: damper.SqueezeCase) -> damper.SqueezeFilm:
         """Return the film of one damper."""
         modes, kept = case.modes, slice(0, self.count)
         weight = modes.weight[kept].copy()
         weight[-1] += modes.weight[self.count :].sum()
         fewer = modes._replace(weight=weight, leak=modes.leak[kept], passage=modes.passage[kept])
-        return ShortSqueeze().bind(case._replace(modes=fewer, feed=case.feed[kept]))
+        return damper.ShortSqueeze().bind(case._replace(modes=fewer, feed=case.feed[kept]))
 
 
 REDUCED, SERIES_FILM, MAP, PUBLISHED, FINITE = "reduced", "series", "map", "published", "finite length"
-FAMILIES: dict[type[SqueezeLaw], str] = {
-    ShortSqueeze: SERIES_FILM,
+FAMILIES: dict[type[damper.SqueezeLaw], str] = {
+    damper.ShortSqueeze: SERIES_FILM,
     SeriesSqueeze: SERIES_FILM,
-    MapSqueeze: MAP,
-    PublishedSqueeze: PUBLISHED,
-    FiniteSqueeze: FINITE,
-    FiniteMapSqueeze: FINITE,
+    damper.MapSqueeze: MAP,
+    damper.PublishedSqueeze: PUBLISHED,
+    damper.FiniteSqueeze: FINITE,
+    damper.FiniteMapSqueeze: FINITE,
 }
 """What squeeze films of the ladder have in common; those of a solid or thin cage are reduced."""
 
@@ -152,21 +141,16 @@ def damper_accuracy(
 
 def compared_damper(
     slenderness: float, permeability_number: float = 0.0, *, grading: float = 0.0
-) -> PorousDamper:
+) -> damper.PorousDamper:
     """Return a short full film with a cage of this Phi; solid at 0."""
     length = 2.0 * RADIUS * slenderness
     thickness = THICKNESS * length
     cage = None
     if permeability_number:
         permeability = permeability_number * CLEARANCE**3 / thickness
-        cage = PorousCage(thickness=thickness, permeability=permeability, grading=grading)
-    return PorousDamper(
-        radius=RADIUS,
-        length=length,
-        clearance=CLEARANCE,
-        viscosity=VISCOSITY,
-        cage=cage,
-        extent=FullFilm(),
+        cage = damper.PorousCage(thickness=thickness, permeability=permeability, grading=grading)
+    return damper.PorousDamper(
+        radius=RADIUS, length=length, clearance=CLEARANCE, viscosity=VISCOSITY, cage=cage, extent=FullFilm()
     )
 
 
@@ -182,22 +166,22 @@ def damper_models(slenderness: float, permeability_number: float, *, cavitated: 
 
 def damper_rungs(
     slenderness: float, permeability_number: float, *, cavitated: bool
-) -> dict[str, PorousDamper]:
+) -> dict[str, damper.PorousDamper]:
     """Return the dampers that are compared, by name; the last is of finite length, on a map."""
     cavitation = HalfSommerfeld() if cavitated else FullFilm()
     whole = replace(compared_damper(slenderness, permeability_number, grading=0.1), extent=cavitation)
     assert whole.cage is not None
-    full: dict[str, SqueezeLaw] = (
-        {} if cavitated else {"published": PublishedSqueeze(), "finite length": FiniteSqueeze()}
+    full: dict[str, damper.SqueezeLaw] = (
+        {} if cavitated else {"published": damper.PublishedSqueeze(), "finite length": damper.FiniteSqueeze()}
     )
     return {
         "solid cage": replace(whole, cage=None),
         "Morgan-Cameron": replace(whole, cage=replace(whole.cage, thin=True)),
         **{f"series, {n}": replace(whole, film=SeriesSqueeze(n)) for n in SERIES},
         "series, whole": whole,
-        "map": replace(whole, film=MapSqueeze()),
+        "map": replace(whole, film=damper.MapSqueeze()),
         **{name: replace(whole, film=film) for name, film in full.items()},
-        "finite length, map": replace(whole, film=FiniteMapSqueeze()),
+        "finite length, map": replace(whole, film=damper.FiniteMapSqueeze()),
     }
 
 

@@ -12,17 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..analysis import coefficients, equilibrium, heated_equilibrium
+from ..bearings import journal
 from ..bearings.films.geometry import Groove
-from ..bearings.journal import (
-    BushRing,
-    FilmProfile,
-    HeatedFilm,
-    HeatedState,
-    JournalBearing,
-    LayeredTemperature,
-    MeanTemperature,
-    heat_numbers,
-)
 from ..bearings.oil import Cooling, Oil
 from ..core.model import Array
 from ..core.port import Reaction
@@ -75,24 +66,28 @@ def answered(case: HeatCase, model: HeatModel, *, cells: tuple[int, int], layers
     """Return what a model says of a case, those with fields on so many cells and layers."""
     if model in ONE_TEMPERATURE:
         return _with_one_temperature(bearing_of(case, model), case)
-    profile: FilmProfile = LayeredTemperature(layers) if model is HeatModel.LAYERS else MeanTemperature()
+    profile: journal.FilmProfile = (
+        journal.LayeredTemperature(layers) if model is HeatModel.LAYERS else journal.MeanTemperature()
+    )
     at = _warm(case, cells, profile, adiabatic=model is HeatModel.ADIABATIC)
-    state: HeatedState = at.state
+    state: journal.HeatedState = at.state
     return _answer(at.rest.position, case, state.film, state.power_loss, state.maximum_temperature)
 
 
 def heated_film(
     case: HeatCase, *, cells: tuple[int, int] = REFERENCE_CELLS, layers: int = REFERENCE_LAYERS
-) -> HeatedState:
+) -> journal.HeatedState:
     """Return the film of a case under its load, with its bush, over so many cells and layers."""
-    found: HeatedState = _warm(case, cells, LayeredTemperature(layers)).state
+    found: journal.HeatedState = _warm(case, cells, journal.LayeredTemperature(layers)).state
     return found
 
 
-def _warm(case: HeatCase, cells: tuple[int, int], profile: FilmProfile, *, adiabatic: bool = False) -> Any:
+def _warm(
+    case: HeatCase, cells: tuple[int, int], profile: journal.FilmProfile, *, adiabatic: bool = False
+) -> Any:
     """Return the equilibrium of a case with a field of temperature, in its bush or adiabatic walls."""
     walls = {} if adiabatic else {"walls": case.ring}
-    film = HeatedFilm(bearing=case.bearing, cells=cells, profile=profile, **walls)
+    film = journal.HeatedFilm(bearing=case.bearing, cells=cells, profile=profile, **walls)
     return heated_equilibrium(film, case.load, case.speed)
 
 
@@ -101,7 +96,7 @@ def position_error(answer: HeatAnswer, reference: HeatAnswer) -> float:
     return float(np.hypot(*(answer[0] - reference[0])) / np.hypot(*reference[0]))
 
 
-def bearing_of(case: HeatCase, model: HeatModel) -> JournalBearing:
+def bearing_of(case: HeatCase, model: HeatModel) -> journal.JournalBearing:
     """Return the bearing of a model with one temperature; a housing takes what the bush would, all round."""
     bearing, (_, cooling) = case.bearing, case.bearing.cooled
     if model is HeatModel.SUPPLY:
@@ -114,7 +109,7 @@ def bearing_of(case: HeatCase, model: HeatModel) -> JournalBearing:
     return replace(bearing, cooling=housed)
 
 
-def _with_one_temperature(bearing: JournalBearing, case: HeatCase) -> HeatAnswer:
+def _with_one_temperature(bearing: journal.JournalBearing, case: HeatCase) -> HeatAnswer:
     at = equilibrium(bearing, case.load, case.speed)
     temperature = bearing.temperature if at.temperature is None else at.temperature
     assert temperature is not None
@@ -161,7 +156,7 @@ class HeatCase:
     """
 
     name: str
-    bearing: JournalBearing
+    bearing: journal.JournalBearing
     force: float
     speed: float
 
@@ -171,9 +166,9 @@ class HeatCase:
         return [0.0, -self.force]
 
     @property
-    def ring(self) -> BushRing:
+    def ring(self) -> journal.BushRing:
         """The steel bush around it."""
-        return BushRing(outer_radius=RING * self.bearing.radius, ambient_temperature=AMBIENT)
+        return journal.BushRing(outer_radius=RING * self.bearing.radius, ambient_temperature=AMBIENT)
 
 
 def two_grooves(width: float) -> tuple[Groove, Groove]:
@@ -189,7 +184,7 @@ def _case(
     grooves: int,
 ) -> HeatCase:
     """Return a case of radius, length, clearance [m], grade and supply [degC], load [N] and speed [rpm]."""
-    bearing = JournalBearing(
+    bearing = journal.JournalBearing(
         radius=size[0],
         length=size[1],
         clearance=size[2],
@@ -278,7 +273,7 @@ def heat_accuracy(
         report(0.5 * number / len(cases), f"reference of {case.name}")
         exact = answered(case, HeatModel.LAYERS, cells=cells, layers=layers)
         cold = equilibrium(bearing_of(case, HeatModel.SUPPLY), case.load, case.speed)
-        numbers = heat_numbers(case.bearing, cold.position, case.speed)
+        numbers = journal.heat_numbers(case.bearing, cold.position, case.speed)
         told = f"E = {numbers.thinning_rise:.2g}, Pe = {numbers.peclet:.2g}, Na = {numbers.nahme:.2g}"
         studied.append(
             StudyCase(name=f"{case.name}: {told}", models=HEAT_MODELS, at=(case, numbers), reference=exact)

@@ -9,23 +9,8 @@ from functools import partial
 
 import numpy as np
 
+from ..bearings import journal
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import (
-    ComplementarityArc,
-    ExtrapolatedFilm,
-    FixedArc,
-    JournalBearing,
-    MapFilm,
-    ReynoldsArc,
-    ReynoldsFilm,
-    RotatingArc,
-    Rupture,
-    ShortFilm,
-    SpectralArcFilm,
-    SplittingFilm,
-    fitted_bearing,
-    tension,
-)
 from ..core.errors import InputError, require_count, require_number, require_positive
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
@@ -71,20 +56,20 @@ class FilmFamily(StrEnum):
 
 def journal_rungs() -> tuple[StudyModel, ...]:
     """Return the ladder, families from the cheapest to the closest."""
-    fixed, rotating, free = FixedArc(), RotatingArc(), ComplementarityArc()
+    fixed, rotating, free = journal.FixedArc(), journal.RotatingArc(), journal.ComplementarityArc()
     return (
-        _rung(FilmFamily.SHORT, "", ShortFilm()),
+        _rung(FilmFamily.SHORT, "", journal.ShortFilm()),
         *(_splitting(FilmFamily.PUBLISHED, fixed, n, 1) for n in (1, 2)),
         *(_splitting(FilmFamily.FIXED, fixed, n, None) for n in (2, 6)),
         _converged(FilmFamily.FIXED, fixed),
         *(_splitting(FilmFamily.ROTATING, rotating, n, m) for n, m in ROTATING_ORDERS),
         _converged(FilmFamily.ROTATING, rotating),
-        *(_splitting(FilmFamily.REYNOLDS, ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
+        *(_splitting(FilmFamily.REYNOLDS, journal.ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
         *(_splitting(FilmFamily.FREE, free, n, m, constant=True) for n, m in ((4, 8), (6, None))),
         _converged(FilmFamily.FREE, free),
         *(_grid(FilmFamily.GRID, *cells) for cells in ((48, 4), (96, 8), (192, 16))),
         *(_grid(FilmFamily.EXTRAPOLATED, *cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
-        _rung(FilmFamily.MAP, "", MapFilm()),
+        _rung(FilmFamily.MAP, "", journal.MapFilm()),
     )
 
 
@@ -107,7 +92,7 @@ def chosen_rungs(rungs: Sequence[StudyModel] | None) -> tuple[StudyModel, ...]:
     return chosen
 
 
-def comparison_bearing(slenderness: float) -> JournalBearing:
+def comparison_bearing(slenderness: float) -> journal.JournalBearing:
     """Return the bearing of the comparisons; dimensionless results depend on length / diameter alone.
 
     Raises
@@ -119,8 +104,8 @@ def comparison_bearing(slenderness: float) -> JournalBearing:
     lowest, highest = SLENDERNESS
     if not lowest <= slenderness <= highest:
         raise InputError(f"slenderness (L/D) must be from {lowest} to {highest}, got {slenderness!r}")
-    return JournalBearing(
-        radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.1, film=MapFilm()
+    return journal.JournalBearing(
+        radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.1, film=journal.MapFilm()
     )
 
 
@@ -128,18 +113,20 @@ def _rung(family: FilmFamily, label: str, film: FilmLaw) -> StudyModel:
     return StudyModel(name=f"{family} {label}".strip(), family=family, label=label, law=film)
 
 
-def _splitting(family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False) -> StudyModel:
+def _splitting(
+    family: FilmFamily, arc: journal.Rupture, n: int, m: int | None, constant: bool = False
+) -> StudyModel:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
-    return _rung(family, label, SplittingFilm(order=(n, m), constant=constant, rupture=arc))
+    return _rung(family, label, journal.SplittingFilm(order=(n, m), constant=constant, rupture=arc))
 
 
-def _converged(family: FilmFamily, arc: Rupture) -> StudyModel:
-    return _rung(family, "converged", SpectralArcFilm(rupture=arc, degree=CONVERGED))
+def _converged(family: FilmFamily, arc: journal.Rupture) -> StudyModel:
+    return _rung(family, "converged", journal.SpectralArcFilm(rupture=arc, degree=CONVERGED))
 
 
 def _grid(family: FilmFamily, around: int, along: int) -> StudyModel:
-    plain = ReynoldsFilm(cells=(around, along))
-    film = plain if family is FilmFamily.GRID else ExtrapolatedFilm(film=plain)
+    plain = journal.ReynoldsFilm(cells=(around, along))
+    film = plain if family is FilmFamily.GRID else journal.ExtrapolatedFilm(film=plain)
     return _rung(family, f"{around} x {along}", film)
 
 
@@ -232,14 +219,14 @@ def require_cells(cells: tuple[int, int]) -> None:
     raise InputError(f"cells must be two multiples of 16, at least (64, 16), got {cells!r}")
 
 
-def squeeze_share(bearing: JournalBearing, states: States) -> float:
+def squeeze_share(bearing: journal.JournalBearing, states: States) -> float:
     """Return the share of the states in which squeeze outweighs the wedge, |g_c| > |g_s| [1]."""
     e, w = bearing.kinematics(*states)
     return float(np.mean(np.abs(np.sum(e * w, axis=0)) > np.abs(e[0] * w[1] - e[1] * w[0])))
 
 
 def reference_force(
-    bearing: JournalBearing,
+    bearing: journal.JournalBearing,
     states: States,
     *,
     cells: tuple[int, int] = REFERENCE_CELLS,
@@ -279,8 +266,8 @@ def reference_force(
 
 def _extrapolation(e: Array, w: Array, slenderness: float, cells: tuple[int, int]) -> tuple[Array, Array]:
     around, along = cells
-    finer, _ = ReynoldsFilm(cells=cells).extrapolated(e, w, slenderness)
-    coarser, _ = ReynoldsFilm(cells=(around // 2, along // 2)).extrapolated(e, w, slenderness)
+    finer, _ = journal.ReynoldsFilm(cells=cells).extrapolated(e, w, slenderness)
+    coarser, _ = journal.ReynoldsFilm(cells=(around // 2, along // 2)).extrapolated(e, w, slenderness)
     return finer, np.hypot(*(finer - coarser)) / (3.0 * np.hypot(*finer))
 
 
@@ -338,7 +325,7 @@ def journal_accuracy(
     at = bearing.kinematics(*sample)
 
     def quantities(model: StudyModel, case: StudyCase, force: Array) -> dict[str, object]:
-        pulled = tension(model.law, *at, bearing.slenderness)
+        pulled = journal.tension(model.law, *at, bearing.slenderness)
         return {
             "family [-]": model.family,
             "label [-]": model.label,
@@ -346,7 +333,7 @@ def journal_accuracy(
             "states in tension [1]": float(np.mean(pulled > TENSION)),
         }
 
-    fitted = partial(fitted_bearing, bearing)
+    fitted = partial(journal.fitted_bearing, bearing)
     study = Study(
         name="journal",
         solve=lambda model, case: fitted(model.law).force(*sample),

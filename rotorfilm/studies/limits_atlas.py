@@ -6,10 +6,12 @@ A panel is a record: which physics, how its axes read, and a function that yield
 from __future__ import annotations
 
 import math
+import tomllib
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -17,43 +19,19 @@ from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
 from ..analysis import coefficients, equilibrium
+from ..bearings import journal as journals
 from ..bearings.bush import BushReaction, f4k20_bush
 from ..bearings.contact import ContactScheme, PointContact, StaggeredScheme, UpwindScheme
 from ..bearings.damper import FiniteSqueeze, PorousDamper
 from ..bearings.films.geometry import Groove, HalfSommerfeld
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import (
-    FixedArc,
-    HeatNumbers,
-    JFOFilm,
-    JournalBearing,
-    MapFilm,
-    ReynoldsFilm,
-    RotatingArc,
-    ShortFilm,
-    SplittingFilm,
-    fitted_bearing,
-    heat_numbers,
-)
 from ..bearings.oil import Cooling, Oil
 from ..core.errors import InputError, ValidityWarning
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.units import CELSIUS
 from ..cosim import critical_macro_step
-from .bush_tiers import (
-    COOLINGS,
-    DURATION,
-    HEAT,
-    LOADS as BUSH_LOADS,
-    SAMPLES,
-    STUBBINESSES,
-    TIGHT,
-    published_run,
-    shaft_flux_errors,
-    two_moments,
-    worn_run,
-)
+from . import bush_accuracy
 from .contact_precision import natural_motions, published_contact
 from .coupling_cost import resting_rotor
 from .damper_accuracy import compared_damper
@@ -97,15 +75,6 @@ class Panel:
     level: float | None = FAILED
     logarithmic: bool = False
     curves: Callable[[], Iterator[Curve]]
-
-
-def panel(
-    physics: str, title: str, x_label: str, y_label: str, **reading: Any
-) -> Callable[[Callable[[], Iterator[Curve]]], Panel]:
-    """Make a panel of the function below; arguments as of `Panel`."""
-    return lambda curves: Panel(
-        physics=physics, title=title, x_label=x_label, y_label=y_label, curves=curves, **reading
-    )
 
 
 def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silent) -> StudyResult:
@@ -205,87 +174,83 @@ JOURNAL_CELLS = ((24, 4), (48, 4), (96, 8), (192, 16))
 ECCENTRICITY_RATIOS = (0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95)
 
 
-def journal(film: FilmLaw, slenderness: float = 0.5) -> JournalBearing:
+def journal(film: FilmLaw, slenderness: float = 0.5) -> journals.JournalBearing:
     """Return the bearing of the atlas with a film."""
-    return fitted_bearing(comparison_bearing(slenderness), film)
+    return journals.fitted_bearing(comparison_bearing(slenderness), film)
 
 
-def _static(model: JournalBearing, ratios: Array) -> Array:
+def _static(model: journals.JournalBearing, ratios: Array) -> Array:
     position = np.array([ratios * model.clearance, np.zeros_like(ratios)])
     return model.force(position, np.zeros_like(position), SPEED)
 
 
 def _whirling(
-    model: JournalBearing | PorousDamper, radius: Array, rate: Array | float, speed: ArrayLike
+    model: journals.JournalBearing | PorousDamper, radius: Array, rate: Array | float, speed: ArrayLike
 ) -> Array:
     """Return the forces (2, n) on circles of radii [m] at rates and speeds [rad/s]."""
     still = np.zeros_like(radius)
     return model.force(np.array([radius, still]), np.array([still, rate * radius]), speed)
 
 
-@panel(
-    "journal",
-    "where the film ends",
-    "whirl speed / shaft speed at eccentricity ratio 0.5",
-    "error of the force",
-)
 def journal_extent() -> Iterator[Curve]:
     """Yield the errors of arcs in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
     whirl = whirl[np.abs(whirl - 0.5) > 0.02]  # no source of pressure there
-    exact = journal(MapFilm())
+    exact = journal(journals.MapFilm())
     radius = np.full_like(whirl, 0.5 * exact.clearance)
     right = _whirling(exact, radius, whirl * SPEED, SPEED)
-    for name, rupture in (("arc fixed in small motion", FixedArc()), ("arc that turns", RotatingArc())):
-        model = journal(SplittingFilm(order=(5, None), rupture=rupture))
+    for name, rupture in (
+        ("arc fixed in small motion", journals.FixedArc()),
+        ("arc that turns", journals.RotatingArc()),
+    ):
+        model = journal(journals.SplittingFilm(order=(5, None), rupture=rupture))
         yield name, whirl, relative_error(_whirling(model, radius, whirl * SPEED, SPEED), right)
 
 
-@panel("journal", "order of the splitting film", "eccentricity ratio", "error of the force, same arc")
 def journal_order() -> Iterator[Curve]:
     """Yield the errors of few functions."""
     ratios = np.linspace(0.05, 0.95, 19)
 
     def force(n: int, m: int | None) -> Array:
-        return _static(journal(SplittingFilm(order=(n, m), rupture=RotatingArc())), ratios)
+        return _static(journal(journals.SplittingFilm(order=(n, m), rupture=journals.RotatingArc())), ratios)
 
     right = force(10, None)
     for n, m in ORDERS:
         yield f"({n}, {'all' if m is None else m})", ratios, relative_error(force(n, m), right)
 
 
-@panel("journal", "short bearing", "length / diameter", "error of the static force", logarithmic=True)
 def journal_length() -> Iterator[Curve]:
     """Yield the errors of the short film."""
     slenderness = np.geomspace(0.1, 2.0, 14)
     for ratio in (0.2, 0.6, 0.9):
         pairs = [
-            [_static(journal(film, ld), np.array([ratio])) for film in (ShortFilm(), MapFilm())]
+            [
+                _static(journal(film, ld), np.array([ratio]))
+                for film in (journals.ShortFilm(), journals.MapFilm())
+            ]
             for ld in slenderness.tolist()
         ]
         yield f"eccentricity ratio {ratio:g}", slenderness, [relative_error(*pair)[0] for pair in pairs]
 
 
-@panel("journal", "grid of the Reynolds film", "eccentricity ratio", "error of K")
 def journal_grid() -> Iterator[Curve]:
     """Yield the errors of coarse grids."""
-    exact = journal(MapFilm())
+    exact = journal(journals.MapFilm())
 
-    def stiffness(model: JournalBearing) -> list[Array]:
+    def stiffness(model: journals.JournalBearing) -> list[Array]:
         positions = [np.array([ratio * exact.clearance, 0.0]) for ratio in ECCENTRICITY_RATIOS]
         return [coefficients(model, position, SPEED).stiffness for position in positions]
 
     right = stiffness(exact)
     for cells in JOURNAL_CELLS:
-        pairs = zip(stiffness(replace(exact, film=ReynoldsFilm(cells=cells))), right, strict=True)
+        pairs = zip(stiffness(replace(exact, film=journals.ReynoldsFilm(cells=cells))), right, strict=True)
         errors = [np.linalg.norm(own - K) / np.linalg.norm(K) for own, K in pairs]
         yield f"{cells[0]} x {cells[1]} cells", ECCENTRICITY_RATIOS, errors
 
 
-@panel("journal", "linearization", "displacement / gap to the wall", "error of the change of force")
 def journal_linearization() -> Iterator[Curve]:
     """Yield the errors of stiffness in large displacements, in the worst direction."""
-    model, parts = journal(MapFilm()), np.geomspace(0.01, 0.8, 20)
+    model, parts = journal(journals.MapFilm()), np.geomspace(0.01, 0.8, 20)
     angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
     around = np.array([np.cos(angles), np.sin(angles)])
     for ratio in (0.2, 0.5, 0.8):
@@ -318,32 +283,16 @@ AT_LOAD, AT_PRESSURE = 0.3, 0.01
 QUANTITIES = ("place", "side flow", "friction torque", "stiffness")
 
 
-@panel(
-    "supply", f"Reynolds rupture, supply {AT_PRESSURE:g}", "Sommerfeld number So", "error", logarithmic=True
-)
 def supply_load() -> Iterator[Curve]:
     """Yield the errors of Reynolds rupture as the load rises, at one supply pressure."""
     yield from _supply_curves(LOADS, lambda load: _supply_errors(load, AT_PRESSURE))
 
 
-@panel(
-    "supply",
-    f"Reynolds rupture, So {AT_LOAD:g}",
-    "supply pressure c^2/(12 viscosity R^2 speed)",
-    "error",
-    logarithmic=True,
-)
 def supply_pressure() -> Iterator[Curve]:
     """Yield the errors of Reynolds rupture as the supply pressure rises, at one load."""
     yield from _supply_curves(PRESSURES, lambda pressure: _supply_errors(AT_LOAD, pressure))
 
 
-@panel(
-    "supply",
-    f"Reynolds rupture, given flow, So {AT_LOAD:g}",
-    "share missing of the flow at ambient pressure",
-    "error",
-)
 def supply_starvation() -> Iterator[Curve]:
     """Yield the errors of Reynolds rupture as the groove gets less oil than it would take, at one load."""
     yield from _supply_curves(MISSING, lambda missing: _supply_errors(AT_LOAD, 0.0, 1.0 - missing))
@@ -354,28 +303,28 @@ def _supply_curves(abscissa: Sequence[float], errors: Callable[[float], Sequence
         yield quantity, abscissa, values
 
 
-def _supplied(pressure: float) -> JournalBearing:
+def _supplied(pressure: float) -> journals.JournalBearing:
     """Return the bearing at a supply pressure over 12 viscosity R^2 speed/c^2."""
     top = Groove(center=0.5 * math.pi, width=math.radians(20.0), length=0.8 * RADIUS)
-    bearing = JournalBearing(
+    bearing = journals.JournalBearing(
         radius=RADIUS,
         length=RADIUS,
         clearance=CLEARANCE,
         viscosity=VISCOSITY,
         grooves=(top,),
-        film=ReynoldsFilm(cells=SUPPLY_CELLS),
+        film=journals.ReynoldsFilm(cells=SUPPLY_CELLS),
     )
     return replace(bearing, supply_pressure=pressure * SUPPLY_SPEED * bearing.pressure_scale)
 
 
-def _supply_load(bearing: JournalBearing, sommerfeld: float) -> list[float]:
+def _supply_load(bearing: journals.JournalBearing, sommerfeld: float) -> list[float]:
     return [0.0, -2.0 * sommerfeld * SUPPLY_SPEED * bearing.force_scale]
 
 
 @cache
 def _full_flow() -> float:
     """Return what the groove takes at `AT_LOAD` and ambient pressure [m3/s]."""
-    film: Any = JFOFilm(bearing=_supplied(0.0), cells=SUPPLY_CELLS)
+    film: Any = journals.JFOFilm(bearing=_supplied(0.0), cells=SUPPLY_CELLS)
     at = equilibrium(film, _supply_load(film.bearing, AT_LOAD), SUPPLY_SPEED)
     return float(film.solve(at.position, SUPPLY_SPEED).side_flow)
 
@@ -384,7 +333,7 @@ def _supply_errors(sommerfeld: float, pressure: float, share: float | None = Non
     """Return the errors of `QUANTITIES`."""
     bearing = _supplied(pressure)
     flow = None if share is None else share * _full_flow()
-    film: Any = JFOFilm(bearing=bearing, cells=SUPPLY_CELLS, supply_flow=flow)
+    film: Any = journals.JFOFilm(bearing=bearing, cells=SUPPLY_CELLS, supply_flow=flow)
     load = _supply_load(bearing, sommerfeld)
     own, better = equilibrium(bearing, load, SUPPLY_SPEED), equilibrium(film, load, SUPPLY_SPEED)
     assert own.losses is not None
@@ -417,23 +366,18 @@ AT_PECLET, AT_RISE = 20.0, 1.0
 COMPARED = (HeatModel.SUPPLY, HeatModel.HOUSING, HeatModel.BUSH)
 
 
-@panel("heat", f"models, Pe = {AT_PECLET:g}", "thinning x rise E", "error of the position", logarithmic=True)
 def heat_rise() -> Iterator[Curve]:
     """Yield the errors of the models as oil thins more."""
     for model in COMPARED:
         yield model.label, THINNING_RISES, [_heat_error(model, rise, AT_PECLET) for rise in THINNING_RISES]
 
 
-@panel("heat", f"models, E = {AT_RISE:g}", "Peclet number Pe", "error of the position", logarithmic=True)
 def heat_peclet() -> Iterator[Curve]:
     """Yield the errors of the models as oil conducts less."""
     for model in COMPARED:
         yield model.label, PECLETS, [_heat_error(model, AT_RISE, peclet) for peclet in PECLETS]
 
 
-@panel(
-    "heat", "no profile across the film (T2)", "Nahme number Na", "error of the position", logarithmic=True
-)
 def heat_profile() -> Iterator[Curve]:
     """Yield the errors of a mean temperature across the film."""
     case = heat_case(1.0, AT_PECLET)
@@ -452,14 +396,14 @@ def heat_case(thinning_rise: float, peclet: float) -> HeatCase:
     return _heat_case(thinning_rise / numbers.thinning_rise, numbers.peclet / peclet)
 
 
-def _cold_numbers(case: HeatCase) -> HeatNumbers:
+def _cold_numbers(case: HeatCase) -> journals.HeatNumbers:
     """Return the numbers of a case where its film is as cold as its supply."""
     at = equilibrium(case.bearing.at_temperature(SUPPLY), case.load, case.speed)
-    return heat_numbers(case.bearing, at.position, case.speed)
+    return journals.heat_numbers(case.bearing, at.position, case.speed)
 
 
 def _heat_case(thinning: float, conductivity: float) -> HeatCase:
-    bearing = JournalBearing(
+    bearing = journals.JournalBearing(
         radius=0.05,
         length=0.05,
         clearance=75e-6,
@@ -512,13 +456,6 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
 """What a step does to the linearized state, by the step times its matrix."""
 
 
-@panel(
-    "rotor",
-    "time step, rigid rotor on the film",
-    "step / shortest time constant",
-    "error of the path / first displacement",
-    logarithmic=True,
-)
 def rotor_time_step() -> Iterator[Curve]:
     """Yield the errors of steps of each scheme."""
     matrix = _rotor_matrix(STEP_AT, STEP_MASS)
@@ -531,10 +468,9 @@ def rotor_time_step() -> Iterator[Curve]:
         yield name, steps / shortest, errors
 
 
-@panel("rotor", "macro step, force held", "eccentricity ratio", "longest stable macro step [deg]", level=None)
 def rotor_macro_step() -> Iterator[Curve]:
     """Yield the longest macro steps of rotors of several masses; not-a-number where one whirls anyway."""
-    model = journal(MapFilm())
+    model = journal(journals.MapFilm())
     for mass_ratio in MASS_RATIOS:
         steps = []
         for ratio in ECCENTRICITY_RATIOS:
@@ -546,7 +482,7 @@ def rotor_macro_step() -> Iterator[Curve]:
 
 def _rotor_matrix(ratio: float, mass_ratio: float) -> Array:
     """Return A of d/dt (x, y, vx, vy) = A (x, y, vx, vy) about an equilibrium [1/s]; lengths / clearance."""
-    model = journal(MapFilm())
+    model = journal(journals.MapFilm())
     rotor = resting_rotor(model, ratio, speed=SPEED, mass_ratio=mass_ratio)
     found = coefficients(model, rotor.position, SPEED)
     blocks = [[np.zeros((2, 2)), np.eye(2)], [-found.stiffness / rotor.mass, -found.damping / rotor.mass]]
@@ -592,13 +528,6 @@ def _damper_errors(models: Sequence[PorousDamper], better: Sequence[PorousDamper
     return np.array([relative_error(*(_orbiting(one, RATIOS) for one in pair)) for pair in pairs]).T
 
 
-@panel(
-    "damper",
-    "short film of finite length",
-    "length / diameter",
-    "error of the force, full film",
-    logarithmic=True,
-)
 def damper_length() -> Iterator[Curve]:
     """Yield the errors of the short film, on a solid and on a porous cage."""
     slenderness = np.geomspace(0.05, 1.5, 12)
@@ -609,15 +538,8 @@ def damper_length() -> Iterator[Curve]:
             yield f"eccentricity ratio {ratio:g}, {cage}", slenderness, values
 
 
-@panel(
-    "damper",
-    "porous cage taken as solid, or as thin",
-    "permeability number Phi",
-    "error of the force, short film",
-    logarithmic=True,
-)
 def damper_cage() -> Iterator[Curve]:
-    """Yield the errors of a cage without depth, or without pores,."""
+    """Yield the errors of a cage without depth, or without pores."""
     numbers = np.geomspace(1e-5, 10.0, 25)
     whole = [compared_damper(0.25, number) for number in numbers.tolist()]
     thin = [replace(one.cage, thin=True) for one in whole if one.cage is not None]
@@ -627,7 +549,6 @@ def damper_cage() -> Iterator[Curve]:
             yield f"{name}, eccentricity ratio {ratio:g}", numbers, values
 
 
-@panel("damper", "linearization about the center", "radius of the orbit / clearance", "error of the force")
 def damper_linearization() -> Iterator[Curve]:
     """Yield the errors of damping at the center in large orbits."""
     ratios = np.linspace(0.02, 0.9, 30)
@@ -667,13 +588,6 @@ STEPPERS: dict[str, Callable[[complex], complex]] = {
 """Growth of exp(s t) over one implicit step, by z = s times the step."""
 
 
-@panel(
-    "contact",
-    "grid of a rolling ball",
-    "size of a cell / Hertzian radius",
-    "error of the film",
-    logarithmic=True,
-)
 def contact_grid() -> Iterator[Curve]:
     """Yield the errors of coarse grids, upwind and staggered."""
     fine, coarse = (_films(published_contact(cells, UpwindScheme())) for cells in REFERENCE)
@@ -692,13 +606,6 @@ def _films(model: PointContact) -> Array:
     return np.array([state.central_film, state.minimum_film])
 
 
-@panel(
-    "contact",
-    "time step of a rolling ball",
-    "step / time scale of the contact",
-    "error of the decay time",
-    logarithmic=True,
-)
 def contact_step() -> Iterator[Curve]:
     """Yield what implicit steps make of the decay of small oscillations."""
     steps = np.geomspace(1e-3, 1.0, 25)
@@ -712,7 +619,7 @@ def contact_step() -> Iterator[Curve]:
 # Limits of the polymer bush that melts, under a load that grows by half.
 #
 # References: the mixed problem of the shaft for the closed form of its heat; for the contact angle the two
-# moments of the wear, `bush_tiers.two_moments`, which are exact whatever the shape of the pressure.
+# moments of the wear, `bush_accuracy.two_moments`, which are exact whatever the shape of the pressure.
 
 
 STEPS = (20, 200, 2000)
@@ -721,58 +628,50 @@ EXTENT = 1.5
 """Angle that the worn profile covers [rad]."""
 
 
-@panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
 def bush_flux() -> Iterator[Curve]:
     """Yield the errors of the closed form."""
-    for stubbiness in STUBBINESSES:
-        *_, errors = shaft_flux_errors(stubbinesses=(stubbiness,)).values()
-        yield f"shaft radius / half length {stubbiness:g}", COOLINGS, np.abs(errors)
+    for stubbiness in bush_accuracy.STUBBINESSES:
+        *_, errors = bush_accuracy.shaft_flux_errors(stubbinesses=(stubbiness,)).values()
+        yield f"shaft radius / half length {stubbiness:g}", bush_accuracy.COOLINGS, np.abs(errors)
 
 
-@panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
 def bush_published() -> Iterator[Curve]:
     """Yield the errors of the published stage under a growing load."""
     times, exact = _exact()
-    grown = 1.0 + (BUSH_LOADS[1] / BUSH_LOADS[0] - 1.0) * times / DURATION
+    grown = 1.0 + (bush_accuracy.LOADS[1] / bush_accuracy.LOADS[0] - 1.0) * times / bush_accuracy.DURATION
     for steps in STEPS:
-        error = np.abs(published_run(f4k20_bush(), times, steps) / exact - 1.0)
+        error = np.abs(bush_accuracy.published_run(f4k20_bush(), times, steps) / exact - 1.0)
         yield f"{steps} steps", grown[1:], error[1:]
 
 
-@panel(
-    "bush",
-    "nodes of the worn profile",
-    "angle between nodes [deg]",
-    "error of the contact angle",
-    logarithmic=True,
-)
 def bush_nodes() -> Iterator[Curve]:
     """Yield the errors of few nodes."""
     times, exact = _exact()
     errors = []
     for nodes in NODES:
-        worn = BushReaction(bush=f4k20_bush(), melting_heat=HEAT, extent=EXTENT, nodes=nodes)
-        errors.append(np.abs(worn_run(times, worn) / exact - 1.0))
+        worn = BushReaction(bush=f4k20_bush(), melting_heat=bush_accuracy.HEAT, extent=EXTENT, nodes=nodes)
+        errors.append(np.abs(bush_accuracy.worn_run(times, worn) / exact - 1.0))
     between = np.degrees(EXTENT) / (np.array(NODES) - 1.0)
     yield "largest", between, [error.max() for error in errors]
     yield "at the end", between, [error[-1] for error in errors]
 
 
 def _exact() -> tuple[Array, Array]:
-    times = np.linspace(0.0, DURATION, SAMPLES)
-    return times, two_moments(f4k20_bush(), times, **TIGHT)
+    times = np.linspace(0.0, bush_accuracy.DURATION, bush_accuracy.SAMPLES)
+    return times, bush_accuracy.two_moments(f4k20_bush(), times, **bush_accuracy.TIGHT)
 
 
-PANELS: tuple[Panel, ...] = (
-    *(journal_extent, journal_order, journal_length, journal_grid, journal_linearization),
-    *(supply_load, supply_pressure, supply_starvation),
-    *(heat_rise, heat_peclet, heat_profile),
-    *(rotor_time_step, rotor_macro_step),
-    *(damper_length, damper_cage, damper_linearization),
-    *(contact_grid, contact_step),
-    *(bush_flux, bush_published, bush_nodes),
-)
-"""All panels, in the order in which they are drawn."""
+def panels() -> Iterator[Panel]:
+    """Yield the panels that `limits.toml` lists; an infinite level is none."""
+    table = tomllib.loads(resources.files(__package__ or "").joinpath("limits.toml").read_text("utf-8"))
+    for name, row in table.items():
+        title = row.pop("title").format_map(globals())  # which names the constants of this module
+        own = Panel(**row, title=title, curves=globals()[name])
+        yield replace(own, level=None) if own.level == math.inf else own
+
+
+PANELS = tuple(panels())
+"""All panels, in the order of the physics and of the pictures."""
 
 PHYSICS = tuple(dict.fromkeys(each.physics for each in PANELS))
 """What the panels are about."""

@@ -13,17 +13,7 @@ from ..core.errors import InputError, ValidityWarning, require_count, require_po
 from ..core.model import Array
 from ..core.progress import Report, part_of, silent
 from .bearing_types import CLEARANCE, RADIUS, SPEED, VISCOSITY
-from .study import (
-    SEED,
-    States,
-    Study,
-    StudyCase,
-    StudyModel,
-    StudyResult,
-    film_times,
-    run_study,
-    spread,
-)
+from .study import SEED, States, Study, StudyCase, StudyModel, StudyResult, film_times, run_study, spread
 
 CELLS = (288, 24)
 """Cells of a pad, and of half its length, of the reference."""

@@ -22,7 +22,7 @@ from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.studies.limits_atlas import heat_rise, panel_points
+from rotorfilm.studies.limits_atlas import PANELS, panel_points
 
 SCENE = """
 schema = 1
@@ -356,7 +356,7 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
     module = import_module("rotorfilm.studies.damper_accuracy")  # its package shows a function of this name
     monkeypatch.setattr(module, "SERIES", (1, 3))
-    monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
+    monkeypatch.setattr(module.damper, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
     monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
     options = ("--ld", "0.2", "--permeability", "0.01", "--states", "5", "--out", tmp_path)
     code, out, _ = run("chart", "damper", *options, "--json")
@@ -386,7 +386,8 @@ def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
     monkeypatch.setattr(ladders, "heat_accuracy", partial(ladders.heat_accuracy, **few))
     monkeypatch.setattr(models, "heated_film", partial(models.heated_film, cells=(32, 4), layers=4))
-    panel = replace(heat_rise, curves=lambda: iter([("T0", np.ones(2), np.ones(2))]))
+    panel = next(one for one in PANELS if one.physics == "heat")
+    panel = replace(panel, curves=lambda: iter([("T0", np.ones(2), np.ones(2))]))
     points, notes = tuple(panel_points(panel)), {panel.title: panel}
     atlas = ladders.StudyResult(study="limits", reference="", notes=notes, rungs=points)
     monkeypatch.setattr(ladders, "limits_atlas", lambda physics, report: atlas)

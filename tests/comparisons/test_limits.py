@@ -26,7 +26,7 @@ class Curve(NamedTuple):
 
 
 def curves(panel):
-    return {name: Curve(np.asarray(x), np.asarray(y)) for name, x, y in panel.curves()}
+    return {name: Curve(np.asarray(x), np.asarray(y)) for name, x, y in panel()}
 
 
 @pytest.mark.convergence

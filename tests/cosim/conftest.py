@@ -8,7 +8,7 @@ from studies.master_cases import BEARING, RAMP, ROTOR, rotor_at
 
 from rotorfilm import FilmContactError, PartialResultError
 from rotorfilm.core import force_outputs, journal_inputs, static_linearization
-from rotorfilm.cosim import cosim_run, cosimulate
+from rotorfilm.cosim import cosimulate, master
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import LawRotor, RigidRotor
 
@@ -140,8 +140,8 @@ def native_fmus(request, tmp_path_factory):
 @pytest.fixture
 def compiled(monkeypatch):
     """Return a list to which each run adds its part in C, or nothing for one in Python."""
-    made, make = [], cosim_run.compiled_run
-    monkeypatch.setattr(cosim_run, "compiled_run", lambda *given: made.append(make(*given)) or made[-1])
+    made, make = [], master.compiled_run
+    monkeypatch.setattr(master, "compiled_run", lambda *given: made.append(make(*given)) or made[-1])
     return made
 
 

@@ -95,7 +95,9 @@ def copy(tmp_path_factory):
     made = tmp_path_factory.mktemp("copy") / "rotorfilm"
     shutil.copytree(PACKAGE, made, ignore=shutil.ignore_patterns("__pycache__"))
     insert(made / "questions" / "quantities.py", "\nQUANTITIES = {\n", shown("A new quantity"))
-    insert(made / "scenes" / "scene.py", "\nQUANTITIES = {\n", '    "loss_per_flow": "of a film [J/m^3]",\n')
+    insert(
+        made / "scenes" / "quantities.toml", "docs/questions.md.\n\n", 'loss_per_flow = "of a film [J/m^3]"\n'
+    )
     return made
 
 

@@ -112,10 +112,10 @@ def test_friction_is_told_of_too_where_some_of_it_has_no_rest(monkeypatch, fewes
             raise ConvergenceError("no rest")
         return find(bearing, load, speed)
 
-    find = ball_questions.rest_under
+    find = ball_questions.rolling_scene.rest_under
     fast = ladder(ANGULAR + "axial_load = 500\n", "axial_stiffness", 1.0, "30000 rpm", 0.5)
     assumed = ladder_of(fast).assumptions
-    monkeypatch.setattr(ball_questions, "rest_under", rest_under)
+    monkeypatch.setattr(ball_questions.rolling_scene, "rest_under", rest_under)
     (line,) = assumed()
     assert said in line
     assert line.endswith(" such changes there is no rest")

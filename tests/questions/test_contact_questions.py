@@ -17,7 +17,7 @@ from rotorfilm.core.answers import WorkUnit
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.contact import FollowedFilm, grid_rung, law_rung, lowest, slow_rung
 from rotorfilm.scenes import Lubricant, QuestionTable, Scene, parse_scene
-from rotorfilm.scenes.contact_motions import (
+from rotorfilm.scenes.contact import (
     INLETS,
     OUTLET,
     QUANTITIES,

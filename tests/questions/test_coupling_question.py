@@ -20,7 +20,7 @@ from rotorfilm.cosim.coupling_error import SCHEMES, CouplingCase, inner_motion, 
 from rotorfilm.questions import ladder_of
 from rotorfilm.rotors import ForceLaw, RigidRotor
 from rotorfilm.scenes import QuestionTable, Scene, bundled_scene
-from rotorfilm.scenes.excitation_table import StepLoadTable
+from rotorfilm.scenes.shared_tables import StepLoadTable
 from rotorfilm.studies.coupling_cost import cost_case
 
 ROOT = Path(__file__).parents[2]

@@ -20,9 +20,9 @@ from rotorfilm.questions import ladder_of, ladders_of
 from rotorfilm.questions.walk import NoAnswerError
 from rotorfilm.scenes import QuestionTable, Scene, bundled_scene, families, parse_scene
 from rotorfilm.scenes.damper_table import DamperTable
-from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
 from rotorfilm.scenes.film_rungs import extrapolated
 from rotorfilm.scenes.scene import QUANTITIES
+from rotorfilm.scenes.shared_tables import BladeLossTable, UnbalanceTable
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,8 +6,8 @@ import pytest
 
 from rotorfilm import ContactGrid, PointContact, SceneError, ValidityWarning, reduce_contact
 from rotorfilm.bearings import StepLoad, ball_transient
-from rotorfilm.scenes import parse_scene, solve_contact
-from rotorfilm.scenes.solve_contact import ContactCase, respond
+from rotorfilm.scenes import contact as solve_contact, parse_scene
+from rotorfilm.scenes.contact import ContactCase, respond
 
 TEXT = """
 schema = 1
@@ -86,7 +86,7 @@ def test_a_response_within_the_loads_of_its_law_is_ridden_once(monkeypatch):
         rides.append(args)
         return ball_transient(*args, **options)
 
-    monkeypatch.setattr(solve_contact, "ball_transient", counted)
+    monkeypatch.setattr(solve_contact.contacts, "ball_transient", counted)
     law = reduce_contact(case.contact, 3)
     assert respond(case, law, StepLoad(amplitude=0.2), duration=1.0).model == "reduced law"
     assert len(rides) == 1

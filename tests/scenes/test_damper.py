@@ -25,8 +25,8 @@ from rotorfilm import (
 from rotorfilm.bearings import AxialFeed, MapSqueeze, PublishedSqueeze
 from rotorfilm.scenes import bundled_scene, parse_scene, run_damper
 from rotorfilm.scenes.damper_films import damper_models
-from rotorfilm.scenes.excitation_table import StepLoadTable
 from rotorfilm.scenes.export_scene import export_scene
+from rotorfilm.scenes.shared_tables import StepLoadTable
 from rotorfilm.scenes.solve_damper import couple_damper
 
 DAMPER = """

@@ -18,7 +18,7 @@ from rotorfilm.bearings.journal import (
     SplittingFilm,
 )
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
-from rotorfilm.scenes.excitation_table import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
+from rotorfilm.scenes.shared_tables import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
 
 GOOD = """
 schema = 1

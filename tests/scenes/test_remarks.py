@@ -9,12 +9,11 @@ from rotorfilm.questions import bush as bush_remarks
 from rotorfilm.scenes import (
     Scene,
     bundled_scene,
-    contact_motions as contact_remarks,
+    contact as contact_remarks,
     damper_films as damper_ranges,
     journal_tables as journal_remarks,
-    solve_shaft as shaft_remarks,
 )
-from rotorfilm.scenes.families import Remark, messages
+from rotorfilm.scenes.families import Remark, messages, remarks_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -22,7 +21,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def journal():
     scene = bundled_scene()
     at = scene.bearing, scene.lubricant.properties, scene.speed, scene.static_load
-    return journal_remarks.REMARKS, journal_remarks.journal_numbers(*at)
+    return remarks_of("journal"), journal_remarks.journal_numbers(*at)
 
 
 def contact():
@@ -31,22 +30,22 @@ def contact():
     numbers = contact_remarks.contact_numbers(
         ball, scene.lubricant.properties, roelands=False, compressible=False
     )
-    return contact_remarks.REMARKS, numbers
+    return remarks_of("contact"), numbers
 
 
 def damper():
     scene = Scene.load(EXAMPLES / "damper_question.toml")
     numbers = damper_ranges.damper_numbers(scene.damper.build(), scene.lubricant.properties, 20.0, 300.0, 0.5)
-    return (*damper_ranges.REMARKS, *damper_ranges.FULL, *damper_ranges.RUPTURED), numbers
+    return remarks_of("damper", "damper_full", "damper_ruptured"), numbers
 
 
 def bush():
     scene = Scene.load(EXAMPLES / "bush_wear.toml")
-    return bush_remarks.REMARKS, bush_remarks.bush_numbers(bush_remarks.bush_run(scene, "wear"))
+    return remarks_of("bush"), bush_remarks.bush_numbers(bush_remarks.bush_run(scene, "wear"))
 
 
 def shaft():
-    remarks = (*shaft_remarks.BEAM, shaft_remarks.UNSTABLE)
+    remarks = remarks_of("beam", "whirl")
     return remarks, {"slenderness": 3.0, "step": 2.0, "growth": 0.1, "whirl": 0.5}
 
 

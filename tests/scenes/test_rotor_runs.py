@@ -34,9 +34,9 @@ from rotorfilm import (
 )
 from rotorfilm.core.port import from_rest
 from rotorfilm.scenes import Scene, read_scene, rotor_runs, run_damper
-from rotorfilm.scenes.excitation_table import GroundTable, MotorTable
 from rotorfilm.scenes.export_scene import from_shaft_rest
 from rotorfilm.scenes.rotor_runs import run_rotor
+from rotorfilm.scenes.shared_tables import GroundTable, MotorTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

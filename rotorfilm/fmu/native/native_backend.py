@@ -28,59 +28,9 @@ from ..description import (
     terminal_files,
     to_xml,
 )
-from ..documentation import NATIVE, NATIVE_STEPPED, to_html
+from ..documentation import capabilities, general_texts, table_of, to_html
 from ..reference import reference_table, to_csv
 from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
-
-_BOTH2 = {
-    "needsExecutionTool": "false",
-    "canBeInstantiatedOnlyOncePerProcess": "false",
-    "canNotUseMemoryManagementFunctions": "true",
-    "canGetAndSetFMUstate": "true",
-    "canSerializeFMUstate": "true",
-    "providesDirectionalDerivative": "true",
-}
-_BOTH3 = {
-    "needsExecutionTool": "false",
-    "canBeInstantiatedOnlyOncePerProcess": "false",
-    "canGetAndSetFMUState": "true",
-    "canSerializeFMUState": "true",
-    "providesDirectionalDerivatives": "true",
-    "providesAdjointDerivatives": "true",
-}
-
-INTERFACES = {
-    "2.0": {
-        "ModelExchange": {**_BOTH2, "completedIntegratorStepNotNeeded": "true"},
-        "CoSimulation": {
-            **_BOTH2,
-            "canHandleVariableCommunicationStepSize": "true",
-            "canInterpolateInputs": "false",
-            "maxOutputDerivativeOrder": "0",
-            "canRunAsynchronuously": "false",
-        },
-    },
-    "3.0": {
-        "ModelExchange": {**_BOTH3, "needsCompletedIntegratorStep": "false"},
-        "CoSimulation": {
-            **_BOTH3,
-            "canHandleVariableCommunicationStepSize": "true",
-            "hasEventMode": "true",
-            "providesIntermediateUpdate": "true",
-            "canReturnEarlyAfterIntermediateUpdate": "true",
-        },
-    },
-}
-"""What the C library can do, as each FMI version spells it."""
-
-
-CATEGORIES = {
-    "logStatusWarning": "A state where the model is less accurate.",
-    "logStatusDiscard": "A step that could not be made, with its values.",
-    "logStatusError": "A call that failed, with its values.",
-    "logEvents": "Kinks in time.",
-    "logAll": "All messages.",
-}
 
 ICON = "icon.png"
 REFERENCE = "documentation/reference.csv"
@@ -139,7 +89,7 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
         **described,
         tool=f"{PACKAGE} {installed_version(PACKAGE)}",
         interfaces=_interfaces(export.model, version),
-        categories=CATEGORIES,
+        categories=table_of("interfaces")["native"]["categories"],
         variables=variables,
         dependencies=dependencies(export.model, export.inputs, times),
         sources=compiled,
@@ -157,7 +107,7 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
 
 def _interfaces(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:
     """Return what the C library can do with a model: one that steps by itself has Co-Simulation alone."""
-    every = INTERFACES[version]
+    every = capabilities("native", version)
     if not isinstance(model, Stepped):
         return every
     own = {
@@ -226,7 +176,7 @@ def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
 
 
 def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
-    general = NATIVE_STEPPED if isinstance(export.model, Stepped) else NATIVE
+    general = general_texts("native", stepped=isinstance(export.model, Stepped))
     texts = {**kernel_texts(export.spec.kernel), **general}
     rows = [f"{p.name} = {p.value!r} {p.unit}: {p.description}" for p in export.spec.parameters]
     tables = [f"{name}: table of shape {np.shape(table)}" for name, table in export.spec.tables.items()]
@@ -247,7 +197,4 @@ def _pictures(export: Export) -> dict[str, bytes]:
     content = picture.read_bytes()
     if export.version == "2.0":
         return {"model.png": content}
-    return {
-        f"terminalsAndIcons/{ICON}": content,
-        f"documentation/{ICON}": content,
-    }
+    return {f"terminalsAndIcons/{ICON}": content, f"documentation/{ICON}": content}

@@ -1,12 +1,16 @@
-"""The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation)."""
+"""An FMU of a model in Python: its modules, a slave of PythonFMU, and all that describes it."""
 
 from __future__ import annotations
 
 import ast
+import importlib
+import inspect
 import json
+import sys
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from importlib.metadata import version as installed_version
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from ...core.errors import FmuError
@@ -16,9 +20,129 @@ from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, modul
 from ...native.library import FILMS, LOOPS, library_path
 from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
 from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
-from ..documentation import PYTHON, PYTHON_STEPPED, to_html
+from ..documentation import capabilities, general_texts, table_of, to_html
 from .codec import class_modules, decode, encode, shortened
-from .usermodule import read_user_module, renamed_source
+
+INSTALLED = {"numpy", "scipy"}
+"""Packages that must be installed wherever the FMU runs."""
+
+CARRIED = {"core", "bearings", "rotors"}
+"""Parts of this package that an FMU can carry."""
+
+
+def read_user_module(name: str, users: Collection[str], package: str) -> tuple[ast.Module, set[str]]:
+    """Return the module `name`, ready to be renamed, and the modules of this package that it imports.
+
+    Each name is imported from where it is defined.
+
+    Parameters
+    ----------
+    name : str
+        Importable module.
+    users : collection of str
+        Modules that the FMU carries besides those of `package`.
+    package : str
+        This package's name.
+
+    Raises
+    ------
+    FmuError
+        If it has no Python source, or imports something that the FMU does not carry.
+    """
+    resolver = _Resolver(name, users, package)
+    tree = resolver.visit(ast.parse(_source(name)))
+    return ast.fix_missing_locations(tree), resolver.needs
+
+
+def renamed_source(tree: ast.Module, names: Mapping[str, str]) -> str:
+    """Return the source of `tree` with the modules of its import statements renamed."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            node.module = names.get(node.module, node.module)
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                alias.name = names.get(alias.name, alias.name)
+    return ast.unparse(tree) + "\n"
+
+
+class _Resolver(ast.NodeTransformer):
+    """Checks the imports of a user's module and points each at the module that defines the name."""
+
+    def __init__(self, name: str, users: Collection[str], package: str) -> None:
+        self.name, self.users, self.package = name, users, package
+        self.needs: set[str] = set()
+
+    def visit_Import(self, node: ast.Import) -> ast.Import:
+        """Accept installed packages, and carried modules under an `as` name."""
+        for alias in node.names:
+            if not self._accepted(alias.name):
+                continue
+            if alias.asname is None:
+                raise self._error(f"import {alias.name}", f"write 'from {alias.name} import ...'")
+            self._carry(alias.name)
+        return node
+
+    def visit_ImportFrom(self, node: ast.ImportFrom) -> ast.AST | list[ast.stmt]:
+        """Split an import from a carried package into one import from each defining module."""
+        if node.level or node.module is None:
+            module = "." * node.level + (node.module or "")
+            raise self._error(f"from {module} import", "relative imports have no meaning there")
+        if not self._accepted(node.module):
+            return node
+        return [self._defining_import(node.module, alias) for alias in node.names]
+
+    def _accepted(self, module: str) -> bool:
+        """Return whether the FMU carries `module`; False if it is installed; raise if neither."""
+        root = module.partition(".")[0]
+        if root == self.package or module in self.users:
+            return True
+        if root in INSTALLED or root in sys.stdlib_module_names:
+            return False
+        raise self._error(f"import {module}", "put what the model needs into its own module")
+
+    def _defining_import(self, module: str, alias: ast.alias) -> ast.stmt:
+        if alias.name == "*":
+            raise self._error(f"from {module} import *", "name what is imported")
+        if module != self.package:
+            self._carry(module)
+        definer = module if module in self.users else _definer(module, alias.name)
+        self._carry(definer)
+        return ast.ImportFrom(module=definer, names=[alias], level=0)
+
+    def _carry(self, module: str) -> None:
+        if module in self.users:
+            return
+        part = module.removeprefix(self.package).strip(".").partition(".")[0]
+        if part not in CARRIED:
+            raise self._error(f"import {module}", f"an FMU carries only {sorted(CARRIED)} of {self.package}")
+        self.needs.add(module)
+
+    def _error(self, statement: str, advice: str) -> FmuError:
+        return FmuError(
+            f"module {self.name} must import only the standard library, {sorted(INSTALLED)} and "
+            f"{self.package} to go into an FMU, got {statement!r}: {advice}"
+        )
+
+
+def _source(name: str) -> str:
+    try:
+        source = inspect.getsource(importlib.import_module(name))
+    except (OSError, TypeError, ImportError) as error:
+        raise FmuError(f"module {name} must have Python source to go into an FMU: {error}") from None
+    return source
+
+
+def _definer(module: str, name: str) -> str:
+    """Return the module that defines `name` of `module`, which may only re-export it."""
+    found = getattr(importlib.import_module(module), name, None)
+    definer = getattr(found, "__module__", None)
+    if found is None or definer is None or find_spec(definer) is None:
+        return module
+    return definer if getattr(importlib.import_module(definer), name, None) is found else module
+
+
+# The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
+
 
 # The Python source that an FMU carries, under names that no other FMU or installation has.
 
@@ -104,25 +228,6 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
 # The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
 
 
-INTERFACES = {
-    "CoSimulation": {
-        # The binary is PythonFMU's: it runs the model in a Python interpreter that must be installed.
-        "needsExecutionTool": "true",
-        "canHandleVariableCommunicationStepSize": "true",
-        "canInterpolateInputs": "false",
-        "canBeInstantiatedOnlyOncePerProcess": "false",
-        "canNotUseMemoryManagementFunctions": "true",
-        "canGetAndSetFMUstate": "true",
-        "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "false",
-    }
-}
-
-CATEGORIES = {
-    "logStatusDiscard": "A step that could not be made, with its values.",
-    "logAll": "All messages.",
-}
-
 ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 
 import importlib
@@ -159,8 +264,8 @@ def python_contents(
     description = Description(
         **described,
         tool=f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})",
-        interfaces=INTERFACES,
-        categories=CATEGORIES,
+        interfaces=capabilities("python", "2.0"),
+        categories=table_of("interfaces")["python"]["categories"],
         variables=variables,
         dependencies=dependencies(model, inputs),
     )
@@ -184,7 +289,8 @@ def _files(
     data = encode(model)
     bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    texts, base = (PYTHON, "ModelSlave") if isinstance(model, Model) else (PYTHON_STEPPED, "SteppedSlave")
+    stepped = isinstance(model, Stepped)
+    texts, base = general_texts("python", stepped=stepped), "SteppedSlave" if stepped else "ModelSlave"
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
         **_resources(data, component, prefix, start, bundle, base),
@@ -218,11 +324,7 @@ def _resources(
     entry = f"{component}_{tag}"
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
-        slave=bundle.modules[SLAVE],
-        base=base,
-        modules=f"({modules}\n)",
-        title=component,
-        tag=tag,
+        slave=bundle.modules[SLAVE], base=base, modules=f"({modules}\n)", title=component, tag=tag
     )
     files = {
         **bundle.files,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..families import Remark, messages
-from ..lubricant_table import Lubricant
+from ..shared_tables import Lubricant
 from .sleeve_bearing import ViscousSleeve
 
 REMARKS = (

@@ -19,17 +19,7 @@ from time import perf_counter
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..bearings.bush import (
-    BushReaction,
-    BushWear,
-    LocalMelting,
-    MeltingBush,
-    approximate_flux,
-    arc_angle,
-    exact_flux,
-    f4k20_bush,
-    published_stage,
-)
+from ..bearings import bush as bushes
 from ..core.model import Array, Dynamic
 from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study, timed
@@ -81,19 +71,17 @@ def bush_tiers(
         Steps of the published stage.
     report : Report
     """
-    bush, times = f4k20_bush(), np.linspace(0.0, DURATION, SAMPLES)
+    bush, times = bushes.f4k20_bush(), np.linspace(0.0, DURATION, SAMPLES)
     exact = two_moments(bush, times, **TIGHT)
-    worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
-    local = replace(worn, nodes=max(nodes), melting=LocalMelting())
+    worn = bushes.BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
+    local = replace(worn, nodes=max(nodes), melting=bushes.LocalMelting())
     runs: dict[str, dict[str, Callable[[], Array]]] = {
         "two moments": {"two moments": lambda: two_moments(bush, times, **USUAL)},
         "BushWear": {"BushWear": lambda: _one_state(bush, times)},
         "BushReaction": {
             f"BushReaction, {n} nodes": partial(worn_run, times, replace(worn, nodes=n)) for n in nodes
         },
-        "LocalMelting: another law": {
-            f"LocalMelting, {local.nodes} nodes": lambda: worn_run(times, local),
-        },
+        "LocalMelting: another law": {f"LocalMelting, {local.nodes} nodes": lambda: worn_run(times, local)},
         "as published": {f"as published, {n} steps": partial(published_run, bush, times, n) for n in steps},
     }
     models = [
@@ -131,18 +119,20 @@ def shaft_flux_errors(
     return {
         "cooling [1]": [cooling for cooling, _ in pairs],
         "stubbiness [1]": [stubbiness for _, stubbiness in pairs],
-        "error of the closed form [1]": [approximate_flux(*pair) / exact_flux(*pair) - 1.0 for pair in pairs],
+        "error of the closed form [1]": [
+            bushes.approximate_flux(*pair) / bushes.exact_flux(*pair) - 1.0 for pair in pairs
+        ],
     }
 
 
-def two_moments(bush: MeltingBush, times: Array, *, rtol: float, atol: float) -> Array:
+def two_moments(bush: bushes.MeltingBush, times: Array, *, rtol: float, atol: float) -> Array:
     """Return half the contact angle [rad] at the times [s], by the two moments of the wear."""
     law = bush.law
     gap = law.gap(law.melting)
     work = law.pressure_work * SPEED * law.coefficient(law.melting)
 
     def angle(t: float, moment: float) -> float:
-        return float(arc_angle((law.compliance * float(bush.load_ratio(_load(t))) + moment) / gap))
+        return float(bushes.arc_angle((law.compliance * float(bush.load_ratio(_load(t))) + moment) / gap))
 
     def rate(t: float, state: Array) -> list[float]:
         a = angle(t, state[0])
@@ -158,12 +148,12 @@ def _load(t: float) -> float:
     return LOADS[0] + (LOADS[1] - LOADS[0]) * t / DURATION
 
 
-def _one_state(bush: MeltingBush, times: Array) -> Array:
-    model = BushWear(bush=bush, melting_heat=HEAT)
+def _one_state(bush: bushes.MeltingBush, times: Array) -> Array:
+    model = bushes.BushWear(bush=bush, melting_heat=HEAT)
     return _output(times, model, 0, lambda t, wear: [_load(t), SPEED])
 
 
-def worn_run(times: Array, model: BushReaction) -> Array:
+def worn_run(times: Array, model: bushes.BushReaction) -> Array:
     """Return half the contact angle [rad] at the times [s], by a worn profile."""
 
     def point(t: float, wear: Array) -> list[float]:
@@ -187,11 +177,11 @@ def _output(
     return np.array([model.output(t, x, inputs(t, x))[number] for t, x in zip(times, run.y.T, strict=True)])
 
 
-def published_run(bush: MeltingBush, times: Array, steps: int) -> Array:
+def published_run(bush: bushes.MeltingBush, times: Array, steps: int) -> Array:
     """Return half the contact angle [rad] at the times [s], by the published stage in so many steps."""
     law = bush.law
     unit = bush.geometry.radius * HEAT / (law.liner * bush.outer_swing)
     grid = np.linspace(0.0, DURATION, steps + 1)
     loads = np.array([_load(t) for t in grid])
-    stage = published_stage(bush, loads, SPEED, grid / unit)
+    stage = bushes.published_stage(bush, loads, SPEED, grid / unit)
     return np.interp(times, grid, stage.contact_angle)
