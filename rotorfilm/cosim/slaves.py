@@ -111,8 +111,8 @@ def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
         raise InputError(
             "film must not add mass to a rotor without inputs for it, got the outputs "
             f"{list(signals.MASS_OUTPUTS)}. An exchange of accelerations multiplies its error by -mass/rotor "
-            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which has both in "
-            "one FMU"
+            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which has both "
+            "in one FMU"
         )
 
 

@@ -1,4 +1,4 @@
-"""A rolling ball in a scene: its table, its motions, what is left out, and what solve and run answer."""
+"""A rolling ball in a scene: its table, its motions, neglected effects, and the answers of solve and run."""
 
 from __future__ import annotations
 

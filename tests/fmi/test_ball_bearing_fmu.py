@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import BallBearing, InputError, RaceControl, RunningBalls, back_to_back, export_fmu
+from rotorfilm import BallBearing, InputError, RunningBalls, back_to_back, export_fmu
+from rotorfilm.bearings import RaceControl
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.export import start_values
 

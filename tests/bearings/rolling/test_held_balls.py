@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import BallBearing, EquilibriumError, InputError, RaceControl, RollingMaterial, RunningBalls
+from rotorfilm import BallBearing, EquilibriumError, InputError, RollingMaterial, RunningBalls
+from rotorfilm.bearings import RaceControl
 
 RPM = np.pi / 30.0
 STEEL = RollingMaterial(young_modulus=206e9, poisson_ratio=0.3, density=7800.0)

@@ -10,7 +10,6 @@ from scipy.special import ellipe, ellipk
 
 from rotorfilm import (
     BallBearing,
-    RaceControl,
     RunningBalls,
     StaticBalls,
     VariableComplianceBalls,
@@ -18,6 +17,7 @@ from rotorfilm import (
     equilibrium,
     variable_compliance,
 )
+from rotorfilm.bearings import RaceControl
 
 D, F = 7.938e-3, 0.52
 MODULUS = 207e9 / (1.0 - 0.3**2)  # E' = 2/sum((1 - nu^2)/E) of two bodies of steel

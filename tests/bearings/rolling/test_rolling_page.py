@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotorfilm import BallBearing, RaceControl, StaticBalls, back_to_back, variable_compliance
+from rotorfilm import BallBearing, StaticBalls, back_to_back, variable_compliance
+from rotorfilm.bearings import RaceControl
 
 DOCS = Path(__file__).parents[3] / "docs"
 PAGE = "".join((DOCS / name).read_text(encoding="utf-8") for name in ("rolling.md", "rolling_rotors.md"))
