@@ -110,9 +110,9 @@ def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
     if signals.MASS_OUTPUTS[0] in film and signals.MASS_OUTPUTS[0] not in rotor:
         raise InputError(
             "film must not add mass to a rotor without inputs for it, got the outputs "
-            f"{list(signals.MASS_OUTPUTS)}. An exchange of accelerations multiplies its error by -mass/rotor "
-            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which has both in "
-            "one FMU"
+            f"{list(signals.MASS_OUTPUTS)}. An exchange of accelerations multiplies its error by "
+            "-mass/rotor mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), "
+            "which has both in one FMU"
         )
 
 
