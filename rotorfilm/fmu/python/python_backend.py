@@ -6,6 +6,7 @@ import ast
 import importlib
 import inspect
 import json
+import re
 import sys
 import warnings
 from collections.abc import Collection, Iterable, Mapping
@@ -141,6 +142,16 @@ def _definer(module: str, name: str) -> str:
     return definer if getattr(importlib.import_module(definer), name, None) is found else module
 
 
+def _files_beside(sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files in TOML that modules read from their folder, by path below the package."""
+    named = [
+        (ROOT.parent / module_path(name)).with_name(table.decode())
+        for name, source in sources.items()
+        for table in re.findall(rb'"(\w+\.toml)"', source)
+    ]
+    return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in named if path.is_file()}
+
+
 # The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
 
 
@@ -198,7 +209,7 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
     sources = import_closure({SLAVE, *own}.union(*(needs for _, needs in read.values())), SHELVES)
-    companions = _companions(own.union(*(needs for _, needs in read.values())))
+    companions = _companions(own.union(*(needs for _, needs in read.values()))) | _files_beside(sources)
     # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
     # FMUs of the same models, which read the same before the folder of the first is gone.
     models = {"models": " ".join(sorted(own)).encode()}
@@ -223,6 +234,16 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
         **{path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found},
         **{f"native/{library.name}": library.read_bytes() for library in libraries},
     }
+
+
+def _files_beside(sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files in TOML that modules read from their folder, by path below the package."""
+    named = [
+        (ROOT.parent / module_path(name)).with_name(table.decode())
+        for name, source in sources.items()
+        for table in re.findall(rb'"(\w+\.toml)"', source)
+    ]
+    return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in named if path.is_file()}
 
 
 # The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
