@@ -218,7 +218,7 @@ def test_the_pressure_of_a_splitting_film_makes_its_force(order, v):
     with pytest.raises(InputError, match="film must be a law with losses"):
         _ = state.power_loss
     assert "maximum pressure" in str(state)
-    assert state.plot().get_ylabel() == "axial [mm]"
+    assert state.plot().get_ylabel() == "axial position [mm]"
 
 
 @pytest.mark.literature

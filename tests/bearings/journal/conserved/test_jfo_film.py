@@ -176,7 +176,7 @@ def test_a_result_is_printed_and_drawn(fed):
     text = str(state)
     assert "side flow" in text
     assert "oil content" in text
-    assert state.plot().get_ylabel() == "axial [mm]"
+    assert state.plot().get_ylabel() == "axial position [mm]"
 
 
 @pytest.mark.parametrize(
