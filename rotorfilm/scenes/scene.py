@@ -213,7 +213,6 @@ class Scene:
         """
         return read_scene(varied(read_tables(path), changes), str(path))
 
-    @one_blas_thread
     def solve(self, report: Report = silent) -> Any:
         """Return the answer to the question, or where none is asked what the bearing of the scene answers.
 

@@ -226,7 +226,7 @@ def test_what_an_fmu_cannot_carry_is_named_with_a_remedy(tmp_path, law, named):
     own = OwnReaction(law=law, clearance=1e-4, name="own", nominal_force=1.0)
     with pytest.raises(FmuError, match=rf"model\.law must be .*{named}") as caught:
         export_fmu(own, tmp_path / "own.fmu")
-    assert named == "partial" or "write it into a file of its own and import it" in str(caught.value)
+    assert named == "partial" or "rite it into a file of its own and import it" in str(caught.value)
 
 
 @pytest.mark.parametrize(

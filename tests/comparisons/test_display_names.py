@@ -23,6 +23,12 @@ ALLOWED = {
     # an answer knows the rung that gave it by its name alone
     ("cli/answer_printing.py", "report.name == answer.model"),
     ("charts/result_charts.py", "one.name == answer.model"),
+    # a picture finds its curve by the label in its legend, and breaks the lines of its title
+    ("charts/on_plotly.py", "one.name == label"),
+    ("charts/on_plotly.py", "one.title.replace('\\n', '<br>')"),
+    ("charts/shaft_charts.py", "one.label == label"),
+    # the station of a rotor by its name
+    ("charts/shaft_charts.py", "(bearings or {}).get(station.name)"),
     # a fingerprint, which is shown to no one
     ("sweeps/sweep_run.py", "json.loads(text)['sweep'] != self.name"),
 }

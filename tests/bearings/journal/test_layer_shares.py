@@ -51,7 +51,7 @@ def test_layers_make_the_heat_of_their_velocity():
         radius=0.05, length=0.05, clearance=75e-6, oil=Oil.constant(0.03), cooling=cooling
     )
     film = HeatedFilm(bearing=bearing, cells=(160, 16), profile=LayeredTemperature(LAYERS)).cold()
-    film, found, flow = fed_film(film, e, speed, full_gap=False)
+    film, found, flow = fed_film(film, e * bearing.clearance, speed, full_gap=False)
     cells = film.cells
     shape = (*cells.shape, LAYERS)
     heating = Heating(
