@@ -142,19 +142,6 @@ def _definer(module: str, name: str) -> str:
     return definer if getattr(importlib.import_module(definer), name, None) is found else module
 
 
-def _files_beside(sources: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the files in TOML that modules read from their folder, by path below the package."""
-    named = [
-        (ROOT.parent / module_path(name)).with_name(table.decode())
-        for name, source in sources.items()
-        for table in re.findall(rb'"(\w+\.toml)"', source)
-    ]
-    return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in named if path.is_file()}
-
-
-# The files of an FMU that runs its model in Python, through PythonFMU (FMI 2.0 Co-Simulation).
-
-
 # The Python source that an FMU carries, under names that no other FMU or installation has.
 
 
