@@ -129,7 +129,7 @@ def test_a_grooved_bearing_is_native_by_default_and_passes_all_checks(version, g
     assert [item.check for item in check_fmu(path) if item.passed is False] == []
     page = zipfile.ZipFile(path).read("documentation/index.html").decode()
     assert "axial grooves" in page
-    assert "map: table of shape (4,)" in page
+    assert "map: table of shape (5,)" in page
 
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
