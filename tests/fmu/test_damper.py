@@ -17,7 +17,7 @@ ROTOR = RigidRotor(
 def test_damper_comes_back_from_its_data():
     again = decode(encode(SUPPORT), {name: name for name in class_modules(SUPPORT)})
     q, v = [3e-5, 1e-5], [0.01, 0.02]
-    assert again.reaction.cage == CAGE
+    assert again.reactions[0].cage == CAGE
     np.testing.assert_array_equal(again.force(q, v), SUPPORT.force(q, v))
 
 
