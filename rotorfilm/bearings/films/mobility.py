@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 from ...core.errors import InputError, require_count, require_kind, require_positive
 from ...core.model import Array
 from ...native.structs import structure
-from .map_fit import quintic_coefficients, spline_slopes, spline_weights
 from .map_table import StoredTable, require_shapes
 
 FACTORS, CELLS = 4, 256
@@ -90,6 +89,8 @@ class Mobility(StoredTable):
 
     def factors(self, X: ArrayLike) -> tuple[Array, Array]:
         """Return the four factors at X (...), shape (4, ...), and their derivatives by X."""
+        from .map_fit import spline_slopes, spline_weights  # which a laminar film does without
+
         over = np.maximum(np.asarray(X, dtype=float), 0.0) / self.scale
         place, cells = np.log1p(over), self.coefficients.shape[1] - 5
         within = np.minimum(place, self.last_node) / self.last_node * cells
@@ -164,6 +165,8 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
     factors = np.array([law(float(X)) for X in nodes], dtype=float)
     if factors.shape != (len(nodes), FACTORS) or not np.all((factors > 0.0) & np.isfinite(factors)):
         raise InputError(f"law must return four finite positive factors, got {factors!r}")
+    from .map_fit import quintic_coefficients
+
     return Mobility(coefficients=quintic_coefficients(np.log(factors)).T, scale=scale, last_node=last)
 
 
