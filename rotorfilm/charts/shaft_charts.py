@@ -10,6 +10,7 @@ import numpy as np
 from ..analysis import RotorModes
 from ..analysis.rotor_modes import senses
 from ..core.errors import InputError
+from ..core.inputs import arguments
 from ..rotors import Coupling, ShaftElement, ShaftRotor
 from ..rotors.shaft_elements import LayeredElement, ShaftPiece
 from .picture import CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel
@@ -25,6 +26,7 @@ _STILL = 1e-6
 """Deflection / the largest, below which a node has no orbit."""
 
 
+@arguments
 def plot_rotor(rotor: ShaftRotor, bearings: Mapping[str, object] | None = None) -> Picture:
     """Describe a rotor to scale [mm]: elements, disks, bearings, seals, probes and unbalances.
 
@@ -99,6 +101,7 @@ def _elements(rotor: ShaftRotor) -> Iterator[CurveMark]:
                 )
 
 
+@arguments
 def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> Picture:
     """Describe one whirl mode along a shaft at the moment of its largest deflection, in both planes.
 
@@ -127,6 +130,7 @@ def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> Pictur
     return Picture((PicturePanel(marks, *text),))
 
 
+@arguments
 def plot_mode_orbits(rotor: ShaftRotor, modes: RotorModes, number: int) -> Picture:
     """Describe one whirl mode in space: the shaft at its largest deflection, and the orbits of its nodes.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RotorfilmError, require_each, require_finite
-from .readable import Drawable, Item, Readable, Row, rows_of
-from .signals import PLANAR
+from .readable import Drawable, Item, Readable, Row, items_of, rows_of
+from .signals import FREEDOMS, PLANAR
 
 Array = NDArray[np.float64]
 
@@ -51,8 +51,48 @@ class BearingLosses(Readable):
         require_each(self, require_finite, *(one.name for one in dataclasses.fields(self)))
 
 
+def by_freedom(items: Iterable[Item], freedoms: Sequence[str]) -> Iterator[Item]:
+    """Yield items, those of other motions than x and y entry by entry, each with its unit."""
+    for item in items:
+        units = _UNITS.get(item.name)
+        if units is None or tuple(freedoms) == PLANAR:
+            yield item
+            continue
+        for place in np.ndindex(np.shape(item.value)):
+            named = [freedoms[k] for k in place]
+            unit = units[tuple(FREEDOMS[name].turns for name in named)]
+            yield Item("_".join([item.name, *named]), np.asarray(item.value)[place].item(), unit, ())
+
+
+_UNITS: Mapping[str, Mapping[Any, str]] = {
+    "position": {(False,): "m", (True,): "rad"},
+    "load": {(False,): "N", (True,): "N.m"},
+    "stiffness": {(False, False): "N/m", (False, True): "N/rad", (True, False): "N", (True, True): "N.m/rad"},
+    "damping": {
+        (False, False): "N.s/m",
+        (False, True): "N.s/rad",
+        (True, False): "N.s",
+        (True, True): "N.m.s/rad",
+    },
+}
+"""Units of the entries, by whether rows and columns turn the shaft."""
+
+
+class InFreedoms(Readable):
+    """A result about some motions of a shaft, which `freedoms` names."""
+
+    freedoms: Any
+
+    def _items(self) -> Iterator[Item]:
+        return by_freedom(super()._items(), self.freedoms)
+
+    def to_rows(self) -> list[Row]:
+        """Return names and values with their units; with more motions than x and y a row for each entry."""
+        return rows_of(by_freedom(items_of(self, self._shown), self.freedoms))
+
+
 @dataclass(frozen=True, kw_only=True)
-class Equilibrium(Readable):
+class Equilibrium(InFreedoms):
     """The static position of a journal at which the film balances the load.
 
     Attributes
@@ -93,6 +133,11 @@ class Equilibrium(Readable):
     def __post_init__(self, reaction: Any) -> None:
         object.__setattr__(self, "_reaction", reaction)
 
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """The motions of the shaft that the place is of."""
+        return tuple(getattr(vars(self)["_reaction"], "freedoms", PLANAR))
+
     def to_rows(self) -> list[Row]:
         """Return names and values with their units; of a film that warms also its power; never warns."""
         rows = super().to_rows()
@@ -109,11 +154,11 @@ class Equilibrium(Readable):
         """
         reaction = vars(self)["_reaction"]
         losses = getattr(reaction, "losses", None)
-        return None if losses is None else losses(self.position, np.zeros(2), self.speed)
+        return None if losses is None else losses(self.position, np.zeros_like(self.position), self.speed)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Coefficients(Readable):
+class Coefficients(InFreedoms):
     """Stiffness K = -dF/dq and damping C = -dF/dv of a reaction at a place, F being the force on the shaft.
 
     Attributes

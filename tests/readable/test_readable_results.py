@@ -98,7 +98,8 @@ SIZES = {"2": 2, "3": 3, "n_bearings": 2, "2 H + 1": 5, "...": 3}
 def sample(kind):
     """Return a result with made-up numbers, each another one, from what its docstring says of the fields."""
     names = [one.name for one in dataclasses.fields(kind)]
-    beside = {name: object() for name, of in kind.__annotations__.items() if str(of).startswith("InitVar")}
+    given = [name for name, of in kind.__annotations__.items() if str(of).startswith("InitVar")]
+    beside = {name: getattr(kind, name, None) or object() for name in given}
     return kind(**{name: value_of(name, explained(kind, name)) for name in names}, **beside)
 
 

@@ -13,7 +13,6 @@ from numpy.testing import assert_allclose
 from rotorfilm import (
     BallBearing,
     InputError,
-    RaceControl,
     RollingMaterial,
     RunningBalls,
     Scene,
@@ -24,6 +23,7 @@ from rotorfilm import (
     equilibrium,
     tandem,
 )
+from rotorfilm.bearings import RaceControl
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.scenes import parse_scene, read_scene
 from rotorfilm.scenes.export_scene import export_scene

@@ -157,6 +157,7 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
     >>> float(thinning.factors(2.0)[0][0])
     1.2
     """
+    require_kind("law", law, Callable, "a function that returns four factors at X")
     require_positive("largest", largest)
     require_positive("scale", scale)
     require_count("cells", cells, 6)
@@ -173,6 +174,15 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
 def require_mobility(mobility: object) -> None:
     """Raise InputError unless this is a mobility or None."""
     require_kind("mobility", mobility, Mobility | None, "a Mobility, as of mobility_of(...), or None")
+
+
+def require_laminar(bearing: object, user: str) -> None:
+    """Raise InputError where the film of a bearing has a mobility, which its user would leave out."""
+    for one in (bearing, getattr(bearing, "film", None)):
+        if getattr(one, "mobility", None) is not None:
+            raise InputError(
+                f"bearing must have a film without a mobility, which {user} cannot take, got {one!r}"
+            )
 
 
 def require_thickness_law(mobility: Mobility | None) -> None:

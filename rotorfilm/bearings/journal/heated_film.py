@@ -29,6 +29,7 @@ from ..films.mass_conserving import (
     conserved_cells,
 )
 from ..films.mass_conserving_steps import ScaledFilm
+from ..films.mobility import require_laminar
 from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
@@ -99,6 +100,7 @@ class HeatRounds:
     def _require_heat(self) -> None:
         """Raise InputError where a field breaks its rule."""
         _ = self.bearing.cooled
+        require_laminar(self.bearing, type(self).__name__)
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
 

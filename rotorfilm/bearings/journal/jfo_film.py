@@ -26,6 +26,7 @@ from ...core.results import BearingLosses, ReducedCoefficients
 from ...core.signals import Signal, journal_inputs
 from ..films.mass_conserving import FILM, ConservedFilm, ConservedState, Supply, conserved_cells, warn_of_air
 from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassConserving, ScaledFilm
+from ..films.mobility import require_laminar
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
@@ -148,6 +149,7 @@ class JFOFilm(MassConserving):
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing")
+        require_laminar(self.bearing, "JFOFilm")
         self._require_fields(self.cavitation_pressure, self.submerged)
         if self.supply_flow is not None:
             require_positive("supply_flow", self.supply_flow)

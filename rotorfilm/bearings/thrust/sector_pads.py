@@ -22,6 +22,7 @@ from ...core.errors import (
     UndefinedDerivativeError,
     require_count,
     require_each,
+    require_finite,
     require_kind,
     require_non_negative,
     require_number,
@@ -439,7 +440,10 @@ class SectorPads(WarmBearing):
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film of all pads [m], shape (...), at places (3, ...) [m], [rad]."""
-        return np.apply_along_axis(self._least, 0, np.asarray(position, dtype=float))
+        places = require_finite("position", position)
+        if places.shape[:1] != (len(self.freedoms),):
+            raise InputError(f"position must have shape (3, ...), got shape {places.shape}")
+        return np.apply_along_axis(self._least, 0, places)
 
     def _least(self, place: Array) -> float:
         u = np.array([*place, 0.0, 0.0, 0.0, 0.0])
@@ -516,9 +520,8 @@ class SectorPads(WarmBearing):
     def _losses(
         self, kernel: ThrustKernel, position: ArrayLike, velocity: ArrayLike, speed: float
     ) -> ThrustLosses:
-        place = require_place(self, position)
-        v = np.asarray(velocity, dtype=float)
-        u = np.array([*place, *v, require_number("speed", speed)])
+        u = self._at(position, velocity, speed)
+        place, v = u[:3], u[3:6]
         self.require_film(place)
         x = self.states_at_rest(u)
         answer, status = kernel.at(x, u, differentiated=False)
@@ -544,12 +547,16 @@ class SectorPads(WarmBearing):
             film_share=float(facts[:, 8].mean()),
         )
 
+    def _at(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return a place, its rates and a speed as inputs (7,); InputError where one breaks its rule."""
+        place, rates = require_place(self, position), require_place(self, velocity, "velocity")
+        return np.array([*place, *rates, require_number("speed", speed)])
+
     def pressure(self, pad: int, position: ArrayLike, velocity: ArrayLike, speed: float) -> SectorPressure:
         """Return the pressure on one pad at a place (3,), its rates and a speed [rad/s], tilts at rest."""
-        if not isinstance(pad, int) or not 0 <= pad < self.kernel.count:
-            raise InputError(f"pad must be from 0 to {self.kernel.count - 1}, got {pad!r}")
-        place = require_place(self, position)
-        u = np.array([*place, *np.asarray(velocity, dtype=float), require_number("speed", speed)])
+        if isinstance(pad, bool) or not isinstance(pad, int) or not 0 <= pad < self.kernel.count:
+            raise InputError(f"pad must be an integer from 0 to {self.kernel.count - 1}, got {pad!r}")
+        u = self._at(position, velocity, speed)
         x = self.states_at_rest(u)
         rates = self.answer(x, u, differentiated=False).rates
         field, _, status = self.kernel.field(pad, x, rates, u)

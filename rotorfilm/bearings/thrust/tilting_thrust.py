@@ -9,10 +9,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import EquilibriumError, InputError, require_finite, require_kind, require_number
+from ...core.errors import (
+    EquilibriumError,
+    InputError,
+    require_finite,
+    require_kind,
+    require_number,
+    warn_user,
+)
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
-from ...core.port import no_rest, require_place
+from ...core.port import no_rest
 from ...core.signals import Signal, signals_of
 from ..reaction import NOMINAL_SPEED, input_vector
 from .sector_pads import SectorPads
@@ -139,7 +146,7 @@ class TiltingThrustBearing(SectorPads):
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the tilts that rest with the collar at a place (3,) [m], [rad], shape (m,)."""
-        return self.states_at_rest(np.array([*np.asarray(position, dtype=float), 0.0, 0.0, 0.0, speed]))
+        return self.states_at_rest(self._at(position, np.zeros(3), speed))
 
     def states_at_rest(self, u: Array) -> Array:
         """Return the tilts of the pads that rest under a collar at rest, shape (m,).
@@ -156,7 +163,27 @@ class TiltingThrustBearing(SectorPads):
             found, status = self._unit.rest(turned, guess.ravel())
             if not status:
                 return found
+        if self._turns_away(float(u[6])):
+            raise EquilibriumError(
+                f"{self._sense}, got {float(u[6])!r} rad/s: the other way they do not rest"
+            )
         raise no_rest(self, u[:3], float(u[6]))
+
+    def warn_of_flow(
+        self, speed: float, temperature: float | None = None, hottest: float | None = None
+    ) -> None:
+        """Warn where flat pads turn away from their pivots, or the oil is beyond its law; see `core.port`."""
+        super().warn_of_flow(speed, temperature, hottest)
+        if self._turns_away(speed):
+            warn_user(f"{self._sense}, got {speed!r} rad/s: the other way they carry a few percent")
+
+    def _turns_away(self, speed: float) -> bool:
+        return not self.crown and speed * self.turning < 0.0
+
+    @property
+    def _sense(self) -> str:
+        sign = "positive" if self.turning > 0.0 else "negative"
+        return f"speed must be {sign} for flat pads with pivot_arc {self.pivot_arc!r}"
 
     def held_coefficients(self, position: ArrayLike, speed: float) -> tuple[Array, Array]:
         """Return stiffness and damping with the pads held in their tilts at rest, shape (3, 3) each.
@@ -169,7 +196,7 @@ class TiltingThrustBearing(SectorPads):
         speed : float [rad/s]
         """
         self.require_temperature()
-        u = np.array([*require_place(self, position), 0.0, 0.0, 0.0, speed])
+        u = self._at(position, np.zeros(3), speed)
         kernel = self.kernel_of(self.film_viscosity, held=True)
         found, status = kernel.at(self.states_at_rest(u), u, differentiated=True)
         if status:

@@ -346,3 +346,13 @@ def test_impossible_mobilities_are_refused():
         PadGridFilm(mobility=thick)
     with pytest.raises(InputError, match="must be that of a bearing"):
         ReynoldsFilm(mobility=MOVING).force(E, W, 0.6)
+
+
+def test_models_that_leave_a_mobility_out_refuse_it():
+    oil = {"oil": rf.Oil.iso_vg(46), "cooling": rf.Cooling(supply_temperature=318.15)}
+    size = {"radius": 0.05, "length": 0.06, "clearance": 1e-4}
+    eased = rf.JournalBearing(**size, **oil, grooves=GROOVES, film=ReynoldsFilm(mobility=THICK))
+    for made in (rf.HeatedFilm, rf.JFOFilm):
+        with pytest.raises(InputError, match="must have a film without a mobility"):
+            made(bearing=eased)
+        assert made(bearing=rf.JournalBearing(**size, **oil, grooves=GROOVES))

@@ -11,7 +11,6 @@ from rotorfilm import (
     BearingPair,
     EquilibriumError,
     InputError,
-    RaceControl,
     StaticBalls,
     back_to_back,
     coefficients,
@@ -19,6 +18,7 @@ from rotorfilm import (
     face_to_face,
     tandem,
 )
+from rotorfilm.bearings import RaceControl
 
 ANGLE = math.radians(15.0)
 ONE = BallBearing(

@@ -9,11 +9,11 @@ from scipy.optimize import root
 from rotorfilm import (
     BallBearing,
     ConvergenceError,
-    RaceControl,
     RollingMaterial,
     RunningBalls,
     StaticBalls,
 )
+from rotorfilm.bearings import RaceControl
 
 RPM = np.pi / 30.0
 ANGULAR = BallBearing(

@@ -313,3 +313,55 @@ def test_any_size_and_speed_gives_numbers(film, speed):
     assert force.shape == (3, 2)
     assert np.isfinite(force).all()
     assert (force[0] >= 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        (lambda: TAPER.losses([1.0, 0.0, 0.0], [0.0, 0.0], 1.0), r"velocity must have shape \(3,\)"),
+        (lambda: TAPER.pressure(0, [1.0, 0.0, 0.0], [0.0], 1.0), r"velocity must have shape \(3,\)"),
+        (lambda: TAPER.pressure(True, [1.0, 0.0, 0.0], STILL, 1.0), "pad must be an integer from 0 to 7"),
+        (lambda: TAPER.minimum_film([1.0, 0.0]), r"position must have shape \(3, ...\)"),
+        (lambda: TAPER.minimum_film([math.nan, 0.0, 0.0]), "position must be finite"),
+        (lambda: FREE.rest_state([1.0, 0.0], 1.0), r"position must have shape \(3,\)"),
+        (lambda: FREE.rest_state([1.0, 0.0, 0.0], math.nan), "speed must be a single finite number"),
+    ],
+)
+def test_bad_input_names_the_argument(call, named):
+    with pytest.raises(rf.InputError, match=named):
+        call()
+
+
+def test_flat_pads_that_turn_away_from_their_pivots_say_so():
+    small = replace(FREE, inner_radius=0.025, outer_radius=0.05, pads=8, pad_arc=math.radians(38.0))
+    with pytest.raises(rf.EquilibriumError, match="speed must be positive for flat pads"):
+        small.rest_state([3e-5, 0.0, 0.0], -300.0)
+    with pytest.warns(rf.ValidityWarning, match="speed must be negative for flat pads"):
+        replace(FREE, pivot_arc=0.4).warn_of_flow(1.0)
+
+
+def test_an_equilibrium_prints_and_tabulates_its_motions_with_their_units():
+    pytest.importorskip("pandas")
+    at = rf.equilibrium(TAPER, [-0.5, 0.01, 0.0], 1.0)
+    assert [row[0].strip() for row in at.to_rows()][:3] == [
+        "position z",
+        "position tilt x",
+        "position tilt y",
+    ]
+    frame = at.to_dataframe()
+    assert frame["load_tilt_x"][0] == 0.01
+    units = frame.attrs["units"]
+    assert [units[name] for name in ("position_z", "position_tilt_x", "load_z", "load_tilt_x")] == [
+        "m",
+        "rad",
+        "N",
+        "N.m",
+    ]
+    film = rf.coefficients(TAPER, at.position, 1.0).to_dataframe()
+    assert film["stiffness_tilt_x_z"][0] == rf.coefficients(TAPER, at.position, 1.0).stiffness[1, 0]
+    assert [film.attrs["units"][f"stiffness_{name}"] for name in ("z_z", "z_tilt_x", "tilt_x_z")] == [
+        "N/m",
+        "N/rad",
+        "N",
+    ]
+    assert at.losses.power_loss == TAPER.losses(at.position, STILL, 1.0).power_loss
