@@ -53,7 +53,12 @@ class Item(NamedTuple):
 
 
 def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
-    """Yield what a dataclass holds, and further properties; the series of a mapping one by one."""
+    """Return what a dataclass holds, and further properties; the series of a mapping one by one."""
+    found = _held(value, further)
+    return value._entries(found) if isinstance(value, Readable) else found
+
+
+def _held(value: Any, further: Iterable[str]) -> Iterator[Item]:
     own = value._own_units() if isinstance(value, Readable) else {}
     unset = {one.name for one in fields(value) if one.default is None and getattr(value, one.name) is None}
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
@@ -145,6 +150,10 @@ class Readable(Tabled):
     def _own_units(self) -> Mapping[str, str]:
         """Return units that only the result itself knows, by the name of the field or of the entry in it."""
         return {}
+
+    def _entries(self, items: Iterator[Item]) -> Iterator[Item]:
+        """Return items with those in their place that people read in their stead."""
+        return items
 
     def _items(self) -> Iterator[Item]:
         """Yield what goes into data frames and data sets."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RotorfilmError, require_each, require_finite
-from .readable import Drawable, Item, Readable, Row, items_of, rows_of
+from .readable import Drawable, Item, Readable, Row, rows_of
 from .signals import FREEDOMS, PLANAR
 
 Array = NDArray[np.float64]
@@ -83,12 +83,8 @@ class InFreedoms(Readable):
 
     freedoms: Any
 
-    def _items(self) -> Iterator[Item]:
-        return by_freedom(super()._items(), self.freedoms)
-
-    def to_rows(self) -> list[Row]:
-        """Return names and values with their units; with more motions than x and y a row for each entry."""
-        return rows_of(by_freedom(items_of(self, self._shown), self.freedoms))
+    def _entries(self, items: Iterator[Item]) -> Iterator[Item]:
+        return by_freedom(items, self.freedoms)
 
 
 @dataclass(frozen=True, kw_only=True)
