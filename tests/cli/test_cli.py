@@ -352,6 +352,7 @@ def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
     assert "2-D 48 x 4" in out
 
 
+@pytest.mark.long
 def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
     module = import_module("rotorfilm.studies.damper_accuracy")  # its package shows a function of this name

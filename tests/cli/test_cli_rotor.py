@@ -122,6 +122,7 @@ def sealed(tmp_path_factory):
     return path
 
 
+@pytest.mark.long
 def test_stability_of_a_compressor_is_read_by_people(run, sealed, tmp_path):
     code, out, _ = run("solve", sealed, *FEW, "--out", tmp_path / "out")
     assert code == 0

@@ -353,7 +353,11 @@ def test_whirl_threshold_on_a_temperature_field_is_where_its_own_coefficients_lo
 
 @pytest.mark.parametrize(
     "quantity",
-    ["critical_speed", pytest.param("whirl_threshold", marks=pytest.mark.long), "unbalance_amplitude"],
+    [
+        pytest.param("critical_speed", marks=pytest.mark.long),
+        pytest.param("whirl_threshold", marks=pytest.mark.long),
+        "unbalance_amplitude",
+    ],
 )
 def test_shaft_has_all_levels_of_heat_and_their_errors(quantity):
     scene = parse_scene(SHAFT.format(oil="grade = 46", viscosity="", quantity=quantity), "test")

@@ -276,7 +276,7 @@ def test_quantities_that_films_of_pads_do_not_have_are_refused(table):
         asked(table, "temperature", 0.1).ask()
 
 
-@pytest.mark.parametrize("table", [LOBED, TILTING])
+@pytest.mark.parametrize("table", [LOBED, pytest.param(TILTING, marks=pytest.mark.long)])
 def test_the_peak_of_the_temperature_is_that_of_a_field(table):
     answer = asked(on_oil(table), "maximum_temperature", 0.15, excitation=OIL).ask()
     assert answer.met
