@@ -339,7 +339,7 @@ def test_whirl_threshold_on_a_temperature_field_is_where_its_own_coefficients_lo
         rung = next(one for name, one in rungs.items() if name.startswith(level))
         found = rung.answer(below)
         growths = [
-            growth_of(rung.level.rest(scene.bearing, scene.static_load, speed), 53.5)
+            growth_of(found.solution.level.rest(scene.bearing, scene.static_load, speed), 53.5)
             for speed in (0.99 * found.value, 1.01 * found.value)
         ]
         assert growths[0] < 0.0 < growths[1]
