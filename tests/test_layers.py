@@ -59,6 +59,7 @@ SAME_NAME = {
     "contact",
     "damper",
     "rolling",
+    "thrust",
     "coupling",
     "shaft",
     "journal",
