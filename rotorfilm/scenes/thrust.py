@@ -243,11 +243,7 @@ class ThrustRest(NamedTuple):
 
 def both_sides(front: ThrustLosses, back: ThrustLosses) -> ThrustLosses:
     """Return the losses of both sides of a collar together."""
-    kinds: dict[str, Any] = {
-        "highest_pressure": max,
-        "minimum_film": min,
-        "film_share": lambda pair: 0.5 * sum(pair),
-    }
+    kinds: dict[str, Any] = {"highest_pressure": max, "minimum_film": min, "film_share": np.mean}
     pairs = {one.name: (getattr(front, one.name), getattr(back, one.name)) for one in fields(front)}
     return ThrustLosses(**{name: kinds.get(name, sum)(pair) for name, pair in pairs.items()})
 

@@ -89,9 +89,9 @@ def test_a_pair_shares_the_load_and_adds_its_losses():
 
 
 def test_no_load_is_asked_for():
-    with pytest.raises(rf.InputError, match="thrust.axial_load is required"):
+    with pytest.raises(rf.InputError, match=r"thrust\.axial_load is required"):
         scene_of(THIN, TILTING, RUN).solve()
-    with pytest.raises(rf.InputError, match="thrust.smallest_film is required for thrust_load"):
+    with pytest.raises(rf.InputError, match=r"thrust\.smallest_film is required for thrust_load"):
         scene_of(THIN, TILTING, RUN, asked="thrust_load").ask()
     with pytest.raises(rf.InputError, match="lubricant must give the oil"):
         scene_of(THIN, TILTING, LOAD, RUN, asked="temperature").ask()
