@@ -663,16 +663,16 @@ class FrozenFilm(StaticReaction):
         (eased, onward), bends = self._eased(e, speed)
         around = around * eased * fall * (P - np.roll(P, -1, axis=0))
         along = along * onward * at_end
-        bent = cubed * around * bends[0], ends[2] * along * bends[1]
-        by_reynolds = np.sum(bent[0] + bent[1], axis=2)
-        terms = squared * around, ends[1] * along, bent[0] / H, bent[1] / ends[0]
-        around, along, *bent = (np.sum(each, axis=2) for each in terms)
+        bent, bent_along = cubed * around * bends[0], ends[2] * along * bends[1]
+        by_reynolds = np.sum(bent + bent_along, axis=2)
+        terms = squared * around, ends[1] * along, bent / H, bent_along / ends[0]
+        around, along, bent, bent_along = (np.sum(each, axis=2) for each in terms)
         carried, dragged = np.sum(H * dragged * fall, axis=2), np.sum(dragged * fall, axis=2)
         n, n_lines = (cells.film * np.stack([np.cos(at), np.sin(at)]) for at in (cells.face, cells.theta))
         width, part = cells.width[:-1], lines[:, None, :]
         force = -((part * found.normal) @ (P @ width))[..., None]
-        by_e = (part * (3.0 * around + bent[0] + speed * dragged)) @ n.T
-        by_e = by_e + (part * (3.0 * along + bent[1])) @ n_lines.T
+        by_e = (part * (3.0 * around + bent + speed * dragged)) @ n.T
+        by_e = by_e + (part * (3.0 * along + bent_along)) @ n_lines.T
         by_w = (part * (V @ width)) @ found.normal.T
         by_speed = (part * (carried + by_reynolds / (speed or 1.0))).sum(axis=2)[..., None]
         return np.asarray(12.0 * np.concatenate([force, -by_e, -by_w, by_speed], axis=2))
