@@ -60,6 +60,7 @@ SAME_NAME = {
     "contact",
     "damper",
     "rolling",
+    "thrust",
     "coupling",
     "shaft",
     "journal",
