@@ -22,6 +22,7 @@ LAYERS = [
     ["scenes"],
     ["questions", "charts"],
     ["sweeps"],
+    ["reports"],
     ["cli"],
     ["__main__"],
 ]
