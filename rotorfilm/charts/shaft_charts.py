@@ -147,8 +147,10 @@ def plot_bearing(bearing: Any) -> Picture:
         for side in (1, -1)
     ]
     panels = (
-        PicturePanel(across, "x [mm]", "y [mm]", f"radius {radius:.4g} mm", equal=True),
-        PicturePanel(along, "along the shaft [mm]", "y [mm]", f"length {length:.4g} mm", equal=True),
+        PicturePanel(across, "x [mm]", "y [mm]", f"radius {radius:.4g} mm", equal=True, legend="none"),
+        PicturePanel(
+            along, "along the shaft [mm]", "y [mm]", f"length {length:.4g} mm", equal=True, legend="none"
+        ),
     )
     return Picture(panels, columns=2, size=(4.2, 4.0))
 
