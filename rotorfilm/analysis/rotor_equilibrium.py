@@ -198,7 +198,8 @@ def _from_near(system: RestEquations, near: Sequence[RotorEquilibrium]) -> Rotor
 
     start = sum((share * place(one) for share, one in zip(shares, near, strict=False)), np.zeros(()))
     try:
-        q, p = system.solve(*np.split(start, [len(system.weight)]), 1.0)
+        q, p = np.split(start, [len(system.weight)])
+        q, p = system.solve(q, p, 1.0)
     except (EquilibriumError, FilmContactError):
         return None
     return _result(system, q, p, [None] * len(system.names))
