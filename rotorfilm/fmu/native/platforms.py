@@ -154,7 +154,8 @@ def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, by
 def all_binaries(identifier: str, fmi_version: str, sources: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the library of these sources for all `TARGETS`, by path in the FMU.
 
-    It is compiled where it is not in the cache. FMI 2.0 has one folder for both kinds of Macs: they share a universal file there.
+    It is compiled where it is not in the cache. FMI 2.0 has one folder for both kinds of Macs: they share a
+    universal file there.
 
     Raises
     ------
