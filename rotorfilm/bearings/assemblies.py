@@ -237,7 +237,7 @@ class SharedReaction(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         for one in self.reactions:
             require_range(one, frequency)
@@ -539,7 +539,7 @@ def with_springs(reaction: PlanarReaction, stiffness: ArrayLike) -> Parallel:
     reaction : PlanarReaction
         To x and y, such as a `PorousDamper`.
     stiffness : float [N/m], or 2 or 2 x 2 numbers
-        Of the springs together: along either axis, along x and y, or rows for force x, y.
+        Stiffness of the springs together: along either axis, along x and y, or rows for force x, y.
 
     Raises
     ------

@@ -74,9 +74,9 @@ class FrequencyDependentReaction:
         Rising; empty for a reaction that is the same at any speed. Between them each entry of A, B, C, D
         follows a monotone cubic: states must mean the same at all speeds. Beyond them it refuses.
     damping : array_like, shape (n, n) [N s/m], or None
-        Of forces by rates, at all speeds.
+        Damping of forces by rates, at all speeds.
     added_mass : array_like, shape (n, n) [kg], or None
-        That a rotor takes into its own, at all speeds; symmetric.
+        Added mass that a rotor takes into its own, at all speeds; symmetric.
     state_names : tuple of str
         Empty for state_0, state_1, ...
     band : tuple of two floats [rad/s], or None
@@ -225,7 +225,7 @@ class FrequencyDependentReaction:
         Parameters
         ----------
         frequencies : array_like, shape (m,) [rad/s]
-            Of whirl, positive and rising.
+            Frequencies of whirl, positive and rising.
         stiffness : array_like, shape (m, n, n) [N/m]
         damping : array_like, shape (m, n, n) [N s/m]
         mass : array_like, shape (m, n, n) [kg], optional

@@ -25,9 +25,9 @@ class RubContact(NamedTuple):
     depth : ndarray, shape (...) [m]
         How far it is in the ring; negative without contact.
     normal_force : ndarray, shape (...) [N]
-        With which the ring pushes it back, never negative.
+        Normal force with which the ring pushes it back, never negative.
     friction_force : ndarray, shape (...) [N]
-        On the rotor, positive about +z.
+        Friction force on the rotor, positive about +z.
     slip : ndarray, shape (...) [m/s]
         Velocity of its surface along the ring, positive about +z.
     """
@@ -53,18 +53,18 @@ class RubRing(StaticReaction):
     gap : float [m]
         Radial gap between rotor and ring.
     stiffness : float [N/m]
-        Of the contact and of what the ring is fixed to, along the depth.
+        Stiffness of the contact and of what the ring is fixed to, along the depth.
     radius : float [m]
-        Of the rotor where it touches.
+        Radius of the rotor where it touches.
     friction_coefficient : float [1]
-        Of Coulomb, at full slip.
+        Friction coefficient of Coulomb, at full slip.
     slip_velocity : float [m/s]
         Slip at which friction has 0.71 of its full size: below it sticking is a slow creep.
     dissipation : float [s/m]
         Losses of an impact, which leaves with 1 - (2/3) dissipation * velocity of its velocity, where that is
         near 1. The force starts from 0 at any velocity (Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445).
     ring_center : tuple of two floats [m]
-        Of the ring.
+        Ring center of the ring.
 
     Raises
     ------

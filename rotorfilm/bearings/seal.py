@@ -43,9 +43,9 @@ class HirsFriction:
     Parameters
     ----------
     coefficient : float [1]
-        Of the wall: friction factor at a Reynolds number of 1.
+        Coefficient of the wall: friction factor at a Reynolds number of 1.
     exponent : float [1]
-        From -1 to 0.
+        Exponent from -1 to 0.
 
     Raises
     ------
@@ -156,7 +156,7 @@ class AnnularSeal(InertialModel):
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the gap.
+        Radius, length and clearance of the gap.
     pressure_drop : float [Pa]
         Across the seal, inlet included; positive.
     viscosity : float [Pa s]
@@ -167,7 +167,7 @@ class AnnularSeal(InertialModel):
     inlet_swirl : float [1]
         Velocity of the fluid round the shaft where it comes in, in radius * speed.
     friction : HirsFriction
-        Of both walls.
+        Friction of both walls.
     added_mass : bool
         Whether the fluid's mass M moves with the rotor; False leaves it out, for analyses that take none.
 
@@ -274,7 +274,7 @@ class AnnularSeal(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
+            Frequency of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
         """
         stream = steady_flow(self, np.asarray(float(frequency)))
         m, loss = self.friction.exponent, float(stream.friction) * self.length / self.clearance

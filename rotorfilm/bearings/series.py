@@ -105,11 +105,11 @@ class Series:
     Parameters
     ----------
     outer : Reaction
-        Such as a damper on its springs; a mass that it adds is added to the body.
+        Outer reaction such as a damper on its springs; a mass that it adds is added to the body.
     body : Body
         Between both, such as the outer ring of a ball bearing.
     inner : Reaction
-        Such as a ball bearing; it adds no mass.
+        Inner reaction such as a ball bearing; it adds no mass.
 
     Raises
     ------
@@ -264,7 +264,7 @@ class Series:
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         require_range(self.inner, frequency)
         require_range(self.outer, frequency)
@@ -366,7 +366,7 @@ class Series:
         felt : ndarray, shape (2 m + 1,)
             Input of the outer reaction.
         slopes : ndarray, shape (k, 2 m + 1)
-            Of the mass of the body times its acceleration by that, with the acceleration held.
+            Slopes of the mass of the body times its acceleration by that, with the acceleration held.
         """
         n, m, k = len(self.freedoms), len(felt) // 2, len(self._shared)
         size, (own, other) = 2 * k + len(inner.A) + len(outer.A), self._rows

@@ -122,7 +122,7 @@ class Stepped(Protocol):
         Parameters
         ----------
         state : object
-            As `start` or an earlier step returned it.
+            State as `start` or an earlier step returned it.
         t : float [s]
             Time at the start of the step.
         u : array_like, shape (n_inputs,)

@@ -85,7 +85,7 @@ class PlanarReaction(Reaction, Protocol):
         position : array_like, shape (2, ...) [m]
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s]
-            Of the journal center.
+            Velocity of the journal center.
         speed : array_like, shape (...) [rad/s]
             Angular speed about +z, either sign.
         """
@@ -122,7 +122,7 @@ def require_reaction(
     Parameters
     ----------
     name : str
-        Of the argument.
+        Name of the argument.
     value : object
     heavy : bool
         Whether it may add mass to the rotor.
@@ -392,7 +392,7 @@ def force_along(
     Parameters
     ----------
     reaction : Reaction
-        Without states.
+        Reaction without states.
     position, velocity, acceleration : ndarray, shape (n, ...) [m], [m/s], [m/s2]
     speed : array_like, shape (...) [rad/s]
     """
@@ -418,7 +418,7 @@ def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) ->
     ----------
     reaction : Reaction
     position, velocity : ndarray, shape (2, ...) [m], [m/s]
-        On circular orbits.
+        Position and velocity on circular orbits.
     speed : float [rad/s]
     """
     heavy = inertial(reaction)
@@ -459,7 +459,7 @@ def require_turning(reaction: Any, rotor: Any) -> None:
     ----------
     reaction : Reaction
     rotor : Model
-        Whose output "speed" says by its nominal value how fast it turns.
+        Rotor whose output "speed" says by its nominal value how fast it turns.
     """
     heavy = inertial(reaction)
     if heavy is not None:
@@ -679,7 +679,7 @@ class QuasiStatic:
     Parameters
     ----------
     reaction : Reaction
-        With states that rest.
+        Reaction with states that rest.
     """
 
     reaction: Any
@@ -812,7 +812,7 @@ class InertialStiffness:
     Parameters
     ----------
     motion : DynamicStiffness
-        Without that mass.
+        Motion without that mass.
     mass : ndarray, shape (n, n) [kg]
     """
 

@@ -110,7 +110,7 @@ class Equilibrium(InFreedoms):
     iterations : int
         Newton steps taken; 0 where balls, which find their rest themselves, left none to take.
     temperature : float or None [K]
-        Of the film, where it follows from the balance of its heat.
+        Temperature of the film, where it follows from the balance of its heat.
     reaction : object, optional
         What was solved for, kept only to tell its `losses`.
     """
@@ -207,9 +207,10 @@ class ReducedCoefficients(Coefficients):
     Attributes
     ----------
     frequency : float [rad/s]
-        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
+        Frequency at which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow
+        motion.
     growth_rate : float [1/s]
-        Of the motion; 0 for a steady one.
+        Growth rate of the motion; 0 for a steady one.
     """
 
     frequency: float
@@ -307,7 +308,8 @@ class Trajectory(Drawable):
     units : dict of str to str
         SI unit of each signal, where it is known.
     step_error : float or None [1]
-        Of a run on mass-conserving films: the local errors of its steps, added up over the clearance.
+        Step error of a run on mass-conserving films: the local errors of its steps, added up over the
+        clearance.
     """
 
     time: Array

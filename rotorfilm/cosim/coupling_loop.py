@@ -285,9 +285,9 @@ def coupling_stability(
         State of the rotor, for instance at the static equilibrium.
     macro_step : float [s]
     scheme : Scheme, optional
-        With macro steps of one length; by default `GaussSeidel()`, which holds the force.
+        Scheme with macro steps of one length; by default `GaussSeidel()`, which holds the force.
     time : float [s]
-        Where the rotor changes with time.
+        Time where the rotor changes with time.
 
     Raises
     ------

@@ -520,7 +520,7 @@ def choose_scheme(attempt: Attempt, auto: Auto, *, macro_step: float, duration: 
     attempt : Attempt
     auto : Auto
     macro_step, duration : float [s]
-        Of the run to come; trials are as long, `TRIAL_STEPS` steps at most.
+        Macro step and duration of the run to come; trials are as long, `TRIAL_STEPS` steps at most.
 
     Raises
     ------

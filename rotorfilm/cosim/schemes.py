@@ -256,7 +256,7 @@ class GaussSeidel(_Extrapolating):
     Parameters
     ----------
     degree : int
-        Of the polynomial in time through the latest forces: 0 holds the force, 1 and 2 extrapolate it.
+        Degree of the polynomial in time through the latest forces: 0 holds the force, 1 and 2 extrapolate it.
 
     Raises
     ------
@@ -281,7 +281,7 @@ class Jacobi(_Extrapolating):
     Parameters
     ----------
     degree : int
-        Of both polynomials in time, 0 to 2.
+        Degree of both polynomials in time, 0 to 2.
 
     Raises
     ------

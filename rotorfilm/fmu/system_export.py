@@ -66,13 +66,13 @@ def export_ssp(
     Parameters
     ----------
     rotor : Dynamic or control.StateSpace
-        With inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
+        Rotor with inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
     films : Model or Stepped, or a mapping of stations to these
         Bearings or dampers.
     path : str or Path
         File to write, ending in `.ssp`; its folder is made if need be.
     version, platforms : str
-        As in `export_fmu`.
+        Version and platforms as in `export_fmu`.
     start : mapping of str to mapping of str to float, optional
         Start values of inputs [SI] by component and signal.
     stop_time, step_size : float [s]
@@ -204,12 +204,12 @@ def system_structure(
     Parameters
     ----------
     name : str
-        Of the system.
+        Name of the system.
     components : sequence of Part
-        With the variables that are connected, and all parameters.
+        Components with the variables that are connected, and all parameters.
     connections : sequence of Connection
     stop_time : float [s]
-        Of the default experiment.
+        Stop time of the default experiment.
     """
     root = Element("ssd:SystemStructureDescription", {**NAMESPACES, "version": VERSION, "name": name})
     system = SubElement(root, "ssd:System", name=name)

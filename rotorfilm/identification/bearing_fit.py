@@ -202,7 +202,7 @@ class FittedParameter(Readable):
     Attributes
     ----------
     value : float
-        With which the bearing comes closest to what was measured.
+        Value with which the bearing comes closest to what was measured.
     standard_error : float
         Standard deviation of the value.
     low, high : float
@@ -222,11 +222,11 @@ class BearingFit(Readable):
     Attributes
     ----------
     parameters : dict of str to FittedParameter
-        Of each free parameter.
+        Parameters of each free parameter.
     confidence : float [1]
-        Of the intervals, each by itself.
+        Confidence of the intervals, each by itself.
     correlation : ndarray, shape (m, m) [1]
-        Of the errors of the parameters, in their order.
+        Correlation of the errors of the parameters, in their order.
     misfit : float [1]
         Root of the mean square of what is left over, in the noise of each quantity, or in its size where no
         noise was given.
@@ -235,7 +235,7 @@ class BearingFit(Readable):
     residuals : dict of str to ndarray, shape (n,)
         Measured less fitted, by quantity, in its SI unit; not-a-number where nothing was measured.
     bearing : JournalBearing
-        With the fitted parameters.
+        Bearing with the fitted parameters.
     evaluations : int
         Trials of all parameters.
     """
@@ -304,14 +304,15 @@ def fit_bearing(
     Parameters
     ----------
     bearing : JournalBearing
-        With a first guess of its parameters. Its temperature may be stated, or left to the heat balance.
+        Bearing with a first guess of its parameters. Its temperature may be stated, or left to the heat
+        balance.
     measured : Measurements
     free : sequence of str
         Among "clearance", "length" [m], "viscosity" [Pa s] or "temperature" [K] of the film,
         "supply_temperature", "ambient_temperature" [K], "housing_conductance" [W/K], "carry_over" of the
         cooling, and "zero_x", "zero_y" [m], what the sensors show of a centered journal.
     confidence : float [1]
-        Of the intervals, above 0 and below 1.
+        Confidence of the intervals, above 0 and below 1.
 
     Raises
     ------

@@ -44,7 +44,7 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-        By name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
+        Values by name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
         "side_flow", and "kxx" to "cyy". Not-a-number where one was not measured.
     noise : mapping of str to float, optional
         Standard deviation of each quantity, in its unit. Without it, each counts relative to its own size,
@@ -103,7 +103,7 @@ class Measurements:
         ----------
         path : Path or str
         load : array_like, shape (2,) [N], optional
-            Of all rows; by default it stands in columns load_x and load_y.
+            Load of all rows; by default it stands in columns load_x and load_y.
         noise : mapping of str to float, optional
             As above.
 

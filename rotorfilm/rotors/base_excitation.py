@@ -113,7 +113,7 @@ class BaseMotion:
             is the mean square.
         duration : float [s]
         seed : int
-            Of the phases.
+            Seed of the phases.
         """
         require_positive("duration", duration)
         omega, power = require_finite("frequencies", frequencies), require_finite("density", density)

@@ -47,7 +47,7 @@ class JeffcottCrack:
     cross_reduction : float [1]
         The same across; not larger.
     crack_angle : float [rad]
-        From +x to the crack at t = 0, positive about +z.
+        Crack angle from +x to the crack at t = 0, positive about +z.
 
     Raises
     ------
@@ -88,7 +88,7 @@ class ShaftCrack:
     depth : float [m]
         At its deepest, to the radius.
     crack_angle : float [rad]
-        From +x to the crack at t = 0, positive about +z.
+        Crack angle from +x to the crack at t = 0, positive about +z.
 
     Raises
     ------
@@ -228,8 +228,8 @@ class CrackedRotor(AroundRotor):
     breathing : Breathing
         `MayesDaviesBreathing()`, `GaschHinge()`, or `OpenCrack()` for a notch.
     opening_angle : float or None [rad]
-        From +x to where the crack is wide open; None for the direction of gravity, towards which a shaft
-        between its bearings is stretched. An overhung shaft wants the opposite.
+        Opening angle from +x to where the crack is wide open; None for the direction of gravity, towards
+        which a shaft between its bearings is stretched. An overhung shaft wants the opposite.
 
     Raises
     ------
@@ -330,7 +330,7 @@ def crack_compliance(
     depth : float [m]
         At its deepest; to the radius.
     radius : float [m]
-        Of the shaft, which is solid.
+        Radius of the shaft, which is solid.
     young_modulus : float [Pa]
     poisson_ratio : float [1]
 

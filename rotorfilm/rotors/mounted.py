@@ -119,9 +119,9 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
     ----------
     rotor : Model
     bearings : mapping of str to Reaction
-        By station; the empty name is that of a rotor with one journal.
+        Bearings by station; the empty name is that of a rotor with one journal.
     name : str
-        Of the argument, for messages.
+        Name of the argument, for messages.
 
     Raises
     ------
@@ -164,7 +164,7 @@ class MountedRotor(AroundRotor):
     Parameters
     ----------
     rotor : Dynamic
-        With inputs and outputs of each station by name, as `ShaftRotor`.
+        Rotor with inputs and outputs of each station by name, as `ShaftRotor`.
     stations : tuple of str
     bearings : tuple of Reaction
         One for each of the stations; one with states is a Dynamic too, as `BushReaction`.
@@ -351,10 +351,10 @@ def join(
     Parameters
     ----------
     rotor : Linearization
-        Without feedthrough to the outputs that reactions take.
+        Rotor without feedthrough to the outputs that reactions take.
     mounts : sequence of Mount
     parts : sequence of Linearization
-        Of the reactions, over what each feels.
+        Parts of the reactions, over what each feels.
     free : sequence of int
         Inputs of the rotor that stay inputs; one that takes the force of a reaction is a load beside it.
     masses : ndarray, optional [kg]
@@ -448,8 +448,8 @@ def mount(rotor: Dynamic, bearings: Bearings) -> MountedRotor:
     rotor : Dynamic
         Its outputs do not depend on the forces, as is so for every rotor here.
     bearings : mapping of str to Reaction
-        By the name of the station. One whose temperature is left to the balance of its heat gets it as a
-        state.
+        Bearings by the name of the station. One whose temperature is left to the balance of its heat gets it
+        as a state.
 
     Raises
     ------
@@ -490,7 +490,7 @@ def system_kernel(
     rotor : Dynamic
         A `FlexibleRotor` or a `RigidRotor`.
     bearings : mapping of str to Reaction
-        By station, at least one.
+        Bearings by station, at least one.
     carried, free : sequence of int
         Inputs of the rotor that are forces of the bearings, and the others.
     motion : sequence of int

@@ -44,11 +44,11 @@ class ReducedRotor(FlexibleRotor):
     Parameters
     ----------
     rotor : FlexibleRotor
-        With stations that hold it, so at least two unless it is on the ground otherwise.
+        Rotor with stations that hold it, so at least two unless it is on the ground otherwise.
     modes : int
         Modes kept in each plane.
     speed : float or SpeedProfile [rad/s]
-        In place of that of the rotor.
+        Speed in place of that of the rotor.
     gravity : tuple of two floats [m/s2]
         Must be that of the rotor.
     initial : tuple of float
@@ -166,7 +166,7 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     Parameters
     ----------
     rotor : FlexibleRotor
-        As `ShaftRotor`; its stations hold it.
+        Rotor as `ShaftRotor`; its stations hold it.
     frequency : float [rad/s]
         Highest frequency and speed of interest.
     tolerance : float [1]
@@ -247,12 +247,12 @@ class ModallyDampedRotor(FlexibleRotor):
     ----------
     rotor : FlexibleRotor
     damping_ratios : tuple of float [1]
-        From the lowest mode on.
+        Damping ratios from the lowest mode on.
     bearing_stiffness : float [N/m]
-        Of each station, in the modes; 0 for those of the free shaft, whose motions without springs count as
-        the first.
+        Bearing stiffness of each station, in the modes; 0 for those of the free shaft, whose motions without
+        springs count as the first.
     speed : float or SpeedProfile [rad/s]
-        In place of that of the rotor.
+        Speed in place of that of the rotor.
     gravity : tuple of two floats [m/s2]
         Must be that of the rotor.
     initial : tuple of float

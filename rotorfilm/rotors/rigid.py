@@ -77,7 +77,7 @@ class RigidRotor(Turning):
     static_force : tuple of two floats [N]
         Constant external force on the journal besides the weight.
     position, velocity : tuple of two floats [m], [m/s]
-        Of the journal center at t = 0.
+        Position and velocity of the journal center at t = 0.
 
     Raises
     ------

@@ -163,7 +163,7 @@ class LayeredElement:
     Parameters
     ----------
     layers : tuple of ShaftElement
-        Of equal length and proportional damping.
+        Layers of equal length and proportional damping.
     """
 
     layers: tuple[ShaftElement, ...]
@@ -223,7 +223,7 @@ class Coupling:
     tilt_stiffness : float [N m/rad]
         Against tilt of one side from the other.
     axial_stiffness : float or None [N/m]
-        Along the shaft; for its axial modes.
+        Axial stiffness along the shaft; for its axial modes.
     twist_stiffness : float or None [N m/rad]
         About the shaft; for its torsional modes.
     """
@@ -281,8 +281,8 @@ class BeamMatrices(NamedTuple):
     Attributes
     ----------
     mass, polar, stiffness : ndarray
-        Of translation and of rotation about a diameter; of rotation about the axis, as it acts on the tilt;
-        of bending and shear. Entries are per w [m] and theta [rad].
+        Mass, polar inertia and stiffness of translation and of rotation about a diameter; of rotation about
+        the axis, as it acts on the tilt; of bending and shear. Entries are per w [m] and theta [rad].
     geometric : ndarray
         Stiffness per axial tension [1/N of the above].
     twist : ndarray
@@ -509,7 +509,7 @@ class Disk:
     diametral_inertia, polar_inertia : float [kg m2]
         Moments of inertia about a diameter and about the axis.
     skew : float [rad]
-        By which its axis is out of that of the shaft; it excites as an unbalance does.
+        Skew by which its axis is out of that of the shaft; it excites as an unbalance does.
     skew_angle : float [rad]
         Angle from +x at t = 0, positive about +z, of the plane in which its axis leans: where it leans
         towards in the direction of +z.
@@ -562,9 +562,9 @@ class Support:
     Parameters
     ----------
     mass : float [kg]
-        Of the housing.
+        Mass of the housing.
     stiffness : float [N/m] or 2 x 2 numbers
-        From the housing to the ground; one number is the same in both directions.
+        Stiffness from the housing to the ground; one number is the same in both directions.
     damping : float [N s/m] or 2 x 2 numbers
         Beside that stiffness.
 

@@ -64,7 +64,7 @@ class ShaftRotor(Plottable, FlexibleRotor):
     Parameters
     ----------
     elements : tuple of ShaftElement, LayeredElement and Coupling
-        From the first node to the last.
+        Elements from the first node to the last.
     speed : float or SpeedProfile [rad/s]
         Angular speed about +z.
     stations : tuple of Station
@@ -407,7 +407,7 @@ class ShaftModel:
     Attributes
     ----------
     shaft : ShaftRotor
-        With the elements of the file.
+        Shaft with the elements of the file.
     beam : Beam
     pieces : int
         Elements for one of the file.

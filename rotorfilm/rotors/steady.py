@@ -37,7 +37,7 @@ class SteadyRotor(AroundRotor):
     Parameters
     ----------
     rotor : FlexibleRotor or RigidRotor
-        With a constant speed; inputs, outputs and initial state are its own.
+        Rotor with a constant speed; inputs, outputs and initial state are its own.
 
     Raises
     ------

@@ -45,9 +45,9 @@ class RossRotor:
     Attributes
     ----------
     rotor : ShaftRotor
-        With a station for each bearing, in the order of the file, and the classical beam element.
+        Rotor with a station for each bearing, in the order of the file, and the classical beam element.
     bearings : dict of str to PlanarReaction
-        By station: LinearBearing, or TabulatedBearing where the file has a table over speed.
+        Bearings by station: LinearBearing, or TabulatedBearing where the file has a table over speed.
     """
 
     rotor: rotors.ShaftRotor
@@ -63,7 +63,7 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     path : str or Path
         JSON if it ends in `.json`, as for ROSS.
     speed : float or SpeedProfile [rad/s]
-        Of the rotor; the file has none.
+        Speed of the rotor; the file has none.
 
     Raises
     ------
@@ -340,7 +340,7 @@ def to_ross_force(
     ----------
     rotor : ross.Rotor
     films : mapping of int to PlanarReaction
-        By node.
+        Films by node.
     rests : mapping of int to Coefficients
         Where each journal rests, with K and C there, as `coefficients` or a `RotorEquilibrium` has them.
 

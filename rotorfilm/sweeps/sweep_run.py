@@ -263,7 +263,7 @@ class Store:
     path : Path
         Its first line names the sweep, each other one holds a point and its row, behind its checksum.
     name : str
-        Of the sweep: another one in the file is refused.
+        Name of the sweep: another one in the file is refused.
 
     Raises
     ------

@@ -341,7 +341,7 @@ class MeltingBush:
         load : array_like, shape (...) [N]
             Not negative.
         temperature : array_like, shape (...) [K], optional
-            Of the contact; the melting point by default.
+            Temperature of the contact; the melting point by default.
 
         Returns
         -------

@@ -169,9 +169,10 @@ class Melting(NamedTuple):
     ----------
     heat : ndarray, shape (n,) [W/m2]
     by_pressure : ndarray, shape (n,)
-        By the pressure of the node itself.
+        By pressure by the pressure of the node itself.
     by_total, by_angle, by_work : ndarray, shape (n,)
-        By the integral of the pressure, half the contact angle, and the friction work per pressure.
+        By total, by angle and by work by the integral of the pressure, half the contact angle, and the
+        friction work per pressure.
     """
 
     heat: Array
@@ -187,7 +188,7 @@ class HeatState(NamedTuple):
     Attributes
     ----------
     pressure : ndarray, shape (n,)
-        In shear moduli.
+        Pressure in shear moduli.
     total, angle : float [rad]
         Integral of the pressure over the angle; half the angle in contact.
     work : float [W/m2]
@@ -305,8 +306,8 @@ class BushReaction(Called):
     wear_depth : tuple of floats [m]
         Wear at t = 0 at the nodes, not negative; empty for none.
     temperature : float or None [K]
-        Of the contact above ambient, at most the melting point; None for that, with a warning where a worn
-        contact would cool.
+        Temperature of the contact above ambient, at most the melting point; None for that, with a warning
+        where a worn contact would cool.
 
     Raises
     ------
@@ -409,7 +410,7 @@ class BushReaction(Called):
         ----------
         position, velocity : array_like, shape (2, ...) [m], [m/s]
         speed : array_like, shape (...) [rad/s]
-            Of either sign; without rotation there is no friction.
+            Speed of either sign; without rotation there is no friction.
 
         Raises
         ------
@@ -488,7 +489,7 @@ class BushReaction(Called):
         -------
         position : ndarray, shape (2,) [m]
         temperature : float [K]
-            Of the contact above ambient.
+            Temperature of the contact above ambient.
         """
         depths = self.initial_state if wear is None else require_finite("wear", wear)
 

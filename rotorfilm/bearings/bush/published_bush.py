@@ -86,9 +86,9 @@ def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: Arr
     Parameters
     ----------
     bush : MeltingBush
-        With `ContactBalance()` and a positive `outer_swing`, which the unit of time needs.
+        Bush with `ContactBalance()` and a positive `outer_swing`, which the unit of time needs.
     load : array_like, shape () or (n,) [N]
-        At the times; constant in the source.
+        Load at the times; constant in the source.
     speed : float [rad/s]
         Not negative.
     times : array_like, shape (n,)

@@ -49,14 +49,14 @@ class BallSupport(Called):
     Parameters
     ----------
     law : ContactLaw
-        In SI, from `reduce_ball`.
+        Law in SI, from `reduce_ball`.
     angles : tuple of float [rad]
-        Where the balls are, from +x towards +y.
+        Angles where the balls are, from +x towards +y.
     gap : float [m]
         Approach of every ball where the journal is in the center; negative for a preload, as
         `law.approach(load)`.
     position : (float, float) [m]
-        Of the journal until t = 0, where the balls have rested.
+        Position of the journal until t = 0, where the balls have rested.
 
     Raises
     ------
@@ -306,7 +306,7 @@ def ball_transient(
     Parameters
     ----------
     law : ContactLaw
-        In SI, or dimensionless; then mass is W/(2 pi/3) and load is f.
+        Law in SI, or dimensionless; then mass is W/(2 pi/3) and load is f.
     mass : float [kg]
     load : callable
         Force towards the plane over time [N]; integration stops at its `breakpoints`, if it has that

@@ -255,7 +255,7 @@ class DenseDeflection:
     ----------
     grid : ContactGrid
     kernel : callable
-        As of `Deflection`.
+        Kernel as of `Deflection`.
     """
 
     def __init__(self, grid: ContactGrid, *, kernel: Kernel) -> None:
@@ -295,7 +295,7 @@ class Sampling(NamedTuple):
     gap : ndarray, shape (samples,)
         x^2 + (rho_y/rho_x) y^2 at the samples.
     deflection : Deflection or DenseDeflection
-        From pressures on the cells to the samples.
+        Deflection from pressures on the cells to the samples.
     center : ndarray, shape (n,)
         Deflection at the origin per pressure of a cell.
     along, across : sparse matrix
@@ -308,7 +308,7 @@ class Sampling(NamedTuple):
     stored : sparse matrix, shape (n, samples)
         Film thickness in the cells.
     spread : sparse matrix, shape (samples, n)
-        From cells to samples, 0 outside the grid: takes the density there.
+        Spread from cells to samples, 0 outside the grid: takes the density there.
     """
 
     gap: Array

@@ -119,7 +119,7 @@ class Memory(NamedTuple):
     step : float [1]
         Length proposed for the next step.
     place : Place or None
-        Where the preconditioner was made.
+        Place where the preconditioner was made.
     work : dict of str to int
         Steps, rejected steps, Newton and GMRES iterations.
     """
@@ -456,7 +456,7 @@ class ContactRun(Drawable):
     time : ndarray [1]
         Times of the results.
     delta, velocity, central_film, minimum_film, carried_load : ndarray [1]
-        As in `ContactState`.
+        Delta, velocity, central film, minimum film and carried load as in `ContactState`.
     driven : ndarray [1]
         Load f, or approach of a driven contact, at those times.
     snapshots : tuple of ContactState

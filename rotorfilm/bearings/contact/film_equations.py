@@ -188,7 +188,7 @@ def roelands_viscosity(
     Parameters
     ----------
     viscosity : float [Pa s]
-        At ambient pressure.
+        Viscosity at ambient pressure.
     pressure_coefficient : float [1/Pa]
         d ln mu/dp at ambient pressure.
     pressure : float [Pa]

@@ -93,7 +93,7 @@ class PointContact:
     piezoviscosity : Piezoviscosity
         `BarusViscosity()` or `RoelandsViscosity(...)`.
     density : DowsonHigginsonDensity, optional
-        Of the lubricant; incompressible by default.
+        Density of the lubricant; incompressible by default.
     ellipticity : float [1]
         Longer over shorter half-axis of the dry contact; 1, a circle, by default.
 
@@ -203,11 +203,11 @@ class PointContact:
         Parameters
         ----------
         start : ContactState or ContactRun
-            From `stationary`, `state` or an earlier run. A run that is not complete. With the same other
-            arguments it continues to its end, and the result is bit for bit that of an uninterrupted run. If
-            it was read from a file, earlier snapshots are missing, since the file does not hold them.
+            Start from `stationary`, `state` or an earlier run. A run that is not complete. With the same
+            other arguments it continues to its end, and the result is bit for bit that of an uninterrupted
+            run. If it was read from a file, earlier snapshots are missing, since the file does not hold them.
         duration : float [1]
-            Of the run as a whole.
+            Duration of the run as a whole.
         W : float [1]
             Inertia of the ball, pi ellipticity m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
         load : float or callable
@@ -356,23 +356,23 @@ class RollingBall:
     Parameters
     ----------
     radius : float [m]
-        Of the ball.
+        Radius of the ball.
     mass : float [kg]
         Moving with the ball against the contact.
     modulus, poisson_ratio : float [Pa, 1]
-        Of the ball.
+        Elastic modulus and Poisson's ratio of the ball.
     viscosity : float [Pa s]
-        At ambient pressure.
+        Viscosity at ambient pressure.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     speed : float [m/s]
-        Of the ball's center along the plane, > 0.
+        Speed of the ball's center along the plane, > 0.
     load : float [N]
         Static, its weight included.
     plane_modulus : float [Pa]
-        Of the plane; infinite (rigid), as published, by default.
+        Elastic modulus of the plane; infinite (rigid), as published, by default.
     plane_poisson_ratio : float [1]
-        Of the plane.
+        Poisson's ratio of the plane.
 
     Raises
     ------
@@ -481,7 +481,7 @@ class RollingBall:
         Parameters
         ----------
         grid, scheme : optional
-            As in `PointContact`.
+            Grid and scheme as in `PointContact`.
         roelands : bool
             Whether the viscosity follows Roelands' law, with the same slope at ambient pressure, rather than
             Barus' exponential.

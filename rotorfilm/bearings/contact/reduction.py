@@ -113,11 +113,11 @@ def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linear
     Parameters
     ----------
     laws : list of ContactLaw
-        In SI.
+        Laws in SI.
     shares : ndarray, shape (n,)
         Sum 1.
     order : int
-        Of the result.
+        Order of the result.
     """
     unit = max(law.time_scale for law in laws)
     value = np.zeros(len(FREQUENCIES), dtype=complex)
@@ -284,7 +284,7 @@ def fit_transfer(
     order : int
         Number of states, at least 1.
     weight : ndarray, shape (n,)
-        By which deviations count.
+        Weight by which deviations count.
 
     Raises
     ------

@@ -178,7 +178,7 @@ class SqueezeFilmDamper(InertialModel):
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the film.
+        Radius, length and clearance of the film.
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     cage : PorousCage or None
@@ -192,10 +192,10 @@ class SqueezeFilmDamper(InertialModel):
         `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
         run in C inside an FMU, or, for history, `PublishedSqueeze()`.
     seals : EndSeal or None
-        At both ends of a solid cage without feed; None for open ends.
+        Seals at both ends of a solid cage without feed; None for open ends.
     density : float [kg/m3]
-        Of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a solid
-        cage without feed. 0 without inertia.
+        Density of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a
+        solid cage without feed. 0 without inertia.
 
     Raises
     ------
@@ -401,7 +401,7 @@ class SqueezeFilmDamper(InertialModel):
         position : array_like, shape (2, ...) [m]
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s], optional
-            Of a ruptured film, whose mass depends on its direction; a full one takes none.
+            Velocity of a ruptured film, whose mass depends on its direction; a full one takes none.
         speed : array_like, shape (...) [rad/s]
             Not used.
 
@@ -440,7 +440,7 @@ class SqueezeFilmDamper(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         require_inertia_range(self.reynolds_number(frequency), cavitated=self.squeeze_case.cavitated)
 
@@ -450,7 +450,7 @@ class SqueezeFilmDamper(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion; 0 for slow motion.
+            Frequency of the motion; 0 for slow motion.
 
         Raises
         ------
@@ -718,9 +718,9 @@ def damper_groups(
     mass : float [kg]
         Carried by this damper.
     speed : float [rad/s]
-        Of the rotor.
+        Speed of the rotor.
     stiffness : float [N/m]
-        Of the retainer springs.
+        Stiffness of the retainer springs.
     unbalance : float [kg m]
     reference_speed : float [rad/s], optional
         w_r; the speed itself by default.

@@ -46,7 +46,7 @@ class SqueezeMatrices(Readable):
     added_mass : ndarray, shape (2, 2) [kg]
         The same by acceleration.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
     """
 
     damping: Array
@@ -68,11 +68,11 @@ def hole_small_motion(
     damper : SqueezeFilmDamper
         Solid, with a full film.
     holes : tuple of FeedHole
-        At mid-length, small beside the length.
+        Holes at mid-length, small beside the length.
     conductance : float [m3/(Pa.s)]
         Flow through a hole, with its pipe, per pressure.
     frequency : float [rad/s]
-        Of the motion; 0 for slow motion.
+        Frequency of the motion; 0 for slow motion.
 
     Raises
     ------
@@ -167,11 +167,11 @@ def feed_squeeze_number(
     ----------
     damper : SqueezeFilmDamper
     flow : float [m3/s]
-        Of oil fed to the film.
+        Flow of oil fed to the film.
     amplitude : float [m]
         Radius of the orbit.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
 
     Raises
     ------

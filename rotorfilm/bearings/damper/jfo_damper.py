@@ -64,15 +64,15 @@ class DamperSupply:
     Parameters
     ----------
     supply_pressure : float [Pa]
-        In the groove or the holes.
+        Supply pressure in the groove or the holes.
     circumferential_groove : float or None [m]
         Width of a groove all round in the middle of the length, which has no film; None for none.
     end_groove : bool
         Whether the oil comes from a groove all round beyond one end of the film; the other end is open.
     feed_holes : tuple of FeedHole
-        In the middle of the length.
+        Feed holes in the middle of the length.
     cavitation_pressure : float [Pa]
-        In the cavity, not above 0.
+        Cavitation pressure in the cavity, not above 0.
     submerged : bool
         Whether there is oil around open ends. It is what they draw in where the film is below ambient
         pressure; in air that would be air, of which there is a warning.
@@ -155,12 +155,13 @@ class JFODamper(MassConserving):
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the film; the length with a groove in its middle.
+        Radius, length and clearance of the film; the length with a groove in its middle.
     viscosity : float [Pa s]
     supply : DamperSupply
     stiffness : float [N/m]
-        Of retainer springs, preloaded so that they carry the static load where the rotor is centered. Their
-        force is part of `force` and of steps in time, not of that of the film: `orbit`, `damper_turn`.
+        Stiffness of retainer springs, preloaded so that they carry the static load where the rotor is
+        centered. Their force is part of `force` and of steps in time, not of that of the film: `orbit`,
+        `damper_turn`.
     cells : tuple of int
         Lines around the film and cells along half its length, about; even numbers.
 
@@ -215,7 +216,7 @@ class JFODamper(MassConserving):
         eccentricity_ratio : float [1]
             Radius of the orbit / clearance, at least 0 and below 1.
         speed : float [rad/s]
-            Of the orbit, of either sign.
+            Speed of the orbit, of either sign.
 
         Raises
         ------
@@ -244,7 +245,7 @@ class JFODamper(MassConserving):
         Parameters
         ----------
         eccentricity_ratio, speed : float [1], [rad/s]
-            As in `orbit`; speed 0 for a rotor at rest.
+            Eccentricity ratio and speed as in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """
         return self._stiffness(self._turning(eccentricity_ratio, require_number("speed", speed)), s)
@@ -351,9 +352,10 @@ class JFOOrbit(Drawable):
     ----------
     eccentricity_ratio : float [1]
     speed : float [rad/s]
-        Of the orbit.
+        Speed of the orbit.
     radial_force, tangential_force : float [N]
-        Of the film on the rotor, outward and in the sense of rotation by +z.
+        Radial force and tangential force of the film on the rotor, outward and in the sense of rotation by
+        +z.
     angle : ndarray, shape (N,) [rad]
         Lines, from the line of centers, where the gap is least.
     axial : ndarray, shape (M,) [m]
@@ -416,7 +418,7 @@ class ExtrapolatedDamper(StaticReaction):
     Parameters
     ----------
     damper : JFODamper
-        Without springs.
+        Damper without springs.
     """
 
     largest_eccentricity_ratio: ClassVar[float] = 0.95
@@ -467,11 +469,11 @@ class DamperTurn(Drawable):
     Attributes
     ----------
     time : ndarray, shape (n,) [s]
-        From the start of the turn to the end of each step.
+        Time from the start of the turn to the end of each step.
     position : ndarray, shape (2, n) [m]
-        Of the rotor, at those times.
+        Position of the rotor, at those times.
     force : ndarray, shape (2, n) [N]
-        Of the film on the rotor.
+        Force of the film on the rotor.
     angle : ndarray, shape (N,) [rad]
         Lines, in the bearing frame from +x towards +y.
     axial : ndarray, shape (M,) [m]
@@ -487,7 +489,7 @@ class DamperTurn(Drawable):
     turns : int
         Turns until film and motion repeated themselves.
     change : float [1]
-        Of the force from the last turn but one to the last, over the largest force.
+        Change of the force from the last turn but one to the last, over the largest force.
     """
 
     _shown: ClassVar[tuple[str, ...]] = ("peak_force",)
@@ -530,7 +532,7 @@ def damper_turn(
     ----------
     damper : JFODamper
     position : array_like, shape (2, n) [m]
-        Of the rotor at n equal times of a turn, at least 24; 192 are good for 0.2 % of the force.
+        Position of the rotor at n equal times of a turn, at least 24; 192 are good for 0.2 % of the force.
     speed : float [rad/s]
         Turns of the motion in 2 pi seconds, positive: with the rotor's unbalance, its speed.
     most_turns : int

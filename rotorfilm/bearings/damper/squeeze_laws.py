@@ -37,7 +37,7 @@ class SqueezeCase(NamedTuple):
     layer : PorousLayer or None
         None for a solid cage.
     modes : LayerModes
-        Of the layer.
+        Modes of the layer.
     feed : ndarray, shape (N,) [1/s]
         Feed of each group of modes, weight included.
     ends : tuple of two floats [1/s]
@@ -229,9 +229,9 @@ class ZoneInertia:
     Parameters
     ----------
     share : float [1]
-        Of the short film's inertia: 1, or that of a film of finite length in small motion about the center,
-        where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5 the mass
-        along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
+        Share of the short film's inertia: 1, or that of a film of finite length in small motion about the
+        center, where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5
+        the mass along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
     """
 
     share: float = 1.0
@@ -514,8 +514,8 @@ class SqueezeMotions(NamedTuple):
     Attributes
     ----------
     damping, mass : tuple of two floats
-        Along the radius and across it; [viscosity radius length^3/clearance^3], [density radius
-        length^3/clearance].
+        Damping and mass along the radius and across it; [viscosity radius length^3/clearance^3], [density
+        radius length^3/clearance].
     convection : tuple of three floats
         Radial force of w_r^2, radial of w_t^2, tangential of w_r w_t; [density radius length^3].
     """
@@ -675,7 +675,7 @@ class EndSeal:
     leakage : float [m2/(Pa.s)]
         G_s, volume per time, circumference and pressure; 0 for a tight seal.
     uncertainty : float [1]
-        Of the leakage, relative: it may be that much larger or smaller. Below 1.
+        Uncertainty of the leakage, relative: it may be that much larger or smaller. Below 1.
 
     Raises
     ------
@@ -706,7 +706,7 @@ def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
     Parameters
     ----------
     height, length : float [m]
-        Of the gap, along the radius and along the axis.
+        Height and length of the gap, along the radius and along the axis.
     viscosity : float [Pa s]
 
     Raises
@@ -732,9 +732,9 @@ def leak_test_seal(*, flow: float, pressure: float, radius: float, uncertainty: 
     pressure : float [Pa]
         Inside, above that outside.
     radius : float [m]
-        Of the film.
+        Radius of the film.
     uncertainty : float [1]
-        As of an `EndSeal`.
+        Uncertainty as for an `EndSeal`.
 
     Raises
     ------
@@ -756,8 +756,8 @@ class SealedShortFilm:
     film : SqueezeFilm
         The same with open ends.
     damping : float [1]
-        Of the seals: pi c^3/(2 viscosity G_s L) in the film's units, half of that where the film ruptures,
-        since the pressure at the ends has the sign of that in the film.
+        Damping of the seals: pi c^3/(2 viscosity G_s L) in the film's units, half of that where the film
+        ruptures, since the pressure at the ends has the sign of that in the film.
     """
 
     film: SqueezeFilm

@@ -76,7 +76,7 @@ class SqueezeTable:
     cavitated : bool
         Whether the film ruptures.
     table : MapTable
-        In units of viscosity * radius * length^3 / clearance^2 per 1/s.
+        Table in units of viscosity * radius * length^3 / clearance^2 per 1/s.
     """
 
     slenderness: float | None
@@ -109,7 +109,7 @@ def squeeze_table(
         None for a solid cage.
     cavitated : bool
     cells : (int, int)
-        Over the eccentricity ratio and the direction of the velocity.
+        Cells over the eccentricity ratio and the direction of the velocity.
     """
     if slenderness is None:
         table = _short_table(layer, cavitated, cells)
@@ -225,7 +225,7 @@ class MapSqueeze(TabulatedSqueeze):
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
     table : SqueezeTable, optional
-        Of this damper, as `tabulated` gives it; made by default.
+        Table of this damper, as `tabulated` gives it; made by default.
     """
 
     is_short: ClassVar[bool] = True
@@ -260,7 +260,7 @@ class FiniteMapSqueeze(TabulatedSqueeze):
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
     table : SqueezeTable, optional
-        Of this damper, as `tabulated` gives it; made, or found on disk, by default.
+        Table of this damper, as `tabulated` gives it; made, or found on disk, by default.
     """
 
     is_short: ClassVar[bool] = False
@@ -293,7 +293,7 @@ class SqueezeMapFilm(KernelFilm):
     Parameters
     ----------
     kernel : MapKernel
-        Of any slenderness.
+        Kernel of any slenderness.
     """
 
     kernel: MapKernel
@@ -309,7 +309,7 @@ class MappedSqueezeFilm:
     Parameters
     ----------
     film : SqueezeMapFilm
-        In units of a squeeze film.
+        Film in units of a squeeze film.
     one_slenderness : bool
         Whether the table is that of one length / diameter only, as that of a film of finite length.
     """

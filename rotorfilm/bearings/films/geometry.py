@@ -25,7 +25,8 @@ class Groove:
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
     length : float or None [m]
-        Along the axis, in the middle of the bearing; None for a groove that is open at both ends of it.
+        Length along the axis, in the middle of the bearing; None for a groove that is open at both ends of
+        it.
     """
 
     center: float
@@ -53,7 +54,7 @@ class FeedHole:
     center : float [rad]
         Angle of its middle in the bearing frame, from +x towards +y.
     diameter : float [m]
-        Of a round hole.
+        Diameter of a round hole.
     """
 
     center: float
@@ -80,7 +81,7 @@ class Pocket:
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
     share : float [1]
-        Of the bearing's length that it covers, 0 < share < 1.
+        Share of the bearing's length that it covers, 0 < share < 1.
     """
 
     center: float
@@ -127,7 +128,7 @@ class SunkArc:
     start, end : float [rad]
         Angles of its edges in the bearing frame.
     share : float [1]
-        Of the bearing's length that it covers, 0 < share <= 1.
+        Share of the bearing's length that it covers, 0 < share <= 1.
     depth_ratio : float [1]
         Depth below the wall over the clearance.
     """
@@ -152,7 +153,7 @@ class Span:
     held : float | None [1/s]
         Pressure p c^2/(12 viscosity R^2) of an opening; None for film.
     share : float [1]
-        Of the bearing's length that an opening covers; beside it there is film.
+        Share of the bearing's length that an opening covers; beside it there is film.
     """
 
     start: float

@@ -343,7 +343,7 @@ def told(report: Report, of: str, folder: Path) -> Report:
     of : str
         What the table is of.
     folder : Path
-        Where it will be kept.
+        Folder where it will be kept.
     """
     said: list[str] = []
 

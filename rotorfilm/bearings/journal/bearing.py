@@ -69,9 +69,9 @@ class JournalBearing(FilmReaction, WarmBearing):
     oil : Oil or None
         The lubricant by its viscosity over temperature, in place of `viscosity`.
     temperature : float or None [K]
-        Of the film, where the oil is given: force and derivatives are those of its viscosity there. None
-        leaves it to the heat balance, with `cooling`: then `equilibrium` finds it with the position, and a
-        force of its own the bearing has only by `at_temperature`.
+        Temperature of the film, where the oil is given: force and derivatives are those of its viscosity
+        there. None leaves it to the heat balance, with `cooling`: then `equilibrium` finds it with the
+        position, and a force of its own the bearing has only by `at_temperature`.
     cooling : Cooling or None
         What takes the heat away; needed for a heat balance only.
     film : FilmLaw
@@ -535,7 +535,7 @@ def bearing_losses(
     ----------
     bearing : JournalBearing
     position, velocity : ndarray, shape (2, ...) [m], [m/s]
-        Of the journal's center.
+        Position and velocity of the journal's center.
     speed : ndarray, shape (...) [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
@@ -623,7 +623,8 @@ class BalancedBearing(StaticReaction):
     Parameters
     ----------
     bearing : JournalBearing
-        With oil and cooling; its film law has losses in the C library, as `MapFilm` has and `ShortFilm`.
+        Bearing with oil and cooling; its film law has losses in the C library, as `MapFilm` has and
+        `ShortFilm`.
     """
 
     bearing: WarmBearing
@@ -755,7 +756,7 @@ def heat_numbers(bearing: WarmBearing, position: ArrayLike, speed: float) -> Hea
     ----------
     bearing : JournalBearing
     position : array_like, shape (2,) [m]
-        Of the journal, off the center: where the film at supply temperature carries the load.
+        Position of the journal, off the center: where the film at supply temperature carries the load.
     speed : float [rad/s]
 
     Raises
@@ -790,7 +791,7 @@ class StaticFilm(Readable):
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     force : ndarray, shape (2,) [N]
-        On the journal.
+        Force on the journal.
     angle : ndarray, shape (N,) [rad]
         Lines, in the bearing frame from +x towards +y.
     """

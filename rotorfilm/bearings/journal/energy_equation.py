@@ -78,7 +78,7 @@ class HeldWalls:
     Parameters
     ----------
     bush_temperature, journal_temperature : float [K]
-        At the bore, all round, and of the journal.
+        Bush temperature and journal temperature at the bore, all round, and of the journal.
     """
 
     bush_temperature: float
@@ -113,7 +113,7 @@ class BushRing:
     transfer : float [W/(m2 K)]
         h from the outside of the bush to its surroundings; 0 insulates it.
     ambient_temperature : float [K]
-        Of the surroundings.
+        Ambient temperature of the surroundings.
     shaft_conductance : float [W/K]
         Heat that the shaft carries off from the bearing, per kelvin above the surroundings; 0 if nothing is
         known, so that the journal is as warm as makes its net heat zero.
@@ -152,7 +152,7 @@ class BushRing:
         Parameters
         ----------
         radius : float [m]
-            Of the bearing.
+            Radius of the bearing.
         start, extent : ndarray, shape (N,) [rad]
             Cells around the film.
         """
@@ -193,11 +193,11 @@ class Heating(NamedTuple):
     flow : FilmFlow
     speed : float [rad/s]
     viscosity : ndarray, shape (N, M, ...) [1]
-        Over that of the bearing; a last axis is that of layers.
+        Viscosity over that of the bearing; a last axis is that of layers.
     thinning : ndarray, shape (N, M, ...) [1/K]
-        By which heat falls as the oil warms; 0 to hold it.
+        Thinning by which heat falls as the oil warms; 0 to hold it.
     temperature : ndarray, shape (N, M, ...) [K]
-        At which the oil has this viscosity, above that of the supply.
+        Temperature at which the oil has this viscosity, above that of the supply.
     capacity : float [J/K]
         Volumetric heat of fresh oil x clearance x radius x length: what the flows carry.
     friction : float [W s2]
@@ -257,12 +257,12 @@ class HeatSolution(NamedTuple):
     Attributes
     ----------
     oil : ndarray, shape (N, M, ...) [K]
-        In openings that of the mixed oil.
+        Oil in openings that of the mixed oil.
     openings : ndarray, shape (openings,) [K]
-        Of that oil.
+        Openings of that oil.
     bush : ndarray, shape (N,), or None [K]
     journal : float or None [K]
-        Of the walls; None of those that take no heat.
+        Journal of the walls; None of those that take no heat.
     heat : HeatAccount
     """
 

@@ -120,7 +120,7 @@ def film_state(
     ----------
     bearing : JournalBearing
     position, velocity : array_like, shape (2,) [m], [m/s]
-        Of the journal's center.
+        Position and velocity of the journal's center.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
@@ -278,7 +278,7 @@ def splitting_pressure(
     slenderness : float [1]
         Length / diameter.
     axial : ndarray, shape (M,) [1]
-        From the middle of the bearing, 0, to its end, 1.
+        Axial from the middle of the bearing, 0, to its end, 1.
 
     Returns
     -------

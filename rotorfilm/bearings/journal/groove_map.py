@@ -329,9 +329,9 @@ class Resolution(NamedTuple):
         Nodes over the eccentricity ratio without the center, over its direction, and over that of the
         source.
     largest_eccentricity_ratio : float [1]
-        Of the last node.
+        Largest eccentricity ratio of the last node.
     mobility : Mobility or None
-        Of the oil, over the thickness.
+        Mobility of the oil, over the thickness.
     """
 
     cells: tuple[int, int]
@@ -427,7 +427,7 @@ def whole_losses(
     Parameters
     ----------
     nodes : ndarray
-        Of `node_losses_between`, of one direction of e after the other, for each eccentricity ratio.
+        Nodes of `node_losses_between`, of one direction of e after the other, for each eccentricity ratio.
     solved : ndarray of int
         Directions of e.
     """
@@ -551,7 +551,7 @@ def bound_states(
     grooves : tuple of Groove
         The openings, from the axis of the map.
     largest_eccentricity_ratio : float [1]
-        Of the map.
+        Largest eccentricity ratio of the map.
 
     Returns
     -------

@@ -61,7 +61,7 @@ class GroovedMapFilm(KernelFilm):
         Nodes of the map over the eccentricity ratio (at least 6), and over the directions of the
         eccentricity and of the source (even, at least 12).
     largest_eccentricity_ratio : float [1]
-        Of the last node.
+        Largest eccentricity ratio of the last node.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
         factor of its Couette flow is 1, and it does not change with the speed. Beyond the largest

@@ -126,7 +126,7 @@ class HeatRounds:
         Parameters
         ----------
         position : array_like, shape (2,) [m]
-            Of the journal's center.
+            Position of the journal's center.
         speed : float [rad/s]
             Angular speed about +z, of either sign, not 0.
 
@@ -174,7 +174,7 @@ class HeatRounds:
         position, speed, closing
             As in `warmed`.
         temperature : array_like [K]
-            Such as that of a cheaper film; it broadcasts to the cells.
+            Temperature such as that of a cheaper film; it broadcasts to the cells.
         """
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
         return self._round(*self._checked(position, speed), T, None, closing)
@@ -315,8 +315,8 @@ class HeatedFilm(HeatRounds):
     Parameters
     ----------
     bearing : JournalBearing, LobedBearing, PressureDamBearing or TiltingPadBearing
-        With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
-        housing have no part. Between pads are openings as between the pads of a journal bearing. Tilting
+        Bearing with oil and cooling; of these it takes supply temperature and carry-over. Its own film law
+        and housing have no part. Between pads are openings as between the pads of a journal bearing. Tilting
         pads stand so that the film of each has no moment about its pivot.
     walls : Walls
         `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`. Tilting pads are no ring.
@@ -448,11 +448,11 @@ class HeatedState(StaticFilm, Drawable):
     oil_temperature : ndarray, shape (N, M) or (N, M, layers) [K]
         The mean across the film, or that of its layers from the bush to the journal.
     bush_temperature : ndarray, shape (N,), or None [K]
-        At the bore; None for walls that take no heat.
+        Bush temperature at the bore; None for walls that take no heat.
     journal_temperature : float or None [K]
-        Of the whole journal.
+        Journal temperature of the whole journal.
     maximum_temperature : float [K]
-        Of the oil in the film.
+        Maximum temperature of the oil in the film.
     power_loss : float [W]
         Power of the shaft that becomes heat.
     friction_torque : float [N m]
@@ -463,7 +463,8 @@ class HeatedState(StaticFilm, Drawable):
     film : FrozenFilm or FrozenJFOFilm
         The film at frozen temperature: a Reaction with exact derivatives.
     film_temperature : ndarray, shape of oil_temperature [K]
-        At which the film has its viscosity; that of the oil when the rounds have come to rest.
+        Film temperature at which the film has its viscosity; that of the oil when the rounds have come to
+        rest.
     rounds : int
         Solutions of film and heat in turn until here.
     """
@@ -497,7 +498,7 @@ class HeatedJFOState(HeatedState):
         Oil that leaves each opening for the film, and that arrives there, in the order of
         `FilmGeometry.openings`; a circumferential groove is the last.
     opening_temperature : ndarray, shape (openings,) [K]
-        Of what leaves it: the oil that arrives, as much as goes on, mixed with fresh oil.
+        Opening temperature of what leaves it: the oil that arrives, as much as goes on, mixed with fresh oil.
     drawn_in : float [m3/s]
         Oil that enters through both ends, of the temperature of the supply.
     """
@@ -521,8 +522,8 @@ class HeatedJFOFilm(HeatRounds):
     Parameters
     ----------
     film : JFOFilm
-        Of a bearing with oil and cooling; of these it takes supply temperature and carry-over. What fills
-        the cavity is known, so that `full_gap` has no part.
+        Film of a bearing with oil and cooling; of these it takes supply temperature and carry-over. What
+        fills the cavity is known, so that `full_gap` has no part.
     walls : Walls
         `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
     profile : FilmProfile
@@ -665,7 +666,7 @@ class FrozenJFOFilm(JFOFilm):
     Parameters
     ----------
     fluidity : Fluidity
-        Of the oil in each cell, over that of the bearing.
+        Fluidity of the oil in each cell, over that of the bearing.
     """
 
     fluidity: Fluidity

@@ -102,9 +102,9 @@ class JFOFilm(MassConserving):
     Parameters
     ----------
     bearing : JournalBearing
-        With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the
-        whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
-        law has no part. On an oil with a cooling `equilibrium` finds the temperature of the film too.
+        Bearing with what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over
+        the whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own
+        film law has no part. On an oil with a cooling `equilibrium` finds the temperature of the film too.
     cells : tuple of int
         Lines around the film and cells along half the length, about; even numbers.
     supply_flow : float or None [m3/s]
@@ -196,7 +196,7 @@ class JFOFilm(MassConserving):
         Parameters
         ----------
         position : array_like, shape (2,) [m]
-            Of the journal's center.
+            Position of the journal's center.
         speed : float [rad/s]
             Angular speed about +z, of either sign.
 
@@ -221,7 +221,7 @@ class JFOFilm(MassConserving):
         Parameters
         ----------
         position, speed : array_like, shape (2,) [m], and float [rad/s]
-            As in `solve`.
+            Position and speed as in `solve`.
         s : complex [1/s]
             Growth rate + i frequency.
         """
@@ -240,7 +240,7 @@ class JFOFilm(MassConserving):
         Parameters
         ----------
         position, speed : array_like, shape (2,) [m], and float [rad/s]
-            As in `solve`.
+            Position and speed as in `solve`.
         """
         q, state = self._steady(position, speed)
         K, C, _ = self.scaled.about(state).slow()
@@ -361,7 +361,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
     Parameters
     ----------
     film : JFOFilm
-        Of a bearing without a circumferential groove, with its temperature stated.
+        Film of a bearing without a circumferential groove, with its temperature stated.
 
     Raises
     ------
@@ -588,7 +588,8 @@ class RuptureError(Readable):
     force_error : float [1]
         Distance of both forces over that of the film that conserves its oil.
     side_flow_error, torque_error : float [1]
-        Of Reynolds rupture over that of the film that conserves its oil, less 1.
+        Side flow error and torque error of Reynolds rupture over that of the film that conserves its oil,
+        less 1.
     """
 
     force_error: float
@@ -606,9 +607,9 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     Parameters
     ----------
     bearing : JournalBearing
-        With what feeds it; its own film law has no part.
+        Bearing with what feeds it; its own film law has no part.
     position : array_like, shape (2,) [m]
-        Of the journal's center.
+        Position of the journal's center.
     speed : float [rad/s]
         Angular speed about +z.
 

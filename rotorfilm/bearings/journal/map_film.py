@@ -243,7 +243,7 @@ class LossTable(MapTable):
     reach : float [1]
         X of the last node; beyond it all are powers of X.
     log_center : ndarray, shape (s, 3)
-        Of ln(g Sigma_f), ln(g (Sigma_f + Sigma_r)) and ln(flow/|w|).
+        Log center of ln(g Sigma_f), ln(g (Sigma_f + Sigma_r)) and ln(flow/|w|).
     coefficients : ndarray, shape (s, 3, cells_x + 5, cells_s + 5)
         Spline coefficients of M over ln(L/D), of the three, over X and over s.
 

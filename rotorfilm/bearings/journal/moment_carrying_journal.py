@@ -98,8 +98,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     Parameters
     ----------
     bearing : JournalBearing
-        With a `ReynoldsFilm` or an `ExtrapolatedFilm` whose start, if it has one, does not turn with the
-        journal; without a circumferential groove, and with its temperature stated.
+        Bearing with a `ReynoldsFilm` or an `ExtrapolatedFilm` whose start, if it has one, does not turn with
+        the journal; without a circumferential groove, and with its temperature stated.
 
     Raises
     ------

@@ -44,7 +44,7 @@ class HeatedBearing:
     Parameters
     ----------
     bearing : JournalBearing or LobedBearing
-        With oil and cooling, its temperature left to the heat balance.
+        Bearing with oil and cooling, its temperature left to the heat balance.
     start_temperature : float or None [K]
         Temperature at t = 0; None for that of the fresh oil.
 
@@ -215,7 +215,7 @@ def heated_spec(
     Parameters
     ----------
     values : mapping of str to float
-        Of its parameters, in SI; `carry_over` where there are openings.
+        Values of its parameters, in SI; `carry_over` where there are openings.
     film : mapping of str to ndarray
         Tables of the film and of its losses; empty for the short film.
     oil : OilTable
@@ -386,7 +386,7 @@ class WarmBearing(LaminarFilm):
         Parameters
         ----------
         start_temperature : float or None [K]
-            As that of an equilibrium; None for that of the fresh oil.
+            Start temperature as that of an equilibrium; None for that of the fresh oil.
         """
         return HeatedBearing(bearing=self, start_temperature=start_temperature)
 
@@ -437,7 +437,7 @@ class FilmHeat(NamedTuple):
     power : float [W]
         Power that goes into the oil.
     viscosity : float [Pa s]
-        At which that is.
+        Viscosity at which that is.
     flow : float [m3/s]
         Effective flow Q_e of fresh oil.
     side_flow : float [m3/s]

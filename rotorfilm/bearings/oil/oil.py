@@ -81,7 +81,7 @@ class Walther:
     steepness : float [1]
         How steeply the viscosity falls, positive.
     density : float [kg/m3]
-        At 15 degrees Celsius.
+        Density at 15 degrees Celsius.
     """
 
     intercept: float
@@ -525,7 +525,7 @@ class Cooling:
     Parameters
     ----------
     supply_temperature : float [K]
-        Of the fresh oil.
+        Supply temperature of the fresh oil.
     ambient_temperature : float or None [K]
         Around the housing; None for that of the fresh oil.
     housing_conductance : float [W/K]
@@ -535,8 +535,8 @@ class Cooling:
         Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it
         has no part.
     bush_heat_capacity : float or None [J/K]
-        Of the bush, and of what of housing and shaft warms with it. None for a steel ring to `RING` times the
-        radius.
+        Bush heat capacity of the bush, and of what of housing and shaft warms with it. None for a steel ring
+        to `RING` times the radius.
     full_gap : bool
         Whether oil fills the whole gap also where the film is ruptured. By default it is in streamers there,
         which take less power.
@@ -628,7 +628,7 @@ def compression(
     ----------
     load : array_like, shape (2,) [N]
     radius, length : float [m]
-        Of the bearing.
+        Radius and length of the bearing.
     bulk_modulus : float [Pa]
     """
     return math.hypot(*load) / (2.0 * radius * length) / bulk_modulus
@@ -662,10 +662,10 @@ def film_reynolds(
     ----------
     radius, clearance : float [m]
     viscosity : float [Pa s]
-        At the temperature of the film.
+        Viscosity at the temperature of the film.
     density : float [kg/m3]
     speed : float [rad/s]
-        Of the journal, of either sign.
+        Speed of the journal, of either sign.
     """
     reynolds = abs(speed) * radius * clearance * density / viscosity
     return FilmNumbers(reynolds, reynolds * math.sqrt(clearance / radius))
@@ -693,7 +693,7 @@ class LaminarFilm(FilmUnits):
         ----------
         speed : float [rad/s]
         temperature : float, optional [K]
-            Of the oil in the mean; by default that of the bearing.
+            Temperature of the oil in the mean; by default that of the bearing.
         hottest : float, optional [K]
             Of the oil; by default as warm as the mean.
         """

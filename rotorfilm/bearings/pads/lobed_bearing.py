@@ -122,11 +122,11 @@ def lobe_set(
         elliptical, with the least film at the trailing ends. `tapered_land` is as three_lobe, where the film
         narrows over the whole pad.
     preload : float [1]
-        Of each lobe.
+        Preload of each lobe.
     extent : float [rad], optional
         Angle that each covers.
     offset : float [1], optional
-        Of each lobe.
+        Offset of each lobe.
     turned : float [rad]
         Angle by which all are turned in the sense of +z.
 
@@ -187,7 +187,7 @@ class BoundLobes(BoundKernel):
     kernel : LobesKernel
         The compiled films.
     clearance : float [m]
-        Of a pad.
+        Clearance of a pad.
     lobes : tuple of Lobe
     """
 

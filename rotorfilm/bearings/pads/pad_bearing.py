@@ -90,8 +90,8 @@ class PadBearing(WarmBearing):
     oil : Oil or None
         The lubricant by its viscosity over temperature, in place of `viscosity`.
     temperature : float or None [K]
-        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, of a journal
-        at rest: `equilibrium` finds it.
+        Temperature of the films, where the oil is given; None leaves it to the heat balance, with `cooling`,
+        of a journal at rest: `equilibrium` finds it.
     cooling : Cooling or None
         What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     turbulence : Turbulence or None
@@ -236,7 +236,7 @@ class PadUnderJournal(NamedTuple):
     eccentricity : ndarray, shape (2, n) [1]
         Journal from the pad's center of curvature, in clearances of the pad.
     force : ndarray, shape (2, n) [N]
-        Of its film on the journal.
+        Force of its film on the journal.
     eccentricity_slopes, force_slopes : ndarray, shape (2, 5), or None [1/m ...], [N/m ...]
         Derivatives of both by x, y, vx, vy, speed, of one state, n = 1; None where they are not asked for.
     """
@@ -276,7 +276,7 @@ def losses_of_pads(
     film : LossyPadFilm
         The film law of its pads.
     pads : sequence of PadUnderJournal
-        At the states.
+        Pads at the states.
     state : (ndarray, ndarray, ndarray)
         Positions (2, ...) [m], velocities (2, ...) [m/s] and speeds (...) [rad/s].
     full_gap : bool
@@ -324,7 +324,7 @@ def collected_losses(
     drag : ndarray, shape (n,) [N m]
         Torque on the journal.
     force : ndarray, shape (2, n) [N]
-        On the journal.
+        Force on the journal.
     flows : (ndarray, ndarray), shape (pads, n) [1/s]
         Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
     state

@@ -30,7 +30,7 @@ class PadMatrices(Readable):
     stiffness : ndarray, shape (n, n) [N/m]
     damping : ndarray, shape (n, n) [N s/m]
     mass : ndarray, shape (n, n) [kg]
-        Of the pads; that of the journal is 0.
+        Mass of the pads; that of the journal is 0.
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     unloaded : ndarray of bool, shape (N,)
@@ -52,7 +52,7 @@ class PadMatrices(Readable):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the whirl, of either sign; 0 for the limit of slow motion.
+            Frequency of the whirl, of either sign; 0 for the limit of slow motion.
         growth_rate : float [1/s]
             s = growth_rate + i frequency; 0 at frequency 0.
 
@@ -82,7 +82,7 @@ class PadMatrices(Readable):
         Parameters
         ----------
         rotor_mass : float [kg]
-            That the bearing carries.
+            Rotor mass that the bearing carries.
         """
         return StatesStiffness(self.linearization()).exponents(rotor_mass)
 

@@ -178,7 +178,7 @@ def held_force(bearing: Any, u: Array, tilts: Array, rates: Array | None = None)
         x, y [m], vx, vy [m/s] and speed [rad/s].
     tilts : ndarray, shape (pads,) or (pads, n) [m]
     rates : ndarray, shape (pads, n) [m/s], optional
-        Of the tilts, 0 by default.
+        Rates of the tilts, 0 by default.
     """
     n = u.shape[1]
     held = np.broadcast_to(np.reshape(tilts, (len(bearing.pivots), -1)), (len(bearing.pivots), n))
@@ -232,9 +232,9 @@ class TiltedPads(Readable):
         Tilt as a length: its angle times the distance from the pivot's center of rotation to the film. Of an
         unloaded pad the end of the tilts at which it has no film.
     pivot_deflections : ndarray, shape (pads,) [m]
-        Of pivots on springs, negative outward.
+        Pivot deflections of pivots on springs, negative outward.
     pad_loads : ndarray, shape (pads,) [N]
-        On the pivots.
+        Pad loads on the pivots.
     film_thickness : ndarray, shape (pads,) [m]
         The least of each pad.
     unloaded : ndarray of bool, shape (pads,)
@@ -610,7 +610,7 @@ class TiltedFilm(NamedTuple):
         Deflections of the pivots and tilts, over the clearance.
     force : ndarray, shape (pads, 2) [1/s]
     slopes : (ndarray, ndarray), shape (pads, 2, 2)
-        By the place of the journal, and by the source.
+        Slopes by the place of the journal, and by the source.
     loaded : ndarray of bool, shape (pads,)
     """
 

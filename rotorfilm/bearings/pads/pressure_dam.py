@@ -450,19 +450,19 @@ def pressure_dam_pads(
     Parameters
     ----------
     depth : float [m]
-        Of the dam; 0 is a two-groove bearing.
+        Depth of the dam; 0 is a two-groove bearing.
     end : float [rad]
         Angle of the step, from +x: 125 to 150 deg, typically.
     share : float [1]
         Part of the length that the dam takes, about the middle.
     track_depth : float [m]
-        Of the relief track; 0 is none.
+        Track depth of the relief track; 0 is none.
     track_share : float [1]
         Part of the length that the track takes.
     groove : float [rad]
         Angle of each axial groove.
     preload : float [1]
-        Of both pads, closest in their middle.
+        Preload of both pads, closest in their middle.
 
     Raises
     ------
@@ -562,7 +562,7 @@ class DamKernel:
     Parameters
     ----------
     rows : ndarray, shape (pads, COLUMNS)
-        Of `pad_rows`.
+        Rows of `pad_rows`.
     dimensions : sequence of float
         Radius, length, clearance of a pad [m] and viscosity [Pa s].
     extrapolated : bool

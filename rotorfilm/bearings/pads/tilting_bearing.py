@@ -74,13 +74,14 @@ class TiltingPadBearing(Called, PadBearing):
     preload : float [1]
         1 - c_b / c_p, below 1.
     pivot_stiffness : float or None [N/m]
-        Of a spring below each pivot, along its direction; None for rigid ones.
+        Pivot stiffness of a spring below each pivot, along its direction; None for rigid ones.
     pad_inertia : float or None [kg m2]
-        Of a pad about its pivot; None for pads that follow at once.
+        Pad inertia of a pad about its pivot; None for pads that follow at once.
     pivot_distance : float [m]
-        From the film back to the center about which a pad rolls or rocks.
+        Pivot distance from the film back to the center about which a pad rolls or rocks.
     pad_mass : float or None [kg]
-        That moves with the pivot; needed with `pivot_stiffness` and `pad_inertia` together, and only then.
+        Pad mass that moves with the pivot; needed with `pivot_stiffness` and `pad_inertia` together, and only
+        then.
     start : tuple of floats [m]
         Tilts of the pads at t = 0, as lengths, and after them deflections of pivots on springs; empty for
         those at rest around a centered journal that turns in the positive sense.

@@ -92,7 +92,7 @@ class Waviness:
     axial_amplitude : float [m]
         The same along the thrust that the row carries.
     phase : float [rad]
-        At the angle of the ring, from +x.
+        Phase at the angle of the ring, from +x.
 
     Raises
     ------
@@ -134,12 +134,12 @@ class BallBearing(BallElement):
     balls : int
         Number of balls.
     ball_diameter, pitch_diameter : float [m]
-        Of a ball, and of the circle on which their centers lie.
+        Ball diameter and pitch diameter of a ball, and of the circle on which their centers lie.
     internal_clearance : float or None [m]
         Radial internal clearance as catalogs have it (ISO 5753): the whole way of one ring across the other.
         Negative for a tight fit.
     contact_angle : float or None [rad]
-        Of the unloaded balls, in place of the clearance.
+        Contact angle of the unloaded balls, in place of the clearance.
     inner_conformity, outer_conformity : float [1]
         Radius of the groove over the diameter of the ball.
     ball_material, ring_material : RollingMaterial
@@ -155,7 +155,7 @@ class BallBearing(BallElement):
     axial_load : float or None [N]
         External force on the shaft along z, to which z gives way.
     tilt : (float, float) [rad]
-        Of the shaft about +x and +y.
+        Tilt of the shaft about +x and +y.
     cage_angle : float [rad]
         Where the first ball is, from +x towards +y.
     damping : float [N s/m]
@@ -361,7 +361,7 @@ class BearingPair(BallElement):
     bearing : BallBearing
         Each of the two; how its shaft is held, and its damping, do not count.
     distance : float [m]
-        Of the rows along the shaft, spacers included.
+        Distance of the rows along the shaft, spacers included.
     directions : (int, int)
         1 or -1: along z, of the thrust on the shaft that the first row, at -distance/2, and the second one
         carry.
@@ -374,7 +374,7 @@ class BearingPair(BallElement):
     axial_load : float or None [N]
         External force on the shaft along z, to which z gives way.
     tilt : (float, float) [rad]
-        Of the shaft about +x and +y.
+        Tilt of the shaft about +x and +y.
     damping : float [N s/m]
         Viscous damping beside the balls along x and y.
 
@@ -487,7 +487,7 @@ def back_to_back(
     distance : float [m]
     preload : float [N], optional
     spacer_offset : float [m], optional
-        As of a `BearingPair`.
+        Spacer offset as for a `BearingPair`.
     """
     return BearingPair(
         bearing=bearing, distance=distance, directions=(1, -1), preload=preload, spacer_offset=spacer_offset
@@ -518,6 +518,6 @@ def tandem(bearing: BallBearing, *, distance: float, axial_load: float | None = 
     bearing : BallBearing
     distance : float [m]
     axial_load : float [N], optional
-        As of a `BearingPair`.
+        Axial load as for a `BearingPair`.
     """
     return BearingPair(bearing=bearing, distance=distance, directions=(1, 1), axial_load=axial_load)

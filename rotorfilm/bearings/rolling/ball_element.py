@@ -190,7 +190,7 @@ class BallElement(KernelReaction, ABC):
         name, got : str
             The argument that is the load, and its value with the place and the speed.
         rest : callable
-            From a kernel with another law to the status of its rest.
+            Rest from a kernel with another law to the status of its rest.
         """
         law, held = self.running[0], RunningBalls().numbers
         if isinstance(law, RaceControl) and rest(self.kernel.with_law(held)) <= Status.OUTSIDE:
@@ -452,7 +452,8 @@ class BallLoads(Readable):
     ball_angle : ndarray, shape (balls,) [rad]
         Where the ball is, from +x towards +y.
     inner_load, outer_load : ndarray, shape (balls,) [N]
-        Of the contacts. A ball with the inner load 0 does not carry; inertia presses it on the outer race.
+        Inner load and outer load of the contacts. A ball with the inner load 0 does not carry; inertia
+        presses it on the outer race.
     inner_angle, outer_angle : ndarray, shape (balls,) [rad]
         Contact angles; the inner one of a ball that does not touch is where it would.
     inner_pressure, outer_pressure : ndarray, shape (balls,) [Pa]
@@ -462,12 +463,13 @@ class BallLoads(Readable):
     gyroscopic_moment : ndarray, shape (balls,) [N m]
         Negative for positive contact angles.
     orbit_speed : ndarray, shape (balls,) [rad/s]
-        Of the ball about the shaft.
+        Orbit speed of the ball about the shaft.
     traction : ndarray, shape (balls,) [1]
         Traction coefficient that the gyroscopic moment asks for, the larger of both contacts; a ball slides
         beyond about 0.06 under `RaceControl`, and beyond 0.9 of its `traction_coefficient` otherwise.
     slip_speed : ndarray, shape (balls,) [m/s]
-        Of the balls across the way that they roll, by the gyroscopic moment; 0 under `RaceControl`.
+        Slip speed of the balls across the way that they roll, by the gyroscopic moment; 0 under
+        `RaceControl`.
     """
 
     ball_angle: Array

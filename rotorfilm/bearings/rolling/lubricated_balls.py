@@ -61,13 +61,13 @@ class RaceFilm:
     touch : EllipticContact
         The dry contact.
     load : float [N]
-        Of the ball.
+        Load of the ball.
     rolling_speed : float [m/s]
         Mean of the speeds of both surfaces, seen from the contact.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
 
     Raises
     ------
@@ -238,13 +238,13 @@ def race_films(
     ----------
     bearing : BallBearing
     load : float [N]
-        Of the ball.
+        Load of the ball.
     speed : float [rad/s]
         Angular speed of the inner ring, not 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
 
     Raises
     ------
@@ -314,7 +314,7 @@ def film_parameter(
     speed, viscosity, pressure_coefficient
         As of `ball_films`.
     roughness : float [m]
-        Of ball and race together, sqrt(Rq_1^2 + Rq_2^2).
+        Roughness of ball and race together, sqrt(Rq_1^2 + Rq_2^2).
 
     Raises
     ------
@@ -568,15 +568,15 @@ def lubricated_balls(
     ----------
     bearing : BallBearing or BearingPair
     rest : BallEquilibrium
-        From `bearing.rest(load, speed)`, at a speed other than 0.
+        Rest from `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     order : int
         States of each ball.
     grid : ContactGrid
-        On which the films are solved.
+        Grid on which the films are solved.
 
     Raises
     ------
@@ -611,7 +611,7 @@ class FilmDamping(Readable):
     planar : ndarray, shape (2, 2) [N s/m]
         Over x and y: z gives way where the bearing has an axial load, all else is held.
     ball_damping : ndarray, shape (balls,) [N s/m]
-        Of each ball along its contacts in series; 0 without load.
+        Ball damping of each ball along its contacts in series; 0 without load.
     damping_time : ndarray, shape (5,) [s]
         c/k: diagonal of the damping over that of the stiffness.
     films : (RaceFilm, RaceFilm)
@@ -643,11 +643,11 @@ def film_damping(
     ----------
     bearing : BallBearing or BearingPair
     rest : BallEquilibrium
-        From `bearing.rest(load, speed)`, at a speed other than 0.
+        Rest from `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     structural_time : float [s]
         c/k of everything else, joints and cage, as measured or assumed: this times the stiffness is added,
         none by default. A loss factor eta at an angular frequency omega is eta/omega.

@@ -133,7 +133,7 @@ class MomentCarryingBalls(StaticReaction):
         Parameters
         ----------
         place : array_like, shape (n,) [m]
-            Of the freedoms: x, y [m], tilt_x, tilt_y [rad] of the shaft, tilts about +x and +y.
+            Place of the freedoms: x, y [m], tilt_x, tilt_y [rad] of the shaft, tilts about +x and +y.
         speed : float [rad/s]
             Angular speed about +z.
 
@@ -219,7 +219,8 @@ class VariableComplianceBalls(MomentCarryingBalls):
     bearing : BallBearing or BearingPair
         Its cage angle is that at t = 0.
     freedoms : tuple of str
-        As of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load given.
+        Freedoms as of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load
+        given.
     cage_ratio : float or None [1]
         Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` tells it; by default
         (1 - D cos(angle)/pitch_diameter)/2 at the free contact angle.
