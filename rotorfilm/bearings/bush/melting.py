@@ -71,8 +71,8 @@ class HeatBalance(Protocol):
 class ContactBalance:
     """Heat per area of contact = Q_1 + Q_2 + melting, as published (1.2).
 
-    Q_1 is a flux through the whole circumference of the shaft, but friction heats the arc 2 alpha only, so
-    this balance lets the shaft take alpha/pi of the heat that its temperature problem says.
+    Q_1 is a flux through the whole circumference of the shaft, but friction heats the arc 2 alpha only. So in
+    this balance the shaft takes only the share alpha/pi of the heat that its temperature field requires.
     """
 
     def share(self, alpha: ArrayLike) -> Array:

@@ -57,14 +57,14 @@ class SqueezeImpedance(Readable):
 class FilmSegment:
     """A piece of the axis of a damper with one film thickness: a land, or a groove all round.
 
-    Of a groove the depth that counts is below the true one where oil recirculates in it: depth is an input.
+    Give the effective depth of a groove: it is below the true one where oil recirculates in the groove.
 
     Parameters
     ----------
     length : float [m]
         Length along the axis.
     clearance : float [m]
-        Radial: of a groove its depth and that of the lands beside it.
+        Radial clearance; for a groove its depth plus the clearance of the lands beside it.
 
     Raises
     ------
@@ -82,7 +82,7 @@ class FilmSegment:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class SegmentedDamper:
-    """Lands and grooves of a squeeze-film damper in small motion about the center, its film full.
+    """A squeeze-film damper of lands and grooves, in small motion about the center, with a full film.
 
     Parameters
     ----------

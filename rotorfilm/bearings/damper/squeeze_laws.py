@@ -92,7 +92,7 @@ class SqueezeOptions:
 
 @dataclass(frozen=True)
 class ShortSqueeze(SqueezeOptions):
-    """Short film: no flow around the circumference, neither in the film nor in the layer."""
+    """Short film: flow along the axis only, in the film and in the porous layer."""
 
     slenderness_limit: ClassVar[float] = 0.25
     """Largest length / diameter for which the film is meant [1]."""
@@ -108,7 +108,7 @@ class ShortSqueeze(SqueezeOptions):
 
 @dataclass(frozen=True)
 class FiniteSqueeze(SqueezeOptions):
-    """Full film of finite length, some milliseconds for a force: the reference of the short film."""
+    """Full film of finite length: the reference for the short film. A force takes some milliseconds."""
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
     """Eccentricity ratio to which the film is meant [1]."""
@@ -128,12 +128,12 @@ class FiniteSqueeze(SqueezeOptions):
 
 @dataclass(frozen=True)
 class PublishedSqueeze(SqueezeOptions):
-    """Historical: small motion as published by Akhverdiev et al., with the signs corrected.
+    """Film for small motion as published by Akhverdiev et al., with corrected signs; for comparison only.
 
-    Full film, linear in eccentricity and velocity. The leak is that of a vented back with the flux number
-    Delta1 = 12 grading/(grading + 6) of the authors' polynomial through the layer: no effect without grading
-    and a trend opposite to that of a real layer. A radial feed passes a film that does not leak. Equations
-    (37)-(40); docs/damper_films.md has the errata. Not for design.
+    The film is full, and linear in eccentricity and velocity. The leakage is that of a vented back with the
+    flux number Delta1 = 12 grading/(grading + 6), from the authors' polynomial through the layer. It has no
+    effect without grading, and a trend opposite to that of a real layer. Equations (37)-(40);
+    docs/damper_films.md has the errata. Do not use it for design.
     """
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
@@ -666,9 +666,9 @@ def _harmonics(eps: float) -> int:
 class EndSeal:
     """Equal seals at both ends of a squeeze film: flow out of an end = leakage * pressure * circumference.
 
-    Damping and added mass of a sealed damper are set by its seals, not by its film, and no seal is known to
-    better than some tenths: its uncertainty belongs to every answer. An O-ring is tight (leakage 0), with a
-    stiffness of its own that `with_springs` adds.
+    The seals, not the film, decide the damping and the added mass of a sealed damper, and the leakage of a
+    seal is rarely known to better than some tenths. So its uncertainty is part of every answer. An O-ring is
+    tight (leakage 0); `with_springs` adds its stiffness.
 
     Parameters
     ----------
@@ -701,7 +701,7 @@ class EndSeal:
 
 @arguments
 def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
-    """Return the seal that is a narrow gap: leakage height^3/(12 viscosity length).
+    """Return the end seal that a narrow gap forms: leakage = height^3/(12 viscosity length).
 
     Parameters
     ----------
@@ -721,16 +721,16 @@ def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
 
 @arguments
 def leak_test_seal(*, flow: float, pressure: float, radius: float, uncertainty: float = 0.0) -> EndSeal:
-    """Return the seal of a leak test: leakage flow/(2 pi radius pressure).
+    """Return the end seal from a leak test: leakage = flow/(2 pi radius pressure).
 
-    A slit at the butt of one piston ring counts as spread over the circumference.
+    The slit at the joint of a piston ring is treated as spread over the circumference.
 
     Parameters
     ----------
     flow : float [m3/s]
-        Out of one end.
+        Flow out of one end.
     pressure : float [Pa]
-        Inside, above that outside.
+        Pressure difference across the seal.
     radius : float [m]
         Radius of the film.
     uncertainty : float [1]

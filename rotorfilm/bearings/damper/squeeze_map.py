@@ -215,7 +215,7 @@ class TabulatedSqueeze(SqueezeOptions):
 @quantities
 @dataclass(frozen=True)
 class MapSqueeze(TabulatedSqueeze):
-    """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
+    """Short film from a table: within 1e-4 of `ShortSqueeze()`, and about a hundred times faster.
 
     The table is made at the first use of a damper and kept in memory for dampers of the same layer.
 
@@ -252,7 +252,8 @@ class MapSqueeze(TabulatedSqueeze):
 class FiniteMapSqueeze(TabulatedSqueeze):
     """Film of finite length from a table of its potential, flow around the circumference included.
 
-    The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
+    It covers L/D up to 2 and eccentricity ratios up to 0.985. The table takes some seconds to make for each
+    damper and is kept on disk.
 
     Parameters
     ----------
