@@ -32,24 +32,27 @@ Complex = NDArray[np.complex128]
 
 @runtime_checkable
 class Reaction(Model, Protocol):
-    """A Model that pushes back on a shaft: a film, a bearing, a seal, a ring that is rubbed.
+    """A Model that exerts a force on a shaft: a film, a bearing, a seal, a rub ring.
 
     With the freedoms (x, y) its inputs begin with x, y, vx, vy, speed and its outputs with force_x, force_y;
-    `core.signals.FREEDOMS` has the names of all others. With states it is a `Dynamic` too. What it may add:
+    `core.signals.FREEDOMS` has the names of all others. With states it is a `Dynamic` too. Optional members
+    are:
 
     - `freedoms`, which motions of the shaft it reacts to; ("x", "y") where it does not say;
-    - `clearance`, the radius [m] of the circle within which the journal stays; else there is no such circle;
+    - `clearance`, the radius [m] of the circle within which the journal stays; without it there is no such
+      circle;
     - `force(position, velocity, speed)` and `jacobian(...)`, the same as `output` and `linearization` for
-      batches, shapes (n, ...) and (n, 2 n + 1, ...); of a reaction with states, with these held;
+      batches, shapes (n, ...) and (n, 2 n + 1, ...); a reaction with states holds them;
     - `prepare()` and `prepare_tangent()`, force and derivatives as functions of five numbers, for loops;
     - `compiled()`, the force in the C library with its added mass, a `native.film_call.FilmCall`, or None;
     - `is_constant`, whether it is springs and dampers, the same at any place, motion and speed;
-    - `minimum_film(position)`, where the journal touches elsewhere than on the circle of the clearance;
-    - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
-    - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
-    - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
-    - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
-    - `from_rest(position, speed, temperature)`, this reaction with initial states as at rest there;
+    - `minimum_film(position)`, if contact is not on the circle of the clearance;
+    - `largest_eccentricity_ratio`, up to which its force is valid, 1 for up to the wall;
+    - `force_noise(speed)`: the roundoff error of the force [N], for example of balls or pads;
+    - `rest_place(load, speed)`, the equilibrium position under a load, None if not found;
+    - `rest_state(position, speed)`, the equilibrium states there; without it Newton's method finds them;
+    - `from_rest(position, speed, temperature)`, this reaction with the initial states of an equilibrium
+      there;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
       `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
     - `rest_linearization(position, speed)`, the exact derivatives about that rest;

@@ -274,7 +274,7 @@ def coupling_stability(
     scheme: Scheme | None = None,
     time: float = 0.0,
 ) -> CouplingStability:
-    """Return the growth per macro step of a coupling, to first order.
+    """Return the growth of a coupling per macro step (spectral radius), by linearization.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ def coupling_stability(
     scheme : Scheme, optional
         Scheme with macro steps of one length; by default `GaussSeidel()`, which holds the force.
     time : float [s]
-        Time where the rotor changes with time.
+        Time of the linearization, if the rotor depends on time.
 
     Raises
     ------

@@ -58,10 +58,10 @@ def export_ssp(
 ) -> Path:
     """Write a rotor and the films under it as one system of SSP 1.0, which tools of SSP 2.0 read too.
 
-    Inside are an FMU of each (`resources/`), with names of variables that leave out the component. There are
-    also the connections of each station (position, velocity and speed to the film, force to the rotor), and
-    the values of all parameters as a parameter set. The names of the components are `rotor`, and `film` or
-    those of the stations.
+    The file contains an FMU of each (in `resources/`), with variable names without the component. It also has
+    the connections of each station (position, velocity and speed to the film, force to the rotor), and a
+    parameter set with all parameter values. The components are called `rotor`, and `film` or by the names of
+    the stations.
 
     Parameters
     ----------

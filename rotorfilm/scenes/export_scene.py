@@ -224,7 +224,7 @@ def export_rotor_fmu(
     Parameters
     ----------
     rotor : FlexibleRotor
-        Rotor with a constant speed; held by its stations, whose signals are those of the FMU.
+        Rotor with a constant speed, held by its stations. The signals of the FMU are those of the stations.
     path, version, platforms, component
         As in `export_fmu`.
     frequency : float [rad/s]
@@ -232,8 +232,8 @@ def export_rotor_fmu(
     tolerance : float [1]
         Largest error of the reduction.
     bearings : mapping of str to Reaction, optional
-        Bearings by station: the FMU begins at rest in them, under their forces; without, straight and without
-        forces.
+        Bearings by station. The FMU starts at the equilibrium in these bearings; without them it starts
+        straight and without forces.
 
     Returns
     -------

@@ -385,8 +385,7 @@ class BushReaction(Called):
         return np.arctan2(self._liner.nodes.normal[1], self._liner.nodes.normal[0])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this model; None for a subclass or another melting
-        rule."""
+        """Return the kernel of the C library that is this model; None for a subclass or other rule."""
         known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
         if type(self) is not BushReaction or not known:
             return None

@@ -25,8 +25,7 @@ class Groove:
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
     length : float or None [m]
-        Length along the axis, in the middle of the bearing; None for a groove that is open at both ends of
-        it.
+        Length along the axis, centered; None for a groove that is open at both ends of the bearing.
     """
 
     center: float
@@ -47,7 +46,7 @@ class Groove:
 class FeedHole:
     """A round hole in the wall at mid-length, filled with lubricant at the supply pressure.
 
-    The film sees it as the square of the same area.
+    The film model replaces it by a square of the same area.
 
     Parameters
     ----------
@@ -399,7 +398,7 @@ def _fold(view: _View) -> int:
 
 @dataclass(frozen=True)
 class FreeOnset:
-    """The film starts where Reynolds' equation lets it: oil is there wherever pressure can be."""
+    """The film starts where Reynolds' equation allows it: oil is available wherever pressure can build up."""
 
     line: ClassVar[float | None] = None
     """No line is held."""
@@ -410,10 +409,10 @@ class FreeOnset:
 
 @dataclass(frozen=True)
 class MaximumGapOnset:
-    """The film starts at the widest gap, opposite to the journal's displacement, with which the line turns.
+    """The film starts at the widest gap, opposite to the journal's displacement, and turns with it.
 
-    So do the printed tables of Butenschoen (1976) and others. At the center the gap is equal all round, and
-    the force depends on the direction from which it is approached.
+    The printed tables of Butenschoen (1976) and others do the same. At the center the gap is the same
+    everywhere, and the force depends on the direction from which the journal approaches it.
     """
 
     line: ClassVar[float | None] = None
@@ -426,7 +425,7 @@ class MaximumGapOnset:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class FixedOnset:
-    """The film starts at a line that stays in the bearing, such as a supply that is not a groove.
+    """The film starts at a line that is fixed in the bearing, such as a supply that is not a groove.
 
     Parameters
     ----------
@@ -474,7 +473,7 @@ class HalfSommerfeld:
 
 @dataclass(frozen=True)
 class FullFilm:
-    """Sommerfeld film: no rupture, tension included."""
+    """Full (Sommerfeld) film: no rupture, negative pressures included."""
 
     searched: ClassVar[bool] = False
     """The film is solved full."""

@@ -24,7 +24,7 @@ def build_groove_map(bearing: JournalBearing, report: Report = silent) -> Groove
     Returns
     -------
     GrooveMapTable
-        `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, in an FMU for one.
+        The map. A `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, for example in an FMU.
 
     Raises
     ------

@@ -67,7 +67,7 @@ class AdiabaticWalls:
     """Bush and journal that take no heat: all of it leaves with the oil."""
 
     def response(self, radius: float, start: Array, extent: Array) -> None:
-        """Return None: no heat makes the walls warmer."""
+        """Return None: the walls do not warm."""
 
 
 @quantities
@@ -88,7 +88,7 @@ class HeldWalls:
         require_each(self, require_positive, "bush_temperature", "journal_temperature")
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return that heat changes nothing; see `BushRing.response`."""
+        """Return a response of zero: the temperatures are given; see `BushRing.response`."""
         spread = np.zeros((len(start), len(start)))
         return WallResponse(spread, 1.0, 0.0, self.bush_temperature, 1.0, 0.0, self.journal_temperature)
 
@@ -98,8 +98,8 @@ class HeldWalls:
 class BushRing:
     """A bush that conducts heat around and outwards, and a journal of one temperature.
 
-    The bush is a ring of the bearing's length in which heat flows around and along the radius. Of a
-    temperature cos(n theta) at its bore it takes the flux D_n cos(n theta), exactly,
+    The bush is a ring of the bearing's length in which heat flows around and along the radius. For a
+    temperature cos(n theta) at its bore the heat flux into it is D_n cos(n theta), exactly,
 
         1/D_0 = r ln(r_o/r)/k + r/(r_o h),   D_n = (k n/r) (1 - s q)/(1 + s q),
         s = (n - Bi)/(n + Bi),   Bi = h r_o/k,   q = (r/r_o)^(2n).
@@ -115,8 +115,8 @@ class BushRing:
     ambient_temperature : float [K]
         Ambient temperature of the surroundings.
     shaft_conductance : float [W/K]
-        Heat that the shaft carries off from the bearing, per kelvin above the surroundings; 0 if nothing is
-        known, so that the journal is as warm as makes its net heat zero.
+        Heat that the shaft conducts away from the bearing, per kelvin above the surroundings. With 0 (nothing
+        is known) the journal has the temperature at which its net heat is zero.
 
     Raises
     ------
@@ -147,7 +147,7 @@ class BushRing:
         return np.asarray(self.conductivity * waves / radius * (1.0 - sq) / (1.0 + sq))
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return how warm the bush gets, by means over the cells.
+        """Return the temperature response of the bush, as means over the cells.
 
         Parameters
         ----------

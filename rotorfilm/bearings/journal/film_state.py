@@ -112,9 +112,9 @@ def film_state(
 ) -> FilmState:
     """Return force, flow and friction of a bearing at one state, and the pressure where the film has a field.
 
-    A `ReynoldsFilm` has a field, and so has a `SplittingFilm`, which has no losses. The pressure of the
-    latter is that of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), with its
-    tension.
+    `ReynoldsFilm` and `SplittingFilm` have a pressure field; the latter has no losses. Its pressure is that
+    of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), including negative
+    values.
 
     Parameters
     ----------
@@ -124,8 +124,8 @@ def film_state(
     speed : float [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
-        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) have it; by default streamers run
-        there. See `bearing_losses`.
+        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) assume; by default it flows in
+        streamers there. See `bearing_losses`.
 
     Raises
     ------

@@ -66,7 +66,7 @@ class GrooveMapTable(BoundedTable):
     slenderness : float [1]
         Length / diameter of the bearing.
     grooves : tuple of Groove
-        Its openings, seen from the axis of `aligned_openings`.
+        Openings of the bearing, with angles from the axis of `aligned_openings`.
     reach : float [1]
         X of the last node; beyond it the kernel continues J to the wall.
     crowding : float [1]
@@ -82,8 +82,8 @@ class GrooveMapTable(BoundedTable):
     bounds : ndarray, shape (bands, 5)
         Largest errors with the journal in equilibrium, found when the map was made (`groove_bounds`). A row
         has the eccentricity ratio up to which it holds, and the relative errors of the force, of K and C
-        (relative to their largest entry), of the shear, and of the flow of fresh oil. None of them where
-        nothing is known.
+        (relative to their largest entry), of the shear, and of the flow of fresh oil. It is empty if the
+        errors are not known.
     mobility : float
         Checksum of the mobility of its oil, 0 of a laminar film.
 

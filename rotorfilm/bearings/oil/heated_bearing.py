@@ -37,14 +37,14 @@ class HeatedBearing:
 
         capacity dT/dt = P(T) - C (T - T_s) Q_e - G (T - T_a),
 
-    whose rest is the heat balance of the film (`balance`). In vibration the state hardly moves, so that the
-    film keeps its temperature, as it does in a bearing. `force` and `jacobian` are those at
+    whose steady state is the heat balance of the film (`balance`). During vibration the state hardly changes,
+    so the film keeps its temperature, as in a real bearing. `force` and `jacobian` are those at
     `start_temperature`.
 
     Parameters
     ----------
     bearing : JournalBearing or LobedBearing
-        Bearing with oil and cooling, its temperature left to the heat balance.
+        Bearing with oil and cooling, whose temperature the heat balance determines.
     start_temperature : float or None [K]
         Temperature at t = 0; None for that of the fresh oil.
 

@@ -45,9 +45,9 @@ class PadMatrices(Readable):
     unloaded: NDArray[np.bool_]
 
     def reduced(self, frequency: float, growth_rate: float = 0.0) -> ReducedCoefficients:
-        """Return what the journal feels when it moves as exp(s t): the Schur complement of K + s C + s^2 M.
+        """Return the reduced K and C of the journal for motion as exp(s t), by a Schur complement.
 
-        Equal to Lund's (1964) assembly of single pads.
+        The result equals Lund's (1964) assembly of single pads.
 
         Parameters
         ----------
@@ -89,7 +89,8 @@ class PadMatrices(Readable):
     def linearization(self) -> Linearization:
         """Return the loaded pads as states under a journal: inputs x, y, vx, vy, outputs its force.
 
-        Velocities of what has mass are states; of what has none they follow from its balance.
+        Pads with mass have their velocities as further states; without mass the velocities follow from the
+        balance of moments.
         """
         kept = [0, 1, *self._loaded]
         K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))
