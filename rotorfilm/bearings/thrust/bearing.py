@@ -156,11 +156,11 @@ def double_acting(bearing: SectorPads, play: float, back: SectorPads | None = No
     Parameters
     ----------
     bearing : ThrustBearing or TiltingThrustBearing
-        Whose pads push the shaft along +z.
+        Bearing whose pads push the shaft along +z.
     play : float [m]
         Sum of both films over the lands; with the collar at z = 0 each has half of it.
     back : ThrustBearing or TiltingThrustBearing, optional
-        Whose pads push along -z; by default equal ones, met first at the same edges.
+        Bearing whose pads push along -z; by default equal ones, met first at the same edges.
 
     Raises
     ------

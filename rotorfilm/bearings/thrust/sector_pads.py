@@ -64,7 +64,7 @@ class SectorGrid(NamedTuple):
     Attributes
     ----------
     angle : ndarray, shape (lines + 1,) [rad]
-        From the axis of its frame: the leading edge, or the pivot.
+        Angle from the axis of its frame: the leading edge, or the pivot.
     radius : ndarray, shape (nodes + 1,) [m]
     profile : ndarray, shape (lines, nodes, 2, 2) [m]
         Depth below the lands at the corners of each cell, by angle and radius.
@@ -83,7 +83,7 @@ class PadAnswer(NamedTuple):
     wrench : ndarray, shape (4,) [N], [N m]
         force_z, moment_x, moment_y and torque on the shaft.
     rates : ndarray, shape (m,) [rad/s]
-        Of the tilts of the pads.
+        Rates of the tilts of the pads.
     slopes : tuple of ndarray
         A (m, m), B (m, 7), C (4, m) and D (4, 7).
     """
@@ -106,7 +106,7 @@ class ThrustKernel:
     place : sequence of float
         Angle of the first frame [rad], side, gap [m] and radius of the pivots [m].
     tilts : int
-        Of each pad.
+        Tilts of each pad.
     held : bool
         Whether they stay where they are.
     table : ThrustFilmTable or None
@@ -207,7 +207,7 @@ class ThrustLosses(Readable):
     power_loss : float [W]
         -torque speed - force velocity: what the film turns into heat.
     friction_torque : float [N m]
-        That keeps the collar turning, of the sign of the speed.
+        Friction torque that keeps the collar turning, of the sign of the speed.
     inflow, outflow : float [m3/s]
         Through the edges of the pads that the oil meets first, and last.
     side_flow : float [m3/s]
@@ -215,9 +215,9 @@ class ThrustLosses(Readable):
     inner_flow, outer_flow : float [m3/s]
         Its parts.
     highest_pressure : float [Pa]
-        Of all pads.
+        Highest pressure of all pads.
     minimum_film : float [m]
-        Of all pads.
+        Minimum film of all pads.
     film_share : float [1]
         Part of the nodes of the pads at which the film is not ruptured.
     """
@@ -240,7 +240,7 @@ class SectorPressure(NamedTuple):
     Attributes
     ----------
     angle : ndarray, shape (n,) [rad]
-        From +x of the bearing.
+        Angle from +x of the bearing.
     radius : ndarray, shape (m,) [m]
     pressure : ndarray, shape (n, m) [Pa]
     """
@@ -257,7 +257,7 @@ class SectorPads(WarmBearing):
     Parameters
     ----------
     inner_radius, outer_radius : float [m]
-        Of the pads; or `inner_diameter`, `outer_diameter`.
+        Inner radius and outer radius of the pads; or `inner_diameter`, `outer_diameter`.
     pads : int
         Number of equal pads, evenly around the shaft; 3 or more have equal stiffness about x and y.
     pad_arc : float [rad]
@@ -267,7 +267,7 @@ class SectorPads(WarmBearing):
     oil : Oil or None
         The lubricant by its viscosity over temperature.
     temperature : float or None [K]
-        Of the film, where the oil is given; None leaves it to the heat balance, with `cooling`.
+        Temperature of the film, where the oil is given; None leaves it to the heat balance, with `cooling`.
     cooling : Cooling or None
         What takes the heat away; its carry-over is the share of the oil leaving a pad that enters the next.
     crown : float [m]
