@@ -35,6 +35,14 @@ def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+def statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements below a node; classes and imports are found without a walk through expressions."""
+    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for one in getattr(node, part, ()):
+            yield one
+            yield from statements(one)
+
+
 def modules() -> list[Path]:
     """Return the files of the package."""
     return sorted(PACKAGE.rglob("*.py"))
@@ -48,7 +56,7 @@ def dotted(path: Path) -> str:
 
 def exported_names() -> set[str]:
     """Return the names that the package or one of its parts shows: what it imports in its __init__."""
-    nodes = [node for path in PACKAGE.rglob("__init__.py") for node in ast.walk(parse(path))]
+    nodes = [node for path in PACKAGE.rglob("__init__.py") for node in statements(parse(path))]
     relative = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level]
     return {*published(), *(alias.name for node in relative for alias in node.names)}
 
@@ -91,7 +99,7 @@ def classes() -> list[tuple[str, ast.ClassDef]]:
     return [
         (f"{dotted(path)}.{node.name}", node)
         for path in modules()
-        for node in ast.walk(parse(path))
+        for node in statements(parse(path))
         if isinstance(node, ast.ClassDef)
     ]
 

@@ -44,6 +44,7 @@ SEVERAL_UNITS = {
     "of a groove it is an angle, of a disk a length": {"width"},
     "of a rotor it is a damper, of a shaft's material a time": {"internal_damping"},
     "of a ball it is a force, of a pad a part of its clearance": {"preload"},
+    "of a turbulent film it is between Reynolds numbers, of a picture between frequencies": {"band"},
     "of a tilt spring it is a moment per angle": {"stiffness", "damping"},
 }
 """Names with more than one unit, by the reason."""

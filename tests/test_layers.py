@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from glossary import parse, statements
 
 import rotorfilm
 
@@ -22,6 +23,7 @@ LAYERS = [
     ["scenes"],
     ["questions", "charts"],
     ["sweeps"],
+    ["reports"],
     ["cli"],
     ["__main__"],
 ]
@@ -59,6 +61,7 @@ SAME_NAME = {
     "contact",
     "damper",
     "rolling",
+    "thrust",
     "coupling",
     "shaft",
     "journal",
@@ -85,7 +88,7 @@ def imports_of(name):
     """Yield (module, name in it) of every relative import of a module, wherever in it that stands."""
     package = name.split(".") if name else []
     package = package if is_package(name) else package[:-1]
-    for node in ast.walk(ast.parse(NAMES[name].read_text(encoding="utf-8"))):
+    for node in statements(parse(NAMES[name])):
         if isinstance(node, ast.ImportFrom) and node.level:
             base = package[: len(package) - node.level + 1]
             target = ".".join(base + (node.module.split(".") if node.module else []))
@@ -103,8 +106,7 @@ def is_shown(package, name):
 @cache
 def shown_by(package):
     """Return the names that a package imports."""
-    tree = ast.parse(NAMES[package].read_text(encoding="utf-8"))
-    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    imports = [node for node in statements(parse(NAMES[package])) if isinstance(node, ast.ImportFrom)]
     return {alias.asname or alias.name for node in imports for alias in node.names}
 
 
@@ -113,7 +115,7 @@ TARGETS = {name: sorted({target for target, _ in imports_of(name)} - {name}) for
 
 def absolute_imports(path):
     """Return the names of the modules that a file imports without a leading dot."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in statements(parse(path)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and not node.level:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable
     from .films.mobility import Mobility, mobility_of
+    from .films.turbulence import Turbulence
     from .journal import *
     from .linear import LinearBearing as LinearBearing, TabulatedBearing as TabulatedBearing
     from .linear_system import FrequencyDependentReaction as FrequencyDependentReaction

@@ -176,9 +176,9 @@ def test_force_that_cannot_point_against_the_load(linear_film):
 @pytest.mark.parametrize(
     ("sizes", "viscosity", "speed", "limit"),
     [
-        # 41.2 sqrt(R/c) at c/R of 2e-3, and 2000 at 1e-4.
+        # 41.2 sqrt(R/c) at c/R of 2e-3, and 1300 at 1e-4.
         ((0.25, 0.4, 0.5e-3), 0.0159, 314.159, 921.3),
-        ((0.5, 0.5, 5e-5), 0.003, 300.0, 2000.0),
+        ((0.5, 0.5, 5e-5), 0.003, 300.0, 1300.0),
     ],
 )
 def test_a_film_that_is_not_laminar_is_warned_of(sizes, viscosity, speed, limit):

@@ -176,8 +176,31 @@ def require_mobility(mobility: object) -> None:
     require_kind("mobility", mobility, Mobility | None, "a Mobility, as of mobility_of(...), or None")
 
 
-def require_laminar(bearing: object, user: str) -> None:
-    """Raise InputError where the film of a bearing has a mobility, which its user would leave out."""
+def with_mobility(film: Any, mobility: Mobility | None) -> Any:
+    """Return a film law with the mobility of its bearing, unless that is None; InputError if it cannot."""
+    if mobility is None:
+        return film
+    inner = getattr(film, "film", None)
+    if inner is not None:
+        return replace(film, film=with_mobility(inner, mobility))
+    if getattr(film, "mobility", mobility) not in (None, mobility):
+        raise InputError(f"film must have no mobility of its own in a turbulent bearing, got {film!r}")
+    if not hasattr(film, "mobility"):
+        raise InputError(
+            f"film must be one that turbulence acts on, as ReynoldsFilm or PadGridFilm, got {film!r}"
+        )
+    return replace(film, mobility=mobility)
+
+
+def require_laminar(bearing: Any, user: str) -> None:
+    """Raise InputError where the film of a bearing is turbulent or has a mobility, which one cannot take."""
+    if getattr(bearing, "turbulence", None) is not None:
+        raise InputError(f"bearing must have turbulence=None for {user}, got {bearing.turbulence!r}")
+    require_no_mobility(bearing, user)
+
+
+def require_no_mobility(bearing: Any, user: str) -> None:
+    """Raise InputError where the film of a bearing has a mobility of its own, which its user cannot take."""
     for one in (bearing, getattr(bearing, "film", None)):
         if getattr(one, "mobility", None) is not None:
             raise InputError(

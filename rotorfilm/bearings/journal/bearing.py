@@ -31,6 +31,8 @@ from ...native.loss_kernels import BalancedBatch, BalancedKernel, LossKernel
 from ...native.spec import NativeSpec, journal_spec
 from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad, Pocket
 from ..films.law import BoundKernel, BoundLaw, FilmLaw, FilmOptions, kinematics, options
+from ..films.mobility import Mobility, with_mobility
+from ..films.turbulence import Turbulence, require_turbulence
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import (
     FilmHeat,
@@ -87,6 +89,9 @@ class JournalBearing(FilmReaction, WarmBearing):
     circumferential_groove : float or None [m]
         Width along the axis of a groove all round at mid-length, at the supply pressure: the film is that of
         the two lands beside it. None for none.
+    turbulence : Turbulence or None
+        Turbulence of the oil, on films on a grid and, in a plain bearing, on the map over the Reynolds number
+        that `MapFilm()` becomes; None for laminar oil.
 
     Raises
     ------
@@ -121,11 +126,13 @@ class JournalBearing(FilmReaction, WarmBearing):
     grooves: tuple[Groove | FeedHole, ...] = ()
     supply_pressure: float = 0.0
     circumferential_groove: float | None = None
+    turbulence: Turbulence | None = None
 
     def __post_init__(self) -> None:
         require_size(self)
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_non_negative("supply_pressure", self.supply_pressure)
+        require_turbulence(self.turbulence)
         require_tuple("pads", self.pads, Pad)
         require_tuple("grooves", self.grooves, Groove, FeedHole)
         if self.circumferential_groove is not None:
@@ -133,7 +140,10 @@ class JournalBearing(FilmReaction, WarmBearing):
         if self.supply_pressure > 0.0 and not self.grooves and self.circumferential_groove is None:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         if self.film is None or getattr(self.film, CHOSEN, False):  # by a bearing of other dimensions
-            object.__setattr__(self, "film", usual_film(self.geometry, self.slenderness))
+            usual = (
+                usual_film(self.geometry, self.slenderness) if self.turbulence is None else turbulent_film()
+            )
+            object.__setattr__(self, "film", usual)
             object.__setattr__(self.film, CHOSEN, True)
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         # Fitted here so that a geometry that is beyond the film is refused at once.
@@ -174,8 +184,11 @@ class JournalBearing(FilmReaction, WarmBearing):
 
     @cached_property
     def fitted_film(self) -> FilmLaw:
-        """The film law in this bearing's geometry."""
-        return fitted_film(self.film, self.geometry)
+        """The film law in this bearing's geometry, with its turbulence."""
+        film, mobility = self.film, self.turbulent_mobility
+        if mobility is not None and isinstance(film, MapFilm) and self.geometry.plain:
+            film = turbulent_map(mobility)
+        return with_mobility(fitted_film(film, self.geometry), mobility)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.
@@ -337,6 +350,20 @@ def usual_film(geometry: FilmGeometry, slenderness: float) -> FilmLaw:
 
     low, high = GroovedMapFilm().slenderness_range
     return MapFilm() if is_mappable(geometry) and low <= slenderness <= high else ReynoldsFilm()
+
+
+def turbulent_film() -> FilmLaw:
+    """Return the film of a turbulent bearing that names none, extrapolated from two grids."""
+    from .reynolds_film import ExtrapolatedFilm
+
+    return ExtrapolatedFilm()
+
+
+def turbulent_map(mobility: Mobility) -> FilmLaw:
+    """Return the map of a plain turbulent bearing."""
+    from .mobile_map import MobileMapFilm
+
+    return MobileMapFilm(mobility=mobility)
 
 
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:

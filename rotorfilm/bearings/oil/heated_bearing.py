@@ -18,8 +18,10 @@ from ...core.results import BearingLosses
 from ...core.signals import Signal, signals_of
 from ...native.loss_kernels import OilTable
 from ...native.spec import NativeSpec, parameter
+from ..films.mobility import Mobility
+from ..films.turbulence import Turbulence
 from ..reaction import input_vector
-from .oil import Cooling, LaminarFilm, Oil, require_absolute, viscosity_table
+from .oil import DENSITY, Cooling, LaminarFilm, Oil, relative_density, require_absolute, viscosity_table
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
@@ -248,6 +250,7 @@ class WarmBearing(LaminarFilm):
         oil: Oil | None
         temperature: float | None
         cooling: Cooling | None
+        supply_pressure: float
         inputs: Any
         outputs: Any
         film: Any
@@ -262,15 +265,53 @@ class WarmBearing(LaminarFilm):
         def clearance(self) -> float:
             """Radial clearance [m]."""
 
+    turbulence: Turbulence | None = None
+
+    @property
+    def turbulent_mobility(self) -> Mobility | None:
+        """Mobility of the oil at its temperature by the turbulence of the bearing; None of a laminar one."""
+        if self.turbulence is None:
+            return None
+        return self.turbulence.mobility(self.radius, self.clearance, self.film_density)
+
+    @property
+    def film_density(self) -> float:
+        """Density of the oil at the temperature of the film, or of fresh oil [kg/m3]."""
+        if self.oil is None:
+            return DENSITY
+        return self.oil.reference_density * float(relative_density(self._stated_temperature))
+
+    @property
+    def _stated_temperature(self) -> float:
+        return (
+            cast(Cooling, self.cooling).supply_temperature if self.temperature is None else self.temperature
+        )
+
     @property
     def film_viscosity(self) -> float:
         """Dynamic viscosity of the film [Pa s]; that of fresh oil where its temperature is not stated."""
         if self.oil is None:
             return cast(float, self.viscosity)
-        stated = (
-            cast(Cooling, self.cooling).supply_temperature if self.temperature is None else self.temperature
-        )
-        return float(self.oil.law.viscosity(stated))
+        return float(self.oil.law.viscosity(self._stated_temperature))
+
+    def viscosity_slope(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d force/d viscosity at one state, the density held [N/(Pa s)], shape (2,).
+
+        At a Reynolds number the force is of degree one in viscosity times velocity and speed, so that its
+        derivative by ln Re is that by velocity and speed along themselves, less the force.
+
+        Raises
+        ------
+        InputError
+            As `force`, and if openings are under a supply pressure, which the viscosity does not scale.
+        """
+        if getattr(self, "supply_pressure", 0.0):
+            raise InputError(
+                f"supply_pressure must be 0 for a slope by viscosity, got {self.supply_pressure!r}"
+            )
+        force, by = (np.asarray(of(position, velocity, speed)) for of in (self.force, self.jacobian))
+        by_reynolds = by[:, 2:4] @ np.asarray(velocity, dtype=float) + by[:, 4] * speed - force
+        return np.asarray((force - by_reynolds) / self.film_viscosity)
 
     @property
     def is_warming(self) -> bool:
@@ -331,8 +372,13 @@ class WarmBearing(LaminarFilm):
         Parameters and errors are those of `film_heat`.
         """
         oil, cooling = self.cooled
-        found = self.at_temperature(cooling.coldest).film_heat(position, velocity, speed)
-        return balance_temperature(found, oil, cooling)
+
+        def heat(temperature: float) -> FilmHeat:
+            return self.at_temperature(temperature).film_heat(position, velocity, speed)
+
+        if self.turbulence is not None:
+            return fed_temperature(heat, oil, cooling)
+        return balance_temperature(heat(cooling.coldest), oil, cooling)
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
         """Return the bearing whose film warms and cools over time.

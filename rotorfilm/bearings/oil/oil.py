@@ -26,6 +26,7 @@ from ...core.inputs import arguments, quantities, quantity
 from ...core.model import Array
 from ...core.units import CELSIUS
 from ...native.loss_kernels import OilTable
+from ..films.turbulence import TAYLOR, TURBULENT, is_turbulent, onset
 from ..reaction import FilmUnits
 
 # How the viscosity of an oil falls with its temperature: the laws that an `Oil` may have.
@@ -636,16 +637,6 @@ def compression(
 # Where the film of a bearing is no longer laminar, or its oil beyond the law of its viscosity.
 
 
-TAYLOR = 41.2
-"""Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
-
-The square root of half the critical Taylor number 3390 of a narrow gap (tests/scenes/test_validity.py).
-"""
-
-TURBULENT = 2000.0
-"""Reynolds number speed R c/nu above which plane Couette flow does not stay laminar."""
-
-
 class FilmNumbers(NamedTuple):
     """Reynolds number speed R c/nu, and that times sqrt(c/R), whose limit is `TAYLOR` [1]."""
 
@@ -715,11 +706,12 @@ class LaminarFilm(FilmUnits):
             viscosity, density = float(oil.law.viscosity(within)), float(oil.density(liquid))
         R, c = self.radius, self.clearance
         found = film_reynolds(R, c, viscosity, density, speed)
-        most = min(TAYLOR * math.sqrt(R / c), TURBULENT)
-        if found.turbulence:
+        most = onset(R, c)
+        if found.turbulence and not is_turbulent(self):
             begins = "Taylor vortices begin" if most < TURBULENT else "turbulence begins"
             warn_user(
                 f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
                 f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
-                f"{begins}: a real film takes more power and gets warmer than this laminar one"
+                f"{begins}: a real film takes more power and gets warmer than this laminar one, and "
+                "turbulence=Turbulence() models it"
             )

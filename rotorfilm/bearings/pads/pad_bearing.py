@@ -15,6 +15,8 @@ from ...core.errors import InputError, require_each, require_number, require_pos
 from ...core.model import Array
 from ...core.results import BearingLosses
 from ..films.geometry import TURN, FilmGeometry, Pad, SunkArc
+from ..films.mobility import with_mobility
+from ..films.turbulence import Turbulence, require_turbulence
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import WarmBearing, flow_slopes, require_lubricant
 from ..reaction import require_no_overflow
@@ -92,6 +94,8 @@ class PadBearing(WarmBearing):
         at rest: `equilibrium` finds it.
     cooling : Cooling or None
         What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
+    turbulence : Turbulence or None
+        Turbulence of the oil, on films on a grid: `PadMapFilm` becomes `PadGridFilm()`. None for laminar oil.
 
     Raises
     ------
@@ -108,9 +112,16 @@ class PadBearing(WarmBearing):
     oil: Oil | None = None
     temperature: float | None = None
     cooling: Cooling | None = None
+    turbulence: Turbulence | None = None
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "radius", "length")
+        require_turbulence(self.turbulence)
+        if self.turbulence is not None:
+            from .pad_film import PadGridFilm, PadMapFilm
+
+            if isinstance(getattr(self, "film", None), PadMapFilm):
+                object.__setattr__(self, "film", PadGridFilm())
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         self._require_clearance()
 
@@ -187,7 +198,7 @@ class PadBearing(WarmBearing):
     @property
     def film_at_speed(self) -> Any:
         """The film law of the pads with the Reynolds number of this bearing, where it changes with that."""
-        film: Any = getattr(self, "film", None)
+        film: Any = with_mobility(getattr(self, "film", None), self.turbulent_mobility)
         mobility = getattr(film, "mobility", None)
         if mobility is None or mobility.density == 0.0:
             return film

@@ -228,8 +228,10 @@ def _splines(coefficients: Array, x: Array, theta: Array) -> tuple[Array, Array,
 
 def grid_flows(film: RingKernel, eccentricity: Array, rate: Array) -> PadFlows:
     """Return shear and flow of pads of one shape from their two-dimensional film; see `LossyPadFilm`."""
-    shear, into, out = grid_losses(film, eccentricity, np.where(rate < 0.0, -1.0, 1.0))
-    return PadFlows(shear, np.abs(rate) * into, np.abs(rate) * out)
+    unit = np.where(rate < 0.0, -1.0, 1.0)
+    at = np.where(rate == 0.0, unit, rate) if film.sped else unit
+    shear, into, out = grid_losses(film, eccentricity, at)
+    return PadFlows(shear, rate / at * into, rate / at * out)
 
 
 def grid_losses(film: RingKernel, e: Array, rate: Array) -> Array:

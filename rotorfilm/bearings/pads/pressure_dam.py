@@ -225,6 +225,8 @@ class PressureDamBearing(PadBearing, KernelReaction):
             raise InputError(f"pads must be one at least, got {self.pads!r}")
         if not are_counts(self.cells, (16, 8), (4, 4)):
             raise InputError(f"cells must be two multiples of 4, at least (16, 8), got {self.cells!r}")
+        if self.mobility is not None and self.turbulence is not None:
+            raise InputError(f"mobility must be None in a turbulent bearing, got {self.mobility!r}")
         super().__post_init__()
         _ = self.geometry
 
@@ -263,7 +265,11 @@ class PressureDamBearing(PadBearing, KernelReaction):
     def kernel_on(self, extrapolated: bool) -> DamKernel:
         """Return the films in compiled code, extrapolated from two grids or not."""
         self.require_temperature()
-        return DamKernel(self.rows, list(self.dimensions.values()), extrapolated, self.mobility)
+        return DamKernel(self.rows, list(self.dimensions.values()), extrapolated, self._oil_mobility)
+
+    @property
+    def _oil_mobility(self) -> Mobility | None:
+        return self.turbulent_mobility or self.mobility
 
     @cached_property
     def rows(self) -> Array:
@@ -399,8 +405,8 @@ class PressureDamBearing(PadBearing, KernelReaction):
             for (name, unit, text), value in zip(PARAMETERS, self.kernel.dimensions, strict=True)
         )
         tables = {"pads": self.rows, "extrapolated": np.array([float(self.extrapolated)])}
-        if self.mobility is not None:
-            tables |= self.mobility.tables()
+        if self._oil_mobility is not None:
+            tables |= self._oil_mobility.tables()
         return NativeSpec(kernel="pressure_dam", parameters=parameters, tables=tables)
 
     def _answers(

@@ -1,0 +1,308 @@
+"""Turbulent oil films: closures, the band of transition, and heat transfer, as the mobility of a bearing.
+
+Turbulence acts on a thin film by factors of the local Reynolds number Re_h = density |speed| R h/viscosity,
+
+    d/dx (h^3/(k_x viscosity) dp/dx) + d/dz (h^3/(k_z viscosity) dp/dz) = (U/2) dh/dx + dh/dt,
+    shear stress = tau_c viscosity U/h +- (h/2) dp/dx;  laminar k_x = k_z = 12, tau_c = 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core.errors import InputError, require_kind, require_positive
+from ...core.inputs import quantities
+from ...core.model import Array
+from .mobility import Mobility
+
+KAPPA, SUBLAYER, TURBULENT_PRANDTL = 0.4, 10.7, 0.9
+"""Of Reichardt's eddy viscosity kappa (y+ - delta tanh(y+/delta)), and of the eddies' heat [1]."""
+
+TAYLOR = 41.2
+"""Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
+
+The square root of half the critical Taylor number 3390 of a narrow gap (tests/scenes/test_validity.py).
+"""
+
+TURBULENT = 1300.0
+"""Reynolds number speed R c/nu above which plane Couette flow may stay turbulent; quoted up to 1450."""
+
+WIDTH = 2.0
+"""Reynolds number at the end of the band over that at its start, where a band is not given."""
+
+TO_ONSET, CELLS, SPREAD = 160, 1024, 30.0
+"""Cells of the splines below the onset and in all, and where nodes without a band cease to be uniform."""
+
+PRANDTL_POWER = 0.29
+"""Power of the Prandtl number by which the heat transfer of a turbulent film grows."""
+
+
+def onset(radius: float, clearance: float) -> float:
+    """Return the Reynolds number up to which a film is laminar [1].
+
+    That of Taylor's vortices in the concentric film, 41.2 sqrt(radius/clearance) (Taylor 1923, doi
+    10.1098/rsta.1923.0008), or of turbulence without them where that is lower. Eccentricity delays
+    vortices (DiPrima & Stuart 1972), so that this is the cautious number.
+    """
+    return min(TAYLOR * math.sqrt(radius / clearance), TURBULENT)
+
+
+# Closures: k_x, k_z and tau_c over the local Reynolds number.
+
+
+def ng_pan(reynolds: Array) -> Array:
+    """Return k_x, k_z and tau_c of the fit to the theory of Ng & Pan (1965), shape (3, ...)."""
+    return np.stack([12.0 + 0.0136 * reynolds**0.9, 12.0 + 0.0043 * reynolds**0.96, _couette(reynolds)])
+
+
+def constantinescu(reynolds: Array) -> Array:
+    """Return the same of Constantinescu's mixing length."""
+    return np.stack([12.0 + 0.026 * reynolds**0.8265, 12.0 + 0.0198 * reynolds**0.741, _couette(reynolds)])
+
+
+def hirs(reynolds: Array) -> Array:
+    """Return the same of Hirs' bulk flow (1973), joined to laminar flow by fourth powers."""
+    rise = reynolds**0.75
+    return np.stack(
+        [(low**4 + (k * rise) ** 4) ** 0.25 for low, k in ((12, 0.0687), (12, 0.0392), (1, 0.00981))]
+    )
+
+
+def _couette(reynolds: Array) -> Array:
+    return 1.0 + 0.0012 * reynolds**0.94
+
+
+def reichardt(reynolds: Array) -> Array:
+    """Return the same by quadrature of Reichardt's eddy viscosity (1951), linear in the pressure."""
+    film = eddy_film(reynolds)
+    return np.stack(
+        [1.0 / film.mean(film.arm**2 * film.along), 1.0 / film.mean(film.arm**2 / film.f), film.tau]
+    )
+
+
+CLOSURES: dict[str, Callable[[Array], Array]] = {
+    "ng_pan": ng_pan,
+    "constantinescu": constantinescu,
+    "hirs": hirs,
+    "reichardt": reichardt,
+}
+"""Closures by name."""
+
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+_ROUNDS = 80
+"""Places across half the film, and rounds of its shear stress, of which each halves the error."""
+
+
+class EddyFilm(NamedTuple):
+    """Couette flow with Reichardt's eddy viscosity over half the gap, at local Reynolds numbers (...).
+
+    Attributes
+    ----------
+    tau : ndarray, shape (...)
+        tau_c, the stress over that of laminar flow.
+    f, along : ndarray, shape (places, ...)
+        Eddy and molecular viscosity over the latter; response of the velocity to a stress along the flow.
+    arm, weights : ndarray, shape (places, ...)
+        Distance from the middle over the gap, and weights of the integral over half of it.
+    """
+
+    tau: Array
+    f: Array
+    along: Array
+    arm: Array
+    weights: Array
+
+    def mean(self, values: Array) -> Array:
+        """Return the integral over the gap of what is the same on both sides of its middle."""
+        return 2.0 * np.sum(self.weights * values, axis=0)
+
+
+def eddy_film(reynolds: Array) -> EddyFilm:
+    """Return the film of some local Reynolds numbers: tau_c times the integral of 1/f is 1."""
+    u = (0.5 * (1.0 + _PLACES)).reshape(-1, *(1,) * reynolds.ndim)
+    s = 0.5 * u**3  # places crowd at the wall
+    weights = 0.75 * u**2 * _WEIGHTS.reshape(u.shape)
+    tau = np.ones_like(reynolds)
+    for _ in range(_ROUNDS):
+        y = s * np.sqrt(reynolds * tau)
+        f = 1.0 + KAPPA * (y - SUBLAYER * np.tanh(y / SUBLAYER))
+        tau = 0.5 / np.sum(weights * 1.0 / f, axis=0)
+    along = (1.0 - KAPPA * y * np.tanh(y / SUBLAYER) ** 2 / (2.0 * f)) / f
+    return EddyFilm(tau, f, along, 0.5 - s, weights)
+
+
+def heat_transfer(reynolds: Array, prandtl: float) -> Array:
+    """Return Nu and N_w of turbulent Couette flow that its own dissipation warms, shape (2, ...).
+
+    Per area and kelvin k/h [Nu (T - (T_b + T_j)/2) + N_w (T_j - T_b)] goes into the bush, with the indices
+    exchanged into the journal; laminar 6 and 1. The turbulent Prandtl number is 0.9.
+    """
+    film = eddy_film(reynolds)
+    conducts = 1.0 + prandtl * (film.f - 1.0) / TURBULENT_PRANDTL
+    # The flux that reaches a place is the heat made between it and the middle; s falls from the wall.
+    made = film.weights / film.f
+    flux = np.sum(made, axis=0) - np.cumsum(made, axis=0) + 0.5 * made
+    rise = np.cumsum(film.weights * flux / conducts, axis=0) - 0.5 * film.weights * flux / conducts
+    return np.stack([np.sum(made, axis=0) / film.mean(rise), 1.0 / film.mean(1.0 / conducts)])
+
+
+def blend(reynolds: Array, edges: tuple[float, float] | None) -> Array:
+    """Return the share of turbulence: 0 below the band, 1 above it or without one; twice differentiable."""
+    if edges is None:
+        return np.ones_like(reynolds)
+    q = np.log(np.maximum(reynolds, edges[0]) / edges[0]) / math.log(edges[1] / edges[0])
+    q = np.minimum(q, 1.0)
+    return q**3 * (10.0 - 15.0 * q + 6.0 * q**2)
+
+
+# The effect, and the mobility that it gives to the oil of a bearing.
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class Turbulence:
+    """Turbulence of an oil film, the `turbulence` of journal and pad bearings.
+
+    Parameters
+    ----------
+    closure : str
+        "ng_pan", "constantinescu", "hirs", or the slower "reichardt", the quadrature that the first two are
+        fits of.
+    band : bool or (float, float) [1]
+        Local Reynolds numbers between which the film passes from laminar to turbulent; True for the `onset`
+        of the bearing and twice that, False for closures at any Reynolds number. No measurement stands
+        behind the band: what it changes is a part of the error.
+    density : float or None [kg/m3]
+        Of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
+
+    Raises
+    ------
+    InputError
+        If the closure has no such name, or a number breaks its rule.
+
+    Notes
+    -----
+    With k = 12 + b (k_t - 12), tau_c = 1 + b (tau_t - 1), b = q^3 (10 - 15 q + 6 q^2) and q = ln(Re_h/Re_1)/
+    ln(Re_2/Re_1) within 0 and 1. The closures are linear in the pressure, which holds for
+    h^2 |grad p| < 5 viscosity U, as in oil bearings.
+
+    Examples
+    --------
+    >>> effect = Turbulence(closure="hirs")
+    >>> [round(edge) for edge in effect.edges(0.25, 0.0005)]
+    [921, 1843]
+    """
+
+    closure: str = "ng_pan"
+    band: bool | tuple[float, float] = True
+    density: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.closure not in CLOSURES:
+            raise InputError(f"closure must be one of {', '.join(CLOSURES)}, got {self.closure!r}")
+        if self.density is not None:
+            require_positive("density", self.density)
+        if not isinstance(self.band, bool):
+            band = tuple(float(edge) for edge in self.band)
+            if len(band) != 2 or not 0.0 < band[0] < band[1] < math.inf:
+                raise InputError(
+                    f"band must be True, False or two rising Reynolds numbers, got {self.band!r}"
+                )
+            object.__setattr__(self, "band", band)
+
+    def edges(self, radius: float, clearance: float) -> tuple[float, float] | None:
+        """Return the Reynolds numbers of the band in a bearing of these dimensions [m]; None without one."""
+        if isinstance(self.band, bool):
+            begins = onset(radius, clearance)
+            return (begins, WIDTH * begins) if self.band else None
+        return self.band
+
+    def factors(self, reynolds: ArrayLike, radius: float, clearance: float) -> Array:
+        """Return k_x, k_z and tau_c at local Reynolds numbers (...) in such a bearing [m], shape (3, ...)."""
+        local = np.asarray(reynolds, dtype=float)
+        return _blended(self.closure, self.edges(radius, clearance), local)
+
+    def mobility(self, radius: float, clearance: float, density: float) -> Mobility:
+        """Return the mobility of oil of a density [kg/m3] in a bearing of these dimensions [m]."""
+        own = _splines(self.closure, self.edges(radius, clearance))
+        return replace(own, density=self.density or density)
+
+
+def local_reynolds(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
+    """Return the Reynolds number of films of a thickness and a viscosity over those of a bearing [1]."""
+    whole = bearing.film_density * abs(speed) * bearing.radius * bearing.clearance / bearing.film_viscosity
+    return np.asarray(whole * thickness / viscosity)
+
+
+def turbulent_factors(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> tuple[Array, Array]:
+    """Return the four factors of a `Mobility`, and their slopes over ln Re_h, at a thickness and a viscosity.
+
+    Both are over those of a turbulent bearing; the speed is in rad/s.
+    """
+    local = local_reynolds(bearing, speed, thickness, viscosity)
+    factors, slopes = bearing.turbulent_mobility.factors(local)
+    return factors, slopes * local / factors
+
+
+def turbulent_transfer(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
+    """Return Nu and N_w of `heat_transfer` in such films, shape (2, ...)."""
+    oil, effect = bearing.cooled[0], bearing.turbulence
+    mu, density = bearing.film_viscosity, bearing.film_density
+    heat = float(oil.volumetric_heat(bearing.cooled[1].supply_temperature))
+    prandtl = mu * heat / (density * oil.conductivity)
+    local = local_reynolds(bearing, speed, thickness, viscosity)
+    nodes, table = _transfer_table(prandtl)
+    laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * local.ndim)
+    more = np.exp([np.interp(np.log1p(local / SPREAD), nodes, row) for row in table]) - laminar
+    share = blend(local, effect.edges(bearing.radius, bearing.clearance))
+    return np.asarray(laminar + share * viscosity**PRANDTL_POWER * more)
+
+
+def is_turbulent(bearing: Any) -> bool:
+    """Return whether the film of a bearing is turbulent above the onset, by it or by its mobility."""
+    film = getattr(bearing, "film", None)
+    mobile = (getattr(one, "mobility", None) for one in (bearing, film, getattr(film, "film", None)))
+    own = any(isinstance(one, Mobility) and one.density > 0.0 for one in mobile)
+    return own or getattr(bearing, "turbulence", None) is not None
+
+
+def require_turbulence(turbulence: object) -> None:
+    """Raise InputError unless this is a `Turbulence` or None."""
+    require_kind("turbulence", turbulence, Turbulence | None, "a Turbulence, or None for laminar oil")
+
+
+def _blended(closure: str, edges: tuple[float, float] | None, reynolds: Array) -> Array:
+    laminar = np.array([12.0, 12.0, 1.0]).reshape(3, *(1,) * reynolds.ndim)
+    return laminar + blend(reynolds, edges) * (CLOSURES[closure](reynolds) - laminar)
+
+
+@lru_cache(maxsize=64)
+def _splines(closure: str, edges: tuple[float, float] | None) -> Mobility:
+    """Return the mobility without a density; a band begins at a node, below which the film is laminar."""
+    from .map_fit import quintic_coefficients
+
+    scale, step = (
+        (SPREAD, math.log1p(1e5 / SPREAD) / CELLS) if edges is None else (edges[0], math.log(2.0) / TO_ONSET)
+    )
+    nodes = scale * np.expm1(step * np.arange(CELLS + 1))
+    k_x, k_z, tau = _blended(closure, edges, nodes)
+    logarithms = np.log(np.stack([12.0 / k_x, 12.0 / k_z, np.ones_like(tau), tau], axis=1))
+    coefficients = quintic_coefficients(logarithms).T
+    if edges is not None:
+        coefficients[:, : TO_ONSET + 5] = 0.0
+    coefficients[2] = 0.0
+    return Mobility(coefficients=coefficients, scale=scale, last_node=step * CELLS)
+
+
+@lru_cache(maxsize=16)
+def _transfer_table(prandtl: float) -> tuple[Array, Array]:
+    """Return nodes ln(1 + Re/30) and the logarithms of Nu and N_w there."""
+    nodes = np.linspace(0.0, math.log1p(1e5 / SPREAD), 400)
+    return nodes, np.log(heat_transfer(SPREAD * np.expm1(nodes), prandtl))
