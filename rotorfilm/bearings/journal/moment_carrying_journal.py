@@ -173,8 +173,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     least film that it takes. The levels are
 
     - `NONE`: the aligned force, which has an error of d, and no moment;
-    - `CLOSED_FORM`: that force, and a moment T = g F_w w1 + 2 g F_e tau with an error of 15 to 75 %. Here w and
-      w1 are the sources of e and tau, and g = (1/3 - (l coth l - 1)/l^2)/(1 - tanh(l)/l) with l =
+    - `CLOSED_FORM`: that force, and a moment T = g F_w w1 + 2 g F_e tau with an error of 15 to 75 %. Here w
+      and w1 are the sources of e and tau, and g = (1/3 - (l coth l - 1)/l^2)/(1 - tanh(l)/l) with l =
       length/diameter, as of a centered full film;
     - `SECOND_ORDER`: second order in the tilt, from a map of the plain bearing, which is made in half a
       minute and kept. Its force has an error of 0.04 % at t = 0.2 and 0.7 % at t = 0.4, its moment 3 and
