@@ -57,7 +57,7 @@ static RF_INLINE void evaluate(const rf_tilt_map *map, const rf_weights *x, cons
 }
 
 /* y of one row; `along` is chi dX/dchi. Nothing is divided by chi. */
-static RF_INLINE jet jet_of(const numbers *of, int k, double y0, int odd, const rf_frame *at, double along, int full)
+static jet jet_of(const numbers *of, int k, double y0, int odd, const rf_frame *at, double along, int full)
 {
     const double m = of->m[k], m_c = of->m_c[k], m_cc = of->m_cc[k], c = at->cos, s = at->sin, chi = at->chi;
     const double moved[2] = {along * of->m_x[k] * c + m_c * s * s, along * of->m_x[k] * s - m_c * s * c};
@@ -82,7 +82,7 @@ static RF_INLINE jet jet_of(const numbers *of, int k, double y0, int odd, const 
 }
 
 /* exp(L) y, L changing by `wall` along e besides. */
-static RF_INLINE jet scaled(const jet *y, const jet *L, double size, double wall, const rf_frame *at, int full)
+static jet scaled(const jet *y, const jet *L, double size, double wall, const rf_frame *at, int full)
 {
     jet found = {size * y->value, size * (y->turn + L->turn * y->value), 0.0, {0.0, 0.0}, {0.0, 0.0}};
     if (!full)
@@ -98,7 +98,7 @@ static RF_INLINE jet scaled(const jet *y, const jet *L, double size, double wall
     return found;
 }
 
-static RF_INLINE void set_matrices(const rf_tilt_map *map, const numbers *of, const rf_frame *at, double along, int full,
+static void set_matrices(const rf_tilt_map *map, const numbers *of, const rf_frame *at, double along, int full,
                                    matrices *S)
 {
     const double gap = (1.0 - at->chi) * (1.0 + at->chi), wall = 2.0 * at->chi / gap;
@@ -119,7 +119,7 @@ static RF_INLINE void set_matrices(const rf_tilt_map *map, const numbers *of, co
     }
 }
 
-static RF_INLINE void look_up(const rf_tilt_map *map, const rf_frame *at, double x, double along, int full, matrices *S)
+static void look_up(const rf_tilt_map *map, const rf_frame *at, double x, double along, int full, matrices *S)
 {
     numbers of;
     rf_weights by_x, by_s;
@@ -130,19 +130,19 @@ static RF_INLINE void look_up(const rf_tilt_map *map, const rf_frame *at, double
 }
 
 /* v turned by a right angle: what the frame does to both pairs, against its turn. */
-static RF_INLINE void turn_pairs(const double v[4], double turned[4])
+static void turn_pairs(const double v[4], double turned[4])
 {
     const double found[4] = {v[1], -v[0], v[3], -v[2]};
     memcpy(turned, found, sizeof found);
 }
 
-static RF_INLINE void multiply(double S[4][4], const double v[4], double product[4])
+static void multiply(double S[4][4], const double v[4], double product[4])
 {
     for (int i = 0; i < 4; ++i)
         product[i] = S[i][0] * v[0] + S[i][1] * v[1] + S[i][2] * v[2] + S[i][3] * v[3];
 }
 
-static RF_INLINE double dot(const double a[4], const double b[4])
+static double dot(const double a[4], const double b[4])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
@@ -153,7 +153,7 @@ typedef struct products {
     double S[4], S_tau[4], turn[4], turn_tau[4];   /* S v, S dv/da, and their slopes by the angle of w, before v */
 } products;
 
-static RF_INLINE void set_products(matrices *S, double a, const double t[2], const double u[2], products *p)
+static void set_products(matrices *S, double a, const double t[2], const double u[2], products *p)
 {
     const double v[4] = {a * t[0], a * t[1], u[0], u[1]}, tau[4] = {t[0], t[1], 0.0, 0.0};
     memcpy(p->v, v, sizeof v);
@@ -242,10 +242,7 @@ int rf_tilt_wrench(const rf_tilt_map *map, const double *q, const double *drive,
     if (status != RF_OK)
         return status;
     const double X = rf_stretch(at.chi, by ? &slope : NULL), along = X > map->x.last ? 0.0 : at.chi * slope;
-    if (by)
-        look_up(map, &at, fmin(X, map->x.last), along, 1, &S);
-    else
-        look_up(map, &at, fmin(X, map->x.last), along, 0, &S);
+    look_up(map, &at, fmin(X, map->x.last), along, by != NULL, &S);
     const double t[2] = {at.nx * q[2] + at.ny * q[3], at.nx * q[3] - at.ny * q[2]};
     const double u[2] = {at.nx * drive[2] + at.ny * drive[3], at.nx * drive[3] - at.ny * drive[2]};
     set_products(&S, at.size, t, u, &p);
