@@ -231,6 +231,7 @@ MADE = [
     rf.bearings.MomentCarryingJournal(
         bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
     ),
+    rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
     rf.ThrustBearing(
         inner_radius=0.025,
         outer_radius=0.05,
