@@ -61,6 +61,7 @@ SAME_NAME = {
     "contact",
     "damper",
     "rolling",
+    "thrust",
     "coupling",
     "shaft",
     "journal",

@@ -143,7 +143,8 @@ def new(
 ) -> CommandOutput:
     """Print a commented scene of a machine element that `rotorfilm solve` answers as it stands.
 
-    NAME is journal, lobed_journal, pressure_dam, tilting_pad, ball_bearing, damper, contact, bush or shaft.
+    NAME is journal, lobed_journal, pressure_dam, tilting_pad, thrust, ball_bearing, damper, contact, bush or
+    shaft.
 
     Example: rotorfilm new tilting_pad --out bearing.toml
     """

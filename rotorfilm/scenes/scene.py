@@ -166,10 +166,13 @@ class Scene:
         raise AttributeError(f"a scene has no attribute {name!r}")
 
     def _take_oil(self) -> None:
-        """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
-        oiled = {name: table.on(name, self.lubricant) for name, table in film_tables(self.tables).items()}
-        if self.shaft is not None:
-            oiled["shaft"] = self.shaft.on(self.lubricant)
+        """Give the oil of `[lubricant]` to the bearings that state no viscosity."""
+        _ = film_tables(self.tables)  # at most one
+        oiled = {
+            name: table.on(name, self.lubricant)
+            for name, table in self.tables.items()
+            if hasattr(table, "on")
+        }
         object.__setattr__(self, "tables", {**self.tables, **oiled})
 
     def _require_node(self, name: str, node: int) -> None:

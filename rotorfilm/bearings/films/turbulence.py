@@ -234,13 +234,35 @@ class Turbulence:
         own = _splines(self.closure, self.edges(radius, clearance))
         return replace(own, density=self.density or density)
 
-    def heat_transfer(self, reynolds: Array, prandtl: float, edges: tuple[float, float] | None) -> Array:
-        """Return Nu and N_w at local Reynolds numbers, shape (2, ...); see `heat_transfer`."""
-        nodes, table = _transfer_table(round(prandtl, -1) or 10.0)
-        place = np.log1p(reynolds / SPREAD)
-        turbulent = np.stack([np.exp(np.interp(place, nodes, row)) for row in table])
-        laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * np.ndim(reynolds))
-        return laminar + blend(reynolds, edges) * (turbulent - laminar)
+
+def local_reynolds(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
+    """Return the Reynolds number of films of a thickness and a viscosity over those of a bearing [1]."""
+    whole = bearing.film_density * abs(speed) * bearing.radius * bearing.clearance / bearing.film_viscosity
+    return np.asarray(whole * thickness / viscosity)
+
+
+def turbulent_factors(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> tuple[Array, Array]:
+    """Return the four factors of a `Mobility`, and their slopes over ln Re_h, at a thickness and a viscosity.
+
+    Both are over those of a turbulent bearing; the speed is in rad/s.
+    """
+    local = local_reynolds(bearing, speed, thickness, viscosity)
+    factors, slopes = bearing.turbulent_mobility.factors(local)
+    return factors, slopes * local / factors
+
+
+def turbulent_transfer(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
+    """Return Nu and N_w of `heat_transfer` in such films, shape (2, ...)."""
+    oil, effect = bearing.cooled[0], bearing.turbulence
+    mu, density = bearing.film_viscosity, bearing.film_density
+    heat = float(oil.volumetric_heat(bearing.cooled[1].supply_temperature))
+    prandtl = mu * heat / (density * oil.conductivity)
+    local = local_reynolds(bearing, speed, thickness, viscosity)
+    nodes, table = _transfer_table(prandtl)
+    laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * local.ndim)
+    more = np.exp([np.interp(np.log1p(local / SPREAD), nodes, row) for row in table]) - laminar
+    share = blend(local, effect.edges(bearing.radius, bearing.clearance))
+    return np.asarray(laminar + share * viscosity**PRANDTL_POWER * more)
 
 
 def is_turbulent(bearing: Any) -> bool:

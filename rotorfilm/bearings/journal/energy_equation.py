@@ -365,7 +365,9 @@ def _solve(
 ) -> tuple[Array, Array, Array, Array]:
     """Return temperatures of oil, openings and bush, and an account, from what rf_energy has of the cells."""
     opening, walls = np.ascontiguousarray(heating.opening, dtype=np.int32), heating.walls
-    kept = [None if of is None else contiguous(of) for of in (central, *fields, walls and walls.spread)]
+    transfer = heating.flow.transfer
+    given = central, *fields, *((None, None) if transfer is None else transfer), walls and walls.spread
+    kept = [None if of is None else contiguous(of) for of in given]
     *places, spread = (None if of is None else of.ctypes.data for of in kept)
     shape, openings = fields[0].shape, int(opening.max()) + 1 + (central is not None)
     struct = structure("rf_energy")(
@@ -412,7 +414,7 @@ def _normalized(layers: Array) -> Array:
 def layer_heat(heating: Heating, shares: LayerShares) -> Array:
     """Return the heat that each layer makes [1/s^2]."""
     flow, speed = heating.flow, heating.speed
-    dragged = (speed**2 * flow.shear / shares.F0)[..., None] * shares.sheared
+    dragged = (speed**2 * flow.shear * flow.sheared / shares.F0)[..., None] * shares.sheared
     pressed = flow.dissipation[..., None] * shares.squeezed
     both = (24.0 * speed * flow.climb)[..., None] * shares.crossed
     return dragged + pressed + both

@@ -17,6 +17,7 @@ from ...core.port import Tangent, has_wall
 from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil
 from ..films.geometry import SunkArc
 from ..films.mass_conserving import Fluidity
+from ..films.turbulence import turbulent_factors, turbulent_transfer
 from ..reaction import StaticReaction
 
 
@@ -43,6 +44,11 @@ class FilmFlow(NamedTuple):
         Integral of H times the slope of the pressure around the film over the cells of film.
     central : ndarray, shape (N,), or None [1/s]
         Flow from a groove all round at mid-length into the first cells; None without one.
+    sheared : ndarray, shape (N, M + 1), or float [1]
+        Factor of the shear stress, 1 in a laminar film.
+    transfer : ndarray, shape (2, N, M + 1), or None [1]
+        Nusselt number of the heat to both walls and factor of that from one to the other; None for laminar
+        6 and 1.
     """
 
     dragged: Array
@@ -56,6 +62,8 @@ class FilmFlow(NamedTuple):
     dissipation: Array
     climb: Array
     central: Array | None = None
+    sheared: Array | float = 1.0
+    transfer: Array | None = None
 
     @property
     def around(self) -> Array:
@@ -124,6 +132,7 @@ def film_flow(
     filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
     at_faces = cells.at_faces(eccentricity, cells.face)
     climbing = at_faces * (np.roll(pressure, -1, axis=0) - pressure)
+    sheared, transfer = film.walls(speed, cells.mean_thickness(eccentricity))
     return FilmFlow(
         dragged=dragged,
         pressed=pressed,
@@ -135,6 +144,8 @@ def film_flow(
         shear=filled * cells.integral_of_inverse(eccentricity) * cells.width,
         dissipation=_dissipation(cells, found, full),
         climb=0.5 * full * cells.width * (climbing + np.roll(climbing, 1, axis=0)),
+        sheared=sheared,
+        transfer=transfer,
     )
 
 
@@ -578,9 +589,10 @@ class FrozenFilm(StaticReaction):
         cells, (around, along, dragged) = self.cells, self._per_thickness
         H, cubed = (cells.at_faces(eccentricity, cells.face, k)[:, : dragged.shape[1]] for k in (1, 3))
         carried, normal, width = speed * H * dragged, cells.normal(), cells.width[:-1]
+        (eased, onward), _ = self._eased(eccentricity, speed)
         stencil = Stencil(
-            around=cubed * around,
-            along=cells.at_ends(eccentricity, 3) * along,
+            around=cubed * around * eased,
+            along=cells.at_ends(eccentricity, 3) * along * onward,
             source=np.roll(carried, 1, axis=0) - carried + (squeeze @ normal)[:, None] * width,
             held=self.empty | cells.held[:, None],
         )
@@ -598,6 +610,28 @@ class FrozenFilm(StaticReaction):
             _to_the_end(self.fluidity.pressed) * cells.conductance * across[:, None],
             faces.dragged[:, :-1] * width,
         )
+
+    def _eased(self, eccentricity: Array, speed: float) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+        """Return the factors of the conductances around and along, and their slopes by ln Re_h."""
+        if self.bearing.turbulence is None:
+            return (1.0, 1.0), (0.0, 0.0)
+        cells, faces = self.cells, self.fluidity.mean_at_faces().sheared[:, :-1]
+        places = (
+            (cells.at_faces(eccentricity, cells.face)[:, : faces.shape[1]], faces),
+            (
+                cells.at_ends(eccentricity, 1),
+                _to_the_end(self.fluidity.sheared),
+            ),
+        )
+        around, along = (turbulent_factors(self.bearing, speed, *place) for place in places)
+        return (around[0][0], along[0][1]), (around[1][0], along[1][1])
+
+    def walls(self, speed: float, thickness: Array) -> tuple[Array | float, Array | None]:
+        """Return `sheared` and `transfer` of a `FilmFlow` at the thickness of the cells."""
+        if self.bearing.turbulence is None:
+            return 1.0, None
+        place = speed, thickness, self.fluidity.sheared
+        return turbulent_factors(self.bearing, *place)[0][3], turbulent_transfer(self.bearing, *place)
 
     def _response(self, position: Array, velocity: Array, speed: float) -> Array:
         """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6)."""
@@ -623,17 +657,24 @@ class FrozenFilm(StaticReaction):
         found = self.solve(e, squeeze, speed)
         P, V = found.pressure, found.answers
         fall, at_end = V - np.roll(V, -1, axis=1), np.diff(V, axis=2, append=0.0) * np.diff(P, append=0.0)
-        H, squared = (cells.at_faces(e, cells.face, k)[:, : P.shape[1]] for k in (1, 2))
+        H, squared, cubed = (cells.at_faces(e, cells.face, k)[:, : P.shape[1]] for k in (1, 2, 3))
+        ends = [cells.at_ends(e, k) for k in (1, 2, 3)]
         around, along, dragged = self._per_thickness
-        around = np.sum(squared * around * fall * (P - np.roll(P, -1, axis=0)), axis=2)
-        along = np.sum(cells.at_ends(e, 2) * along * at_end, axis=2)
+        (eased, onward), bends = self._eased(e, speed)
+        around = around * eased * fall * (P - np.roll(P, -1, axis=0))
+        along = along * onward * at_end
+        bent, bent_along = cubed * around * bends[0], ends[2] * along * bends[1]
+        by_reynolds = np.sum(bent + bent_along, axis=2)
+        terms = squared * around, ends[1] * along, bent / H, bent_along / ends[0]
+        around, along, bent, bent_along = (np.sum(each, axis=2) for each in terms)
         carried, dragged = np.sum(H * dragged * fall, axis=2), np.sum(dragged * fall, axis=2)
         n, n_lines = (cells.film * np.stack([np.cos(at), np.sin(at)]) for at in (cells.face, cells.theta))
         width, part = cells.width[:-1], lines[:, None, :]
         force = -((part * found.normal) @ (P @ width))[..., None]
-        by_e = (part * (3.0 * around + speed * dragged)) @ n.T + 3.0 * (part * along) @ n_lines.T
+        by_e = (part * (3.0 * around + bent + speed * dragged)) @ n.T
+        by_e = by_e + (part * (3.0 * along + bent_along)) @ n_lines.T
         by_w = (part * (V @ width)) @ found.normal.T
-        by_speed = (part * carried).sum(axis=2)[..., None]
+        by_speed = (part * (carried + by_reynolds / (speed or 1.0))).sum(axis=2)[..., None]
         return np.asarray(12.0 * np.concatenate([force, -by_e, -by_w, by_speed], axis=2))
 
 

@@ -29,7 +29,7 @@ from ..films.mass_conserving import (
     conserved_cells,
 )
 from ..films.mass_conserving_steps import ScaledFilm
-from ..films.mobility import require_laminar
+from ..films.mobility import require_no_mobility
 from .bearing import JournalBearing, StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
@@ -100,9 +100,14 @@ class HeatRounds:
     def _require_heat(self) -> None:
         """Raise InputError where a field breaks its rule."""
         _ = self.bearing.cooled
-        require_laminar(self.bearing, type(self).__name__)
+        require_no_mobility(self.bearing, type(self).__name__)
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
+        if self.bearing.turbulence is not None and self.profile.layers > 1:
+            raise InputError(
+                "profile must be MeanTemperature() in a turbulent film, which eddies mix across, "
+                f"got {self.profile!r}"
+            )
 
     def _shape(self) -> tuple[int, int]:
         """Return the number of lines, and of cells on each."""

@@ -124,7 +124,8 @@ static void cool_at_walls(heat *h, size_t i, size_t j)
 {
     const rf_energy *g = h->given;
     const size_t K = g->layers, c = i * g->cells + j, bush = h->bush + i;
-    const double several[3] = {3.0, -8.0 / 3.0, -1.0 / 3.0}, one[3] = {6.0, -4.0, -2.0};
+    const double Nu = g->nusselt ? g->nusselt[c] : 6.0, across = g->across ? g->across[c] : 1.0;
+    const double several[3] = {3.0, -8.0 / 3.0, -1.0 / 3.0}, one[3] = {Nu, -0.5 * Nu - across, across - 0.5 * Nu};
     for (int journal = 0; journal < 2 && is_film(g, i, j); ++journal) {
         const size_t at = journal ? (c + 1) * K - 1 : c * K, own = h->of[at];
         const size_t beyond = K > 1 ? h->of[journal ? at - 1 : at + 1] : journal ? bush : h->shaft;

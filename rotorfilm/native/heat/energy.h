@@ -23,6 +23,7 @@ typedef struct rf_energy {
     const double *fresh;          /* N x M x K: oil from outside, or lost to there if below 0 */
     const double *heat, *less;    /* N x M x K: heat that is made at no temperature, and by how much less per kelvin */
     const double *conducted;      /* N x M: between two layers, per kelvin */
+    const double *nusselt, *across; /* N x M: of one layer to both walls and from one to the other, NULL: 6 and 1 */
     /* Of the walls: bush T = mean + spread q, give (mean - ambient) = take sum q, q being the heat of a line;
        journal shaft_give (T - shaft_ambient) = shaft_take x its heat. */
     const double *spread; /* N x N */

@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import Groove, InputError, ValidityWarning
-from rotorfilm.bearings import PadGridFilm, Recess, RecessedPad, ReynoldsFilm, Turbulence
+from rotorfilm.analysis import heated_equilibrium
+from rotorfilm.bearings import BushRing, PadGridFilm, Recess, RecessedPad, ReynoldsFilm, Turbulence
 from rotorfilm.bearings.films import turbulence
 from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm
@@ -213,3 +214,54 @@ def test_limits_of_an_endless_and_of_a_short_film_are_closed_forms():
 
     assert_allclose(force(1000.0, cavitation=rf.FullFilm()), (0.0, -102.13), atol=5e-3 * 102.13)
     assert_allclose(force(0.01) / 1e-4, (-10.125, -15.787), rtol=5e-3)
+
+
+def heated(effect, walls=None, **further):
+    """Return the film of the large bearing with a temperature field, and its equilibrium."""
+    bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=effect)
+    film = rf.HeatedFilm(bearing=bearing, **({} if walls is None else {"walls": walls}), **further)
+    return film, heated_equilibrium(film, LOAD, SPEED)
+
+
+def test_heat_that_eddies_carry_to_the_walls_cools_the_hottest_oil():
+    """The note: at most 87.1 degC between adiabatic walls, 76.5 beside even walls; power and place."""
+    _, adiabatic = heated(RAW["ng_pan"])
+    even = BushRing(outer_radius=0.5, conductivity=1e6, transfer=0.0)
+    _, cooled = heated(RAW["ng_pan"], even)
+    for at, hottest, eccentricity_ratio, power in (
+        (adiabatic, 87.1, 0.607, 248.0),
+        (cooled, 76.5, 0.611, 250.0),
+    ):
+        state = at.state
+        assert state.maximum_temperature - 273.15 == pytest.approx(hottest, abs=2.5)
+        assert at.rest.eccentricity_ratio == pytest.approx(eccentricity_ratio, abs=0.005)
+        assert 1e-3 * state.power_loss == pytest.approx(power, rel=0.01)
+        assert abs(state.heat.missing) < 1e-4 * state.heat.made
+        film = rf.coefficients(state.film, at.rest.position, SPEED)
+        x, y = at.rest.position
+        turned = film.damping @ (0.5 * SPEED * np.array([-y, x]))
+        assert_allclose(turned, state.film.force(at.rest.position, [0.0, 0.0], SPEED), atol=1e-8 * 3e5)
+
+
+@pytest.mark.parametrize("name", ["plain", "dam", "tilting"])
+def test_derivatives_of_a_film_with_a_temperature_field_are_those_of_differences(name):
+    effect, own = Turbulence(closure="hirs"), {"temperature": None, "cooling": COOLING}
+    bearing = replace(getattr(bearings(effect)[name], "bearing", bearings(effect)[name]), **own)
+    film = rf.HeatedFilm(bearing=bearing, cells=(32, 4)).solve(PLACE, SPEED).film
+    state, steps = np.array([*PLACE, *VELOCITY, SPEED]), [1e-10, 1e-10, 1e-7, 1e-7, 1e-3]
+    if name == "tilting":
+        state[2:4] = 0.0
+    by = film.jacobian(state[:2], state[2:4], state[4])
+    for k, step in enumerate(steps[: 5 if name != "tilting" else 2]):
+        more, less = (state + sign * step * np.eye(5)[k] for sign in (1.0, -1.0))
+        one, other = (film.force(each[:2], each[2:4], each[4]) for each in (more, less))
+        atol = 2e-6 * np.abs(by[:, k]).max()
+        assert_allclose(by[:, k], (one - other) / (2.0 * step), atol=atol, err_msg=f"column {k}")
+
+
+def test_a_film_across_which_eddies_mix_has_no_layers():
+    bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=Turbulence())
+    with pytest.raises(InputError, match="eddies mix"):
+        rf.HeatedFilm(bearing=bearing, profile=rf.bearings.LayeredTemperature(8))
+    with pytest.raises(InputError, match="turbulence=None for JFOFilm"):
+        rf.JFOFilm(bearing=bearing)
