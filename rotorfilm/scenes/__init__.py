@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         to_ross as to_ross,
         to_ross_force as to_ross_force,
     )
+    from .save_scene import scene_of as scene_of
     from .scene import (
         QuestionTable,
         Scene as Scene,
