@@ -77,7 +77,7 @@ class TorsionalSpring(_Spring):
 
 @dataclass(frozen=True, kw_only=True)
 class AxialTorsionalModes(Readable):
-    """Modes of a shaft along its axis, or about it, that swing, by rising size of the eigenvalue.
+    """Axial or torsional modes of a shaft that oscillate, in the order of rising |eigenvalue|.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ class AxialTorsionalModes(Readable):
 def axial_modes(
     rotor: ShaftRotor, bearings: Sequence[AxialSpring] = (), count: int = 6
 ) -> AxialTorsionalModes:
-    """Return the lowest modes of a rotor along its axis that swing; those overdamped are left out.
+    """Return the lowest axial modes of a rotor. Overdamped modes are left out.
 
     Parameters
     ----------
@@ -125,10 +125,8 @@ def axial_modes(
     InputError
         If a bearing is on no node, or a coupling has no stiffness.
 
-    Notes
-    -----
-    Elements have a degree of freedom inside: frequencies are of fourth order in their length. Along its axis
-    a straight shaft does not feel its bending and its rotation.
+    Notes ----- Each element has an internal degree of freedom, so frequencies converge at fourth order in the
+    element length. The axial motion of a straight shaft does not depend on its bending and its rotation.
     """
     return _modes(axial_chain(rotor.elements, rotor.disks), rotor, bearings, count)
 
@@ -138,7 +136,7 @@ def axial_modes(
 def torsional_modes(
     rotor: ShaftRotor, springs: Sequence[TorsionalSpring] = (), count: int = 6
 ) -> AxialTorsionalModes:
-    """Return the lowest torsional modes of a rotor that swing; those overdamped are left out.
+    """Return the lowest torsional modes of a rotor. Overdamped modes are left out.
 
     Parameters
     ----------
@@ -171,7 +169,7 @@ def axial_response(
     frequencies : array_like, shape (n,) [rad/s]
         Positive and rising.
     node : int
-        Where the force acts.
+        Node where the force acts.
 
     Returns
     -------
@@ -238,11 +236,11 @@ class AxialStatics(Readable):
     Attributes
     ----------
     displacement : ndarray, shape (n_nodes,) [m]
-        Along +z.
+        Displacement along +z.
     tension : ndarray, shape (n_elements,) [N]
-        Of each element, positive where it is stretched.
+        Tension of each element, positive where it is stretched.
     thrust : ndarray, shape (n_bearings,) [N]
-        On each thrust bearing, along +z.
+        Thrust on each thrust bearing, along +z.
     """
 
     displacement: Array
@@ -261,9 +259,9 @@ def axial_statics(
     ----------
     rotor : ShaftRotor
     bearings : sequence of AxialSpring
-        With some stiffness.
+        Bearings with some stiffness.
     forces : mapping of int to float [N]
-        By node, along +z.
+        Forces by node, along +z.
 
     Raises
     ------

@@ -87,19 +87,18 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
 
         moment_x = -integral of z f_y dz,    moment_y = integral of z f_x dz
 
-    for the force f(z) per length, about the middle of the bearing. Of a shaft without tilt the force is that
-    of the bearing. Stiffness and damping,
-    4 x 4, are exact derivatives of the film found; the damping is symmetric. The film has about four times
-    the unknowns of the aligned one on each line, and takes some 1 ms on 96 x 8 cells. Contact is that of the
-    ends too.
+    for the force f(z) per length, about the middle of the bearing. Without tilt the force is that of the
+    bearing. Stiffness and damping, 4 x 4, are exact derivatives of the film found; the damping is symmetric.
+    The film has about four times the unknowns of an aligned one, and takes about 1 ms on 96 x 8 cells. The
+    journal may also touch at the ends of the bearing.
 
     It goes into a station with `feels_tilt=True` of a `ShaftRotor`.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With a `ReynoldsFilm` or an `ExtrapolatedFilm` whose start, if it has one, does not turn with the
-        journal; without a circumferential groove, and with its temperature stated.
+        Bearing with a `ReynoldsFilm` or an `ExtrapolatedFilm` whose start, if it has one, does not turn with
+        the journal. It has no circumferential groove, and its temperature is given.
 
     Raises
     ------
