@@ -45,13 +45,9 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-<<<<<<< HEAD
-        By name, in SI or as texts with units: "x" and "y" of the journal, "temperature" of the film,
-        "power_loss", "side_flow", and "kxx" to "cyy". Not-a-number where one was not measured.
-=======
-        Values by name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
-        "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not measured.
->>>>>>> main
+        Values by name, in SI units or as texts with units: "x" and "y" of the journal, "temperature" of the
+        film, "power_loss", "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not
+        measured.
     noise : mapping of str to float, optional
         Standard deviation of each quantity, in its unit. Without it, each quantity is weighted by its own
         size, and the residuals of the fit tell how noisy it is.

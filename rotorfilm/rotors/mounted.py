@@ -184,13 +184,9 @@ class MountedRotor(AroundRotor):
         Rotor with inputs and outputs of each station by name, as `ShaftRotor`.
     stations : tuple of str
     bearings : tuple of Reaction
-<<<<<<< HEAD
-        One for each of the stations; one with states is a Dynamic too, as `BushReaction`.
+        One bearing for each of the stations; one with states is a Dynamic model too, such as `BushReaction`.
     planes : tuple of UnbalancePlane
         Unbalances of the rotor that a simulator may set in the compiled system.
-=======
-        One bearing for each of the stations; one with states is a Dynamic model too, such as `BushReaction`.
->>>>>>> main
 
     Raises
     ------

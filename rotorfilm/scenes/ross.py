@@ -50,12 +50,8 @@ class RossRotor:
     rotor : ShaftRotor
         Rotor with a station for each bearing, in the order of the file, and the classical beam element.
     bearings : dict of str to PlanarReaction
-<<<<<<< HEAD
-        By station: LinearBearing, TabulatedBearing where the file has a table over speed, or a reaction with
-        an added mass where it has mxx to myy.
-=======
-        Bearings by station: LinearBearing, or TabulatedBearing where the file has a table over speed.
->>>>>>> main
+        Bearings by station: LinearBearing, TabulatedBearing where the file has a table over speed, or a
+        reaction with an added mass where it has mxx to myy.
     """
 
     rotor: rotors.ShaftRotor
