@@ -48,7 +48,7 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path):
         rf.InputError, match=r"bearings\['left'\] must be one that \[shaft\] of a scene takes"
     ):
         scene_of(ROTOR, {"left": pads, "right": SPRING}, [100.0, 200.0])
-    with pytest.raises(rf.InputError, match="shaft.gravity is no known key"):
+    with pytest.raises(rf.InputError, match=r"shaft\.gravity is no known key"):
         scene_of(replace(ROTOR, gravity=(0.0, 0.0)), {"left": FILM, "right": SPRING}, [100.0, 200.0])
     made = scene_of(ROTOR, {"left": FILM, "right": SPRING}, [100.0, 200.0])
     with pytest.raises(rf.InputError, match="scene must be read"):
