@@ -86,16 +86,11 @@ def export_fmu(
     flat_names : bool
         Whether variables are named `signal` and `state_signal`, without the component.
     fixed_size : bool
-<<<<<<< HEAD
-        Whether radius and length of a plain journal bearing stay as they are: the FMU then carries the map of
-        their ratio in place of that over all, which makes it a third smaller.
+        Whether radius and length of a plain journal bearing are fixed. The FMU then carries the map of their
+        ratio only, which makes it a third smaller.
     arrays : bool
         Whether inputs and outputs that are components of a vector (x and y) are arrays of two numbers:
         `position`, `velocity`, `force`, `tilt`, `tilt_rate`, `moment`. For FMI 3.0 by the native backend.
-=======
-        Whether radius and length of a plain journal bearing are fixed. The FMU then carries the map of their
-        ratio only, which makes it 20 % smaller.
->>>>>>> main
 
     Returns
     -------
