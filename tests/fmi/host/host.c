@@ -4,7 +4,6 @@
    the size of a step and the inputs to hold over it; the first line is set during initialization and has the
    size 0. Prints the outputs after initialization and after every step, with all their digits, and at the end to
    stderr what the calls after initialization allocated and how long a step took: set, step and get. */
-#define _POSIX_C_SOURCE 199309L
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
