@@ -23,6 +23,7 @@ LAYERS = [
     ["scenes"],
     ["questions", "charts"],
     ["sweeps"],
+    ["reports"],
     ["cli"],
     ["__main__"],
 ]

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         axial_modes as axial_modes,
         axial_response as axial_response,
         axial_statics as axial_statics,
+        collar_response as collar_response,
         stress_stiffened as stress_stiffened,
         torsional_modes as torsional_modes,
     )
@@ -44,6 +45,11 @@ if TYPE_CHECKING:
         small_motion_transmissibility as small_motion_transmissibility,
         synchronous_orbits as synchronous_orbits,
         transmitted_ratio as transmitted_ratio,
+    )
+    from .clearance_check import (
+        ClearanceCheck as ClearanceCheck,
+        clearance_check as clearance_check,
+        vibration_limit as vibration_limit,
     )
     from .closed_loop import (
         base_response as base_response,

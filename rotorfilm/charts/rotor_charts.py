@@ -14,6 +14,7 @@ from ..analysis import (
     BasinScan,
     Bifurcation,
     Campbell,
+    ClearanceCheck,
     CriticalSpeed,
     OrbitCurve,
     PeriodicOrbit,
@@ -22,12 +23,13 @@ from ..analysis import (
     StabilityLevelOne,
 )
 from ..analysis.api617 import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
+from ..analysis.clearance_check import SHARE
 from ..analysis.rotor_modes import senses
 from ..core.model import Array
 from ..core.results import Trajectory
 from ..studies.journal_accuracy import FilmFamily
 from .canvas import BAD, DASHES, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, WITHIN
-from .picture import ColorScale, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
+from .picture import BarsMark, ColorScale, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
 
 RPM = math.pi / 30.0
 HERTZ = 2.0 * math.pi
@@ -124,7 +126,7 @@ def plot_critical_speed_map(stiffness: Array, speeds: Array, *, bearing: Array |
     ----------
     stiffness : ndarray, shape (n,) [N/m]
     speeds : ndarray, shape (count, n) [rad/s]
-        As `critical_speed_map` returns them.
+        Speeds as `critical_speed_map` returns them.
     bearing : ndarray, shape (2, m), optional
         Speed [rad/s] and stiffness [N/m] of the bearing that the rotor will have.
     """
@@ -149,7 +151,7 @@ def plot_unbalance_response(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` or `tracked_response` returns it.
+        Response as `unbalance_response` or `tracked_response` returns it.
     outputs : sequence of str, optional
         Names of displacements; all of the response by default.
     peak_to_peak : bool
@@ -190,7 +192,7 @@ def plot_polar_response(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` or `tracked_response` returns it.
+        Response as `unbalance_response` or `tracked_response` returns it.
     outputs : sequence of str, optional
         Names of displacements; all of the response by default.
     """
@@ -272,6 +274,18 @@ def plot_separation_margins(result: SeparationMargins) -> Picture:
     return Picture((panel,), size=(7.8, 4.8))
 
 
+def plot_clearance_check(result: ClearanceCheck) -> Picture:
+    """Describe the scaled vibration of each place and 75 % of its diametral clearance [um]."""
+    names = np.array(result.names, dtype=object)
+    marks: list[Mark] = [
+        BarsMark(names, 1e6 * result.clearance, "diametral clearance", "0.85"),
+        BarsMark(names, 1e6 * SHARE * result.clearance, f"{SHARE:.0%} of it", "0.7", 0.6),
+        BarsMark(names, 1e6 * result.vibration, "vibration", "C0" if result.acceptable else "C3", 0.4),
+    ]
+    title = f"Clearances, response x {result.scale_factor:.3g}"
+    return Picture((PicturePanel(marks, "", "peak-to-peak [um]", title),), size=(6.4, 4.2))
+
+
 def plot_shaft_statics(result: ShaftStatics) -> Picture:
     """Describe sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes."""
     sag, shear, moment = [], [], []
@@ -308,7 +322,7 @@ def plot_orbit_curves(
     Parameters
     ----------
     curves : mapping of str to OrbitCurve
-        By label.
+        Curves by label.
     scale : float
         Unit of the parameter.
     parameter : str
