@@ -255,8 +255,8 @@ def orbit_rotor(mounted: MountedRotor, level: int = 0) -> PeriodicRotor:
     aside = isinstance(bare, FlexibleRotor) and bool(bare.assembly.others)
     if aside or any(freedoms_of(one) != PLANAR or (one.states and not takes_steps(one)) for one in bearings):
         return PortRotor.of(mounted)
-    model = _model(bare, level) if isinstance(bare, FlexibleRotor) else None
-    if model is not None:
+    model = None
+    if isinstance(bare, FlexibleRotor) and (model := _model(bare, level)) is not None:
         mounted = mount(MatrixRotor(bare, model.structure), mounted.all_bearings)
     parts = take_apart(mounted)
     return CompiledRotor(modal_rotor(parts, parts.speed), mounted, model)
