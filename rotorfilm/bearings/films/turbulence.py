@@ -261,7 +261,7 @@ def turbulent_transfer(bearing: Any, speed: float, thickness: Array, viscosity: 
     nodes, table = _transfer_table(prandtl)
     laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * local.ndim)
     more = np.exp([np.interp(np.log1p(local / SPREAD), nodes, row) for row in table]) - laminar
-    share = blend(local, effect.edges(bearing.radius, bearing.clearance))
+    share = blend(local, effect.edges(bearing.radius, bearing.onset_clearance))
     return np.asarray(laminar + share * viscosity**PRANDTL_POWER * more)
 
 
