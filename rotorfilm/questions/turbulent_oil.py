@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..bearings.films.turbulence import Turbulence
-from ..bearings.journal.full_stress import full_stress_forces
+from ..bearings.journal import full_stress_forces
 from ..core.answers import ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResult
 from ..core.errors import RotorfilmError
 from ..scenes.film_rungs import FilmCandidate
@@ -37,8 +37,8 @@ TRANSITION = "what the band of transition changes"
 def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder) -> Ladder:
     """Return a ladder whose estimates count the turbulence that its films leave out.
 
-    A laminar film above the onset is off by what a turbulent one changes, a closure by what the quadrature
-    and the full stress change; of tilting pads the latter is not known.
+    The error of a laminar film above the onset is what a turbulent one changes. That of a closure is what the
+    quadrature and the full stress change, the latter not known of tilting pads.
     """
     bearing = films[0].reaction
     effect = getattr(bearing, "turbulence", None)

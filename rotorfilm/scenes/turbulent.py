@@ -71,7 +71,7 @@ def decided(table: Any, scene: Any) -> Any:
     Above the onset, at the temperature of the laminar balance. A film that is named and not on a grid stays
     laminar, and so does one that conserves its oil.
     """
-    if table.turbulence != AUTO or not table.has_lubricant or not _takes(table):
+    if getattr(table, "turbulence", NONE) != AUTO or not table.has_lubricant or not _takes(table):
         return table
     bearing = table.build()
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table

@@ -55,7 +55,13 @@ def eddy_flows(reynolds: Array, around: Array, along: Array) -> tuple[Array, Arr
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FullStressFilm(FrozenFilm):
-    """A film with given factors of its conductances around and along."""
+    """A film with given factors of its conductances.
+
+    Parameters
+    ----------
+    factors : (ndarray, ndarray) or None [1]
+        Of the flow around and along, (N, M) each; None for those of the linear closure.
+    """
 
     factors: tuple[Array, Array] | None = None
 
