@@ -64,7 +64,8 @@ def bearing(kind: str) -> Any:
     if kind == "heated":
         cooling = rf.Cooling(supply_temperature=318.15)
         return rf.JournalBearing(**size, clearance=1e-4, oil=rf.Oil.iso_vg(46), cooling=cooling)
-    plain = rf.JournalBearing(**size, clearance=1e-4, viscosity=0.05)
+    groove = (rf.Groove(center=math.pi / 2.0, width=0.3),) if kind == "JFO" else ()
+    plain = rf.JournalBearing(**size, clearance=1e-4, viscosity=0.05, grooves=groove)
     return rf.JFOFilm(bearing=plain, cells=(72, 8)) if kind == "JFO" else plain
 
 

@@ -23,6 +23,7 @@ LAYERS = [
     ["scenes"],
     ["questions", "charts"],
     ["sweeps"],
+    ["reports"],
     ["cli"],
     ["__main__"],
 ]
@@ -60,6 +61,7 @@ SAME_NAME = {
     "contact",
     "damper",
     "rolling",
+    "thrust",
     "coupling",
     "shaft",
     "journal",

@@ -22,7 +22,10 @@ DOCS = Path(__file__).parents[1] / "docs"
 PAGES = {
     "scene_journals.md": ("plain journal bearings", ["journal"]),
     "scene_pads.md": ("lobed and tilting-pad bearings", ["lobed_journal", "pressure_dam", "tilting_pad"]),
-    "scene_elements.md": ("dampers, ball bearings, bushes", ["damper", "ball_bearing", "contact", "bush"]),
+    "scene_elements.md": (
+        "dampers, thrust and ball bearings, bushes",
+        ["damper", "thrust", "ball_bearing", "contact", "bush"],
+    ),
     "scene_rotors.md": ("rotors", ["rigid_rotor", "shaft"]),
     "scene_operation.md": (
         "operation, oil, excitation, question",

@@ -45,6 +45,11 @@ if TYPE_CHECKING:
         synchronous_orbits as synchronous_orbits,
         transmitted_ratio as transmitted_ratio,
     )
+    from .clearance_check import (
+        ClearanceCheck as ClearanceCheck,
+        clearance_check as clearance_check,
+        vibration_limit as vibration_limit,
+    )
     from .closed_loop import (
         base_response as base_response,
         base_system as base_system,

@@ -477,11 +477,12 @@ def driven_response(
 def _driven(model: Condensed, bearings: Bearings, loads: Array) -> Driven:
     """Return the same in some of the shapes."""
     seen, left_out = model.seen(loads), None if model.space is None else LeftOut(model, loads)
-    last: RotorEquilibrium | None = None
+    last: tuple[RotorEquilibrium, ...] = ()
 
     def at(speed: float, amplitudes: np.ndarray) -> tuple[RotorEquilibrium, np.ndarray] | None:
         nonlocal last
-        last = at = rest(model.structure, bearings, speed, last)
+        at = rest(model.structure, bearings, speed, last)
+        last = (at, *last[:2])
         tally("solutions")
         factor = lu_factor(small_motion(model.structure, at, speed).dynamic_stiffness(speed))
         few = lu_solve(factor, seen @ amplitudes)

@@ -142,8 +142,11 @@ Complex = np.ndarray
 SUPPORTS = ((1.0, 0.3), (3.0, 0.3), (0.3, 0.3), (1.0, 1.0), (10.0, 1.0), (0.1, 0.1))
 """Springs and dampers at the journals, relative to their natural size, tried until the modes are distinct."""
 
-GOOD_CONDITION = 1e6
-"""Condition of the modes, in scaled coordinates, that is taken at once."""
+GOOD_CONDITION, GOOD_SIZE = 1e6, 200
+"""Condition of the modes, in scaled coordinates, that is taken at once; of more than so many states, more.
+
+It grows with the highest frequency of a shaft, which goes with the square of the number of elements.
+"""
 
 LARGEST_CONDITION = 1e10
 
@@ -349,7 +352,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         found = modes(shifted, np.repeat([1.0, rate], len(A) // 2))
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
-        if found[3] < GOOD_CONDITION:
+        if found[3] < GOOD_CONDITION * max(1.0, len(A) / GOOD_SIZE) ** 2:
             break
     assert best is not None
     (values, shapes, inverse, condition), K0, C0, shifted = best

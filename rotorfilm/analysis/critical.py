@@ -54,6 +54,9 @@ from .threads import one_blas_thread
 REACH = 1.5
 """Highest frequency to which shapes are kept / top speed."""
 
+FEW = 24
+"""Coordinates up to which no shape is left out of the proof; what it finds is solved in all of them."""
+
 HALVINGS = 14
 """How often a step is halved in which the way of a whirl is not proven.
 
@@ -92,56 +95,40 @@ def crossings(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[C
     """
     top = float(np.abs(speeds).max())
     grid = np.unique(np.append(speeds, 0.0)) if speeds.min() < 0.0 < speeds.max() else np.sort(speeds)
-    for model in models(rotor, REACH * max(top, 1.0)):
-        search = _Search(rotor=rotor, bearings=bearings, model=model, end=float(grid[-1]), top=top)
-        try:
-            found = search.over(grid)
-        except _Unproven:
-            continue
-        require_all_undamped(exact_structure(rotor), search.at(grid[0]), search.at(grid[-1]), len(found))
-        return found
-    raise AssertionError("all coordinates have no error")  # pragma: no cover
+    search = _Search(rotor, bearings, float(grid[-1]), top)
+    found = search.over(grid)
+    require_all_undamped(search.exact, search.at(grid[0]), search.at(grid[-1]), len(found))
+    return found
 
 
-@dataclass(frozen=True, kw_only=True)
 class _Search:
-    """The search in some of the shapes of a rotor.
+    """The search in some of the shapes of a rotor, in more of them where a step asks for more.
 
     Parameters
     ----------
     rotor, bearings
         As in `rotor_modes`.
-    model : Condensed
     end, top : float [rad/s]
         Last speed, and highest without its sign.
     """
 
-    rotor: FlexibleRotor
-    bearings: Bearings
-    model: Condensed
-    end: float
-    top: float
+    def __init__(self, rotor: FlexibleRotor, bearings: Bearings, end: float, top: float) -> None:
+        self.bearings, self.end, self.top = bearings, end, top
+        self.exact = exact_structure(rotor)
+        self.models = models(rotor, REACH * max(top, 1.0), FEW)
+        self.unproven: list[tuple[float, float]] = []
+        self.refine()
 
-    @cached_property
-    def known(self) -> dict[float, RotorEquilibrium]:
-        """Rests by speed."""
-        return {}
-
-    @cached_property
-    def unproven(self) -> list[tuple[float, float]]:
-        """Intervals of speed in which there may be more crossings."""
-        return []
-
-    @cached_property
-    def exact(self) -> Structure:
-        """All of the matrices of the rotor."""
-        return exact_structure(self.rotor)
+    def refine(self) -> None:
+        """Take more shapes."""
+        self.model = next(self.models)
+        self.known: dict[float, RotorEquilibrium] = {}
 
     def at(self, speed: float) -> RotorEquilibrium:
         """Return the rest at a speed."""
         speed = float(speed)
         if speed not in self.known:
-            near = min(self.known.values(), key=lambda one: abs(one.speed - speed), default=None)
+            near = sorted(self.known.values(), key=lambda one: abs(one.speed - speed))[:3]
             self.known[speed] = rest(self.model.structure, self.bearings, speed, near)
         return self.known[speed]
 
@@ -156,13 +143,21 @@ class _Search:
         found: list[Crossing] = []
         most = MOST + MOST_PER_STEP * len(grid)
         for low, high in pairwise(grid.tolist()):
-            for one in self._between(low, high, HALVINGS, most):
-                if abs(one.speed) > LEAST * self.top:
-                    found.append(one)
+            found += (one for one in self._step(low, high, most) if abs(one.speed) > LEAST * self.top)
         found.sort(key=lambda one: one.speed)
         if self.unproven:
             raise ConvergenceError(self._doubt(len(found), most), partial=tuple(found))
         return found
+
+    def _step(self, low: float, high: float, most: int) -> list[Crossing]:
+        """Return the crossings of a step of the grid, in as many shapes as it needs."""
+        before = list(self.unproven)
+        while True:
+            try:
+                return list(self._between(low, high, HALVINGS, most))
+            except _Unproven:
+                self.unproven[:] = before
+                self.refine()
 
     def _between(self, low: float, high: float, halvings: int, most: int) -> Iterator[Crossing]:
         """Yield the crossings of a step, or of its halves where not all of their ways are proven."""
@@ -264,7 +259,7 @@ class _Search:
         limits = span.middle - span.half, span.middle + span.half
         forward = -1.0 if span.rests[1].speed < 0.0 else 1.0
         for count in range(_STEPS):
-            at = rest(self.model.structure, self.bearings, forward * turn, span.rests[1])
+            at = rest(self.model.structure, self.bearings, forward * turn, span.rests)
             system = motion_near(structure, at, turn)(value)
             before, shift = value, value * (1.0 + 1e-13)
             value, right, left = inverse_steps(system, shift, right, left, 1 if count else 2)[-1]

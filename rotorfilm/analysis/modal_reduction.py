@@ -209,14 +209,14 @@ def modes_near(
 WHOLE = 160
 """Coordinates up to which nothing is left out of a rotor unless a range of frequencies is named."""
 
-SMALL = 60
-"""Coordinates up to which nothing is left out."""
-
 ANY = 1e15
 """Frequency [rad/s] from which on all motions are asked for."""
 
 MARGIN = 2.0
 """Frequency up to which modes are kept / highest frequency of interest, at least."""
+
+SMALL = 60
+"""Coordinates up to which nothing is left out of an answer that has the error of its shapes."""
 
 _FIRST = 6
 
@@ -291,11 +291,13 @@ def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
     return math.inf
 
 
-def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
-    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end."""
+def models(rotor: FlexibleRotor, frequency: float, small: int = SMALL) -> Iterator[Condensed]:
+    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end.
+
+    Only whole is one of up to `small` coordinates.
+    """
     full = rotor.assembly
-    size = len(full.weight)
-    if size > SMALL and frequency < ANY:
+    if len(full.weight) > small and frequency < ANY:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
             model = _cached_model(rotor, exponent)
             if model is None or 2 * len(model.structure.coordinates) > len(full.coordinates):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -140,18 +141,18 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
 
 
 def rest(
-    structure: Structure, bearings: Bearings, speed: float, near: RotorEquilibrium | None = None
+    structure: Structure, bearings: Bearings, speed: float, near: Sequence[RotorEquilibrium] = ()
 ) -> RotorEquilibrium:
-    """Return where a rotor of these matrices rests, from that at another speed on, as `rotor_equilibrium`."""
-    if near is not None and _is_the_same_at_any_speed(structure, bearings):
-        return _at_speed(near, speed)
+    """Return where a rotor of these matrices rests, from other speeds on, as `rotor_equilibrium`."""
+    if near and _is_the_same_at_any_speed(structure, bearings):
+        return _at_speed(near[0], speed)
     tally("equilibria")
     require_reactions("bearings", bearings, heavy=True)
     for bearing in bearings.values():
         if heavy := inertial(bearing):
             heavy.require_range(abs(speed))
     system = RestEquations(structure, bearings, speed)
-    found = None if near is None else _from_near(system, near)
+    found = _from_near(system, near) if near else None
     if found is not None:
         return found
     q, loads = system.on_rigid_bearings()
@@ -186,20 +187,36 @@ def _is_settled(last: list[float | None], now: list[float | None]) -> bool:
     return all(a is None or b is None or abs(a - b) <= KELVIN for a, b in pairs)
 
 
-def _from_near(system: RestEquations, near: RotorEquilibrium) -> RotorEquilibrium | None:
-    """Return the rest by Newton's method from that at another speed; None where that leads nowhere."""
-    if near.temperatures or len(near.displacement) != len(system.weight):
+def _from_near(system: RestEquations, near: Sequence[RotorEquilibrium]) -> RotorEquilibrium | None:
+    """Return the rest by Newton's method from those at other speeds; None where that leads nowhere."""
+    if near[0].temperatures or len(near[0].displacement) != len(system.weight):
         return None
-    places = [np.zeros(0), *(near.coefficients[name].position for name in system.names)]
+    shares = _shares([one.speed for one in near], system.speed)
+
+    def place(one: RotorEquilibrium) -> Array:
+        return np.concatenate([one.displacement, *(one.coefficients[name].position for name in system.names)])
+
+    start = sum((share * place(one) for share, one in zip(shares, near, strict=False)), np.zeros(()))
     try:
-        q, p = system.solve(near.displacement, np.concatenate(places), 1.0)
+        q, p = np.split(start, [len(system.weight)])
+        q, p = system.solve(q, p, 1.0)
     except (EquilibriumError, FilmContactError):
         return None
     return _result(system, q, p, [None] * len(system.names))
 
 
+def _shares(known: list[float], speed: float) -> list[float]:
+    """Return the weights of values at some speeds on the parabola through three: the first if far from it."""
+    if len(set(known)) < 3 or abs(known[0] - speed) > abs(known[0] - known[2]):
+        return [1.0]
+    return [
+        math.prod((speed - other) / (own - other) for other in known[:3] if other != own) for own in known[:3]
+    ]
+
+
 def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float | None]) -> RotorEquilibrium:
     forces = system.forces(p)
+    imbalance = system.residual(q, p, 1.0, forces)[0]
     places = dict(zip(system.names, system.split(p), strict=True))
     films = dict(zip(system.names, system.bearings, strict=True))
     return RotorEquilibrium(
@@ -207,7 +224,7 @@ def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float 
         coefficients={name: film_coefficients(films[name], at, system.speed) for name, at in places.items()},
         loads=dict(zip(system.names, system.split(-forces), strict=True)),
         displacement=q,
-        residual=float(np.abs(system.residual(q, p, 1.0)[0]).max()) / system.size,
+        residual=float(np.abs(imbalance).max()) / system.size,
         temperatures={n: T for n, T in zip(system.names, temperatures, strict=True) if T is not None},
     )
 
@@ -354,16 +371,19 @@ class RestEquations:
         pairs = zip(self.bearings, self.split(p), strict=True)
         return np.asarray(block_diag(np.zeros((0, 0)), *(slopes_at(b, at, self.speed) for b, at in pairs)))
 
-    def residual(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
-        """Return what is left of the forces on the rotor, and of the displacements of its journals."""
-        forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
+    def residual(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
+        """Return what is left of the forces on the rotor, and of the displacements of its journals.
+
+        `pressed` are the forces of the bearings at p.
+        """
+        forces = self.stiffness @ q - self.weight - self.journals.T @ pressed
         return forces, self.journals @ q - s * p
 
-    def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+    def tolerances(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
         lengths = np.repeat([min(clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
         forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
-        forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
+        forces = forces + np.abs(self.journals.T) @ np.abs(pressed)
         misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
         roundoff = max(len(q), 10) * np.finfo(float).eps
         allowed = TOLERANCE * self.size + roundoff * forces
@@ -377,8 +397,9 @@ class RestEquations:
         n = len(q)
         for _ in range(_NEWTON_STEPS):
             tally("newton_steps")
-            forces, misfit = self.residual(q, p, s)
-            force_limit, misfit_limit = self.tolerances(q, p, s)
+            pressed = self.forces(p)
+            forces, misfit = self.residual(q, p, s, pressed)
+            force_limit, misfit_limit = self.tolerances(q, p, s, pressed)
             if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
                 return q, p
             slopes = self.slopes(p)
@@ -427,11 +448,14 @@ class RestEquations:
         """
         dq, dp = np.split(step, [len(q)])
         low, high, share = 0.0, 1.0, 1.0
-        if np.any(np.abs(self.residual(q, p, s)[1]) > self.tolerances(q, p, s)[1]):
+        pressed = self.forces(p)
+        forces, misfit = self.residual(q, p, s, pressed)
+        if np.any(np.abs(misfit) > self.tolerances(q, p, s, pressed)[1]):
             return share
-        full = -float(self.residual(q, p, s)[0] @ dq)
+        full = -float(forces @ dq)
         for _ in range(_HALVINGS):
-            left = -float(self.residual(q + share * dq, p + share * dp, s)[0] @ dq)
+            at = p + share * dp
+            left = -float(self.residual(q + share * dq, at, s, self.forces(at))[0] @ dq)
             if left >= -_OVERSHOOT * full and (share == 1.0 or left <= _LEFT * full):
                 break
             low, high = (low, share) if left < 0.0 else (share, high)

@@ -31,9 +31,6 @@ if TYPE_CHECKING:
         plot_study as plot_study,
     )
     from .on_matplotlib import save as save
-    from .page import (
-        write_page as write_page,
-    )
     from .picture import (
         BarsMark as BarsMark,
         ColorScale as ColorScale,
@@ -62,6 +59,7 @@ if TYPE_CHECKING:
     from .rotor_charts import (
         plot_basin as plot_basin,
         plot_campbell as plot_campbell,
+        plot_clearance_check as plot_clearance_check,
         plot_critical_speed_map as plot_critical_speed_map,
         plot_locus as plot_locus,
         plot_log_decrement as plot_log_decrement,
@@ -84,6 +82,7 @@ if TYPE_CHECKING:
         plot_waterfall as plot_waterfall,
     )
     from .shaft_charts import (
+        plot_bearing as plot_bearing,
         plot_mode_orbits as plot_mode_orbits,
         plot_mode_shape as plot_mode_shape,
         plot_rotor as plot_rotor,

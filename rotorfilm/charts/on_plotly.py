@@ -84,7 +84,8 @@ def _draw_panel(place: _Place, panel: PicturePanel) -> None:
     figure, (x, y, height) = place.figure, place.domain
     scaled = any(getattr(one, "scale", None) for one in panel.marks)
     beside = x + 0.01 + 0.16 * scaled + 0.08 * bool(panel.right)
-    figure.update_layout({place.legend: {"x": beside, "y": y + 0.5 * height}})
+    shown = panel.legend != "none"
+    figure.update_layout({place.legend: {"x": beside, "y": y + 0.5 * height, "visible": shown}})
     if panel.z:
         names = {
             f"{name}axis": {"title": {"text": text}}
@@ -196,7 +197,7 @@ def _(one: BarsMark, place: _Place) -> None:
 
 @draw_mark.register
 def _(one: LevelMark, place: _Place) -> None:
-    where = {"row": place.row, "col": place.col}
+    where = {"row": place.row, "col": place.col, "exclude_empty_subplots": False}
     if one.to is not None:
         ends = ("x0", "x1") if one.upright else ("y0", "y1")
         add = place.figure.add_vrect if one.upright else place.figure.add_hrect

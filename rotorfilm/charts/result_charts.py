@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..bearings.contact import ContactRun
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, require_finite
-from ..core.readable import label_of
+from ..core.readable import column_scale, label_of
 from .film_charts import (
     plot_bistable,
     plot_circumference,
@@ -29,6 +29,7 @@ from .picture import BarsMark, ColorScale, CurveMark, FieldMark, LevelMark, Mark
 from .rolling_charts import plot_compliance
 from .rotor_charts import (
     plot_campbell,
+    plot_clearance_check,
     plot_log_decrement,
     plot_orbit_curves,
     plot_periodic_orbit,
@@ -214,6 +215,20 @@ def _run(result: Any) -> Picture:
     return plot_damper_run(result.trajectory.time, result.eccentricity_ratio, result.force)
 
 
+def _scatter(study: Any) -> Picture:
+    unit, values = column_scale(study.quantity, study.unit, study.values[np.isfinite(study.values)])
+    return plot_histogram(values, quantity=f"{label_of(study.quantity)} [{unit or '1'}]")
+
+
+def _tornado(study: Any) -> Picture:
+    found = np.array([(study.nominal, study.nominal), *study.effects.values()])
+    unit, ends = column_scale(study.quantity, study.unit, found)
+    effects = dict(zip(study.effects, map(tuple, ends[1:].tolist()), strict=True))
+    return plot_tornado(
+        effects, base=float(ends[0, 0]), quantity=f"{label_of(study.quantity)} [{unit or '1'}]"
+    )
+
+
 _MODES: dict[str, Describe] = {"campbell": plot_campbell, "log_decrement": plot_log_decrement}
 
 _FILM: dict[str, Describe] = {"pressure": plot_film, "circumference": plot_circumference}
@@ -236,6 +251,7 @@ PICTURES: dict[str, dict[str, Describe]] = {
     },
     "ShaftRotor": {"rotor": plot_rotor},
     "TabulatedBearing": {"coefficients": plot_coefficients},
+    "ClearanceCheck": {"clearances": plot_clearance_check},
     "SeparationMargins": {"margins": plot_separation_margins},
     "ShaftStatics": {"statics": plot_shaft_statics},
     "StabilityLevelOne": {"stability": plot_stability_level_one},
@@ -256,6 +272,7 @@ PICTURES: dict[str, dict[str, Describe]] = {
     "DamperTurn": {"oil": plot_damper_turn},
     "ContactRun": {"film": plot_contact_run},
     "QuestionAnswer": {"ladder": plot_question},
+    "ToleranceStudy": {"histogram": _scatter, "tornado": _tornado},
     "VariableCompliance": {"spectrum": plot_compliance},
 }
 """What describes the pictures of a result, by the name of its class and by kind, the usual one first."""

@@ -14,6 +14,7 @@ from ..analysis import (
     BasinScan,
     Bifurcation,
     Campbell,
+    ClearanceCheck,
     CriticalSpeed,
     OrbitCurve,
     PeriodicOrbit,
@@ -22,12 +23,13 @@ from ..analysis import (
     StabilityLevelOne,
 )
 from ..analysis.api617 import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
+from ..analysis.clearance_check import SHARE
 from ..analysis.rotor_modes import senses
 from ..core.model import Array
 from ..core.results import Trajectory
 from ..studies.journal_accuracy import FilmFamily
 from .canvas import BAD, DASHES, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, WITHIN
-from .picture import ColorScale, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
+from .picture import BarsMark, ColorScale, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
 
 RPM = math.pi / 30.0
 HERTZ = 2.0 * math.pi
@@ -270,6 +272,18 @@ def plot_separation_margins(result: SeparationMargins) -> Picture:
         marks, "speed [rpm]", "amplitude, zero-to-peak [um]", title, log="y", legend="beside"
     )
     return Picture((panel,), size=(7.8, 4.8))
+
+
+def plot_clearance_check(result: ClearanceCheck) -> Picture:
+    """Describe the scaled vibration of each place and 75 % of its diametral clearance [um]."""
+    names = np.array(result.names, dtype=object)
+    marks: list[Mark] = [
+        BarsMark(names, 1e6 * result.clearance, "diametral clearance", "0.85"),
+        BarsMark(names, 1e6 * SHARE * result.clearance, f"{SHARE:.0%} of it", "0.7", 0.6),
+        BarsMark(names, 1e6 * result.vibration, "vibration", "C0" if result.acceptable else "C3", 0.4),
+    ]
+    title = f"Clearances, response x {result.scale_factor:.3g}"
+    return Picture((PicturePanel(marks, "", "peak-to-peak [um]", title),), size=(6.4, 4.2))
 
 
 def plot_shaft_statics(result: ShaftStatics) -> Picture:

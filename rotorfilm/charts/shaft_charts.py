@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
 from ..analysis import RotorModes
 from ..analysis.rotor_modes import senses
+from ..bearings.films.geometry import Pad
 from ..core.errors import InputError
 from ..core.inputs import arguments
 from ..rotors import Coupling, ShaftElement, ShaftRotor
 from ..rotors.shaft_elements import LayeredElement, ShaftPiece
-from .picture import CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel
+from .picture import CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel, circle
 
 RPM, HERTZ = math.pi / 30.0, 2.0 * math.pi
 
@@ -99,6 +101,72 @@ def _elements(rotor: ShaftRotor) -> Iterator[CurveMark]:
                 yield CurveMark(
                     *_box(left, right, side * inner, side * outer), "", STEEL, width=0.6, fill=0.5
                 )
+
+
+OUTSIDE = 1.3
+"""Outer radius of a bearing as it is drawn / that of its shaft."""
+
+
+def plot_bearing(bearing: Any) -> Picture:
+    """Describe a bearing to scale [mm]: a section across, with its pads and grooves, and one along.
+
+    The film is too thin to be seen. Around the bore is a wall of a thickness that nobody gave.
+
+    Parameters
+    ----------
+    bearing : object
+        With a radius and a length; of balls with their number, diameter and pitch diameter.
+    """
+    balls = getattr(bearing, "balls", 0)
+    radius = 500.0 * bearing.pitch_diameter if balls else 1e3 * bearing.radius
+    length = 1e3 * bearing.ball_diameter if balls else 1e3 * bearing.length
+    across = [_filled(_ring(0.0, 2.0 * math.pi, 0.0, radius - 0.5 * length * bool(balls)), "shaft", STEEL)]
+    if balls:
+        wheel = [circle(0.5 * length)] * balls
+        angles = 2.0 * math.pi * np.arange(balls) / balls
+        across += [
+            one._replace(
+                x=one.x + radius * math.cos(at), y=one.y + radius * math.sin(at), label="" if at else "ball"
+            )
+            for one, at in zip(wheel, angles, strict=True)
+        ]
+    else:
+        geometry = getattr(bearing, "geometry", None)
+        pads = getattr(geometry, "pads", ()) or (Pad(start=0.0, extent=2.0 * math.pi),)
+        across += [
+            _filled(_ring(pad.start, pad.extent, radius, OUTSIDE * radius), "" if k else "bearing", "#4c72b0")
+            for k, pad in enumerate(pads)
+        ]
+        for k, groove in enumerate(getattr(bearing, "grooves", ())):
+            arc = groove.center - 0.5 * groove.width, groove.width, radius, 1.1 * radius
+            across.append(_filled(_ring(*arc), "" if k else "groove", "w"))
+    outer, inner = (radius + 0.5 * length, radius - 0.5 * length) if balls else (OUTSIDE * radius, radius)
+    along = [_filled(_box(-0.8 * length, 0.8 * length, -inner, inner), "", STEEL)]
+    along += [
+        _filled(_box(-0.5 * length, 0.5 * length, side * inner, side * outer), "", "#4c72b0")
+        for side in (1, -1)
+    ]
+    panels = (
+        PicturePanel(across, "x [mm]", "y [mm]", f"radius {radius:.4g} mm", equal=True, legend="none"),
+        PicturePanel(
+            along, "along the shaft [mm]", "y [mm]", f"length {length:.4g} mm", equal=True, legend="none"
+        ),
+    )
+    return Picture(panels, columns=2, size=(4.2, 4.0))
+
+
+def _filled(polygon: tuple[Any, Any], label: str, color: str) -> CurveMark:
+    return CurveMark(*polygon, label, color, width=0.8, fill=0.6)
+
+
+def _ring(start: float, extent: float, inner: float, outer: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the outline of a sector of a ring."""
+    angle = start + extent * np.linspace(0.0, 1.0, 73)
+    turned = angle[::-1]
+    return (
+        np.concatenate([outer * np.cos(angle), inner * np.cos(turned)]),
+        np.concatenate([outer * np.sin(angle), inner * np.sin(turned)]),
+    )
 
 
 @arguments

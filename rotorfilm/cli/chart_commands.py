@@ -360,5 +360,7 @@ def page(out: Folder = OUT) -> CommandOutput:
 
     Example: rotorfilm chart page --out rotorfilm-charts
     """
-    path = str(charts.write_page(out))
+    from ..reports import write_page
+
+    path = str(write_page(out))
     return CommandOutput({"page": path}, partial(console.print_rows, "", [("page", path)]))

@@ -121,15 +121,15 @@ def load_scene(path: Path, settings: Sequence[str] | None) -> Scene:
     return Scene.load(path, read_settings(settings))
 
 
-def read_settings(settings: Sequence[str] | None) -> dict[str, Any]:
+def read_settings(settings: Sequence[str] | None, flag: str = "--set") -> dict[str, Any]:
     """Return keys and values of texts as "journal.clearance=80 um"; raise InputError where one is none."""
     pairs = [text.partition("=") for text in settings or ()]
     for text, (key, equals, value) in zip(settings or (), pairs, strict=True):
         if not (equals and key.strip() and value.strip()):
-            raise InputError(f'--set must be "KEY=VALUE", got {brief(text)}')
+            raise InputError(f'{flag} must be "KEY=VALUE", got {brief(text)}')
     keys = [key.strip() for key, _, _ in pairs]
     if twice := next((key for key in keys if keys.count(key) > 1), None):
-        raise InputError(f"--set must be given once for each key, got {brief(twice)} twice")
+        raise InputError(f"{flag} must be given once for each key, got {brief(twice)} twice")
     return {key: _toml_value(value.strip()) for key, (_, _, value) in zip(keys, pairs, strict=True)}
 
 

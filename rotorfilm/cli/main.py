@@ -17,7 +17,13 @@ from .command import BAD_INPUT, FAILED, Group, Parser, function_of, run_command
 
 
 COMMANDS = (
-    *("solve_command.solve", "run_command.run", "sweep_command.sweep", "run_command.cosim"),
+    *(
+        "solve_command.solve",
+        "solve_command.report",
+        "run_command.run",
+        "sweep_command.sweep",
+        "run_command.cosim",
+    ),
     *("solve_command.new", "solve_command.schema", "demo_command.demo"),
 )
 """Commands in the order of the help; each is a function of a module of this folder."""

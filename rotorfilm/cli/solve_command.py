@@ -8,10 +8,20 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..core.errors import InputError
+from ..core.errors import InputError, brief
 from ..core.progress import Report
 from . import printing as console
-from .command import Argument, CommandOutput, Option, SceneFile, Settings, inside, load_scene
+from .command import (
+    Argument,
+    CommandOutput,
+    Option,
+    SceneFile,
+    Settings,
+    inside,
+    load_scene,
+    make_room,
+    read_settings,
+)
 
 if TYPE_CHECKING:
     from ..scenes import Scene
@@ -65,6 +75,55 @@ def _question(path: Path, scene: Scene, explain: bool, out: Path | None) -> Comm
     return CommandOutput(answer, show, None if answer.met else answer.message)
 
 
+def report(
+    scene: SceneFile,
+    report: Report,
+    changes: Settings = None,
+    out: Annotated[Path, Option(help="HTML page to write.", metavar="FILE.html")] = Path("report.html"),
+    operating: Annotated[
+        str | None,
+        Option(help="Operating range of a shaft, for API 617.", metavar='"3000 rpm : 4000 rpm"'),
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        Option(help="Key and its values, for a sweep, as of `rotorfilm sweep`.", metavar='"KEY = VALUES"'),
+    ] = None,
+    tolerance: Annotated[
+        list[str] | None,
+        Option(help="Key and its largest deviation, for a study of tolerances.", metavar='"KEY = 5 %"'),
+    ] = None,
+    quantity: Annotated[str, Option(help="Of that study.")] = "",
+    samples: Annotated[int, Option(help="Of that study.", min=2)] = 200,
+) -> CommandOutput:
+    """Write a report of a scene: one HTML page that needs no network, to be read and printed.
+
+    It has the machine, inputs as read, assumptions, neglected effects, results, verdicts, models and errors.
+
+    Example: rotorfilm report examples/compressor.toml --out report.html --operating "3000 rpm : 4000 rpm"
+    """
+    from ..core.units import parse_quantity
+    from .sweep_command import read_variation
+
+    loaded = load_scene(scene, changes)
+    make_room(out)
+    ends = operating.split(":") if operating else []
+    if ends and len(ends) != 2:
+        raise InputError(f'--operating must be "FIRST : LAST", got {brief(operating)}')
+    with inside(scene):
+        found = loaded.report(
+            operating=tuple(parse_quantity(end.strip(), "rad/s") for end in ends) or None,
+            vary=dict(map(read_variation, vary or ())),
+            tolerances=read_settings(tolerance, "--tolerance"),
+            quantity=quantity,
+            samples=samples,
+            report=report,
+        )
+    written = found.save(out)
+    rows = [("report", str(written)), *((one.subject, one.text) for one in found.verdicts)]
+    data = {"report": str(written), "verdicts": [one._asdict() for one in found.verdicts]}
+    return CommandOutput(data, partial(console.print_rows, loaded.title, rows))
+
+
 def schema(
     out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.json")] = None,
 ) -> CommandOutput:
@@ -84,7 +143,8 @@ def new(
 ) -> CommandOutput:
     """Print a commented scene of a machine element that `rotorfilm solve` answers as it stands.
 
-    NAME is journal, lobed_journal, pressure_dam, tilting_pad, ball_bearing, damper, contact, bush or shaft.
+    NAME is journal, lobed_journal, pressure_dam, tilting_pad, thrust, ball_bearing, damper, contact, bush or
+    shaft.
 
     Example: rotorfilm new tilting_pad --out bearing.toml
     """

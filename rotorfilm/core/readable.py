@@ -343,35 +343,36 @@ def table_text(table: frames.ResultTable) -> str:
     return "\n".join(["", *([_titled(table)] if table.title else []), *lines])
 
 
-def table_html(table: frames.ResultTable) -> str:
-    """Return a table as HTML."""
+def table_html(table: frames.ResultTable, most: int = MANY) -> str:
+    """Return a table as HTML, of more rows than `most` so many of them."""
     from html import escape
 
-    columns = [[heading, *cells] for heading, cells in shown_columns(table)]
+    columns = [[heading, *cells] for heading, cells in shown_columns(table, most)]
     heads, *rows = zip(*columns, strict=True)
     head = "".join(f"<th>{escape(cell)}</th>" for cell in heads)
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
-    return f"<table><caption>{escape(_titled(table))}</caption><tbody><tr>{head}</tr>{body}</tbody></table>"
+    title = escape(_titled(table, most))
+    return f"<table><caption>{title}</caption><tbody><tr>{head}</tr>{body}</tbody></table>"
 
 
-def shown_columns(table: frames.ResultTable) -> list[tuple[str, list[str]]]:
+def shown_columns(table: frames.ResultTable, most: int = MANY) -> list[tuple[str, list[str]]]:
     """Return heading and cells of each column, in a unit of the size of its numbers."""
-    return [_shown_column(one) for one in table.columns]
+    return [_shown_column(one, most) for one in table.columns]
 
 
-def _titled(table: frames.ResultTable) -> str:
+def _titled(table: frames.ResultTable, most: int = MANY) -> str:
     count = len(table.columns[0].values) if table.columns else 0
-    return f"{table.title} ({MANY} of {count} rows)" if count > MANY else table.title
+    return f"{table.title} ({most} of {count} rows)" if count > most else table.title
 
 
 def _is_words(column: frames.Column) -> bool:
     return np.asarray(column.values).dtype.kind in "OU"
 
 
-def _shown_column(column: frames.Column) -> tuple[str, list[str]]:
+def _shown_column(column: frames.Column, most: int) -> tuple[str, list[str]]:
     values, heading = np.asarray(column.values), column.heading or label_of(column.name)
-    if len(values) > MANY:
-        values = values[np.linspace(0, len(values) - 1, MANY).round().astype(int)]
+    if len(values) > most:
+        values = values[np.linspace(0, len(values) - 1, most).round().astype(int)]
     if _is_words(column):
         return heading, ["" if one is None else visible(str(one)) for one in values]
     if values.dtype.kind in "iub":

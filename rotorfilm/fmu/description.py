@@ -101,41 +101,33 @@ def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable
         found = found._replace(on_inputs=np.zeros_like(found.on_inputs))
     linear = "tunable" if tunable else "constant"
     hidden = set() if derivative_references(variables) else set(references(variables, "local"))
-    unknowns = [
-        (reference, _time(variables, timed) + _marked(variables, row, bent, linear))
-        for reference, row, timed, bent in _rows(variables, found)
-    ]
-    return [(k, [pair for pair in pairs if pair[0] not in hidden]) for k, pairs in unknowns]
+    rows = _rows(variables, found, linear)
+    return [(k, [pair for pair in pairs if pair[0] not in hidden]) for k, pairs in rows]
 
 
 def initial_unknowns(variables: Sequence[Variable], found: Dependencies) -> list[Unknown]:
     """Return outputs and derivatives with what they depend on during initialization, parameters included."""
     parameters = [(k, "dependent") for k in references(variables, "parameter")]
     linear = "dependent" if parameters else "constant"
-    return [
-        (reference, _time(variables, timed) + parameters + _marked(variables, row, bent, linear))
-        for reference, row, timed, bent in _rows(variables, found)
-    ]
+    return [(k, parameters + pairs) for k, pairs in _rows(variables, found, linear)]
 
 
-def _rows(variables: Sequence[Variable], found: Dependencies) -> list[tuple[int, Flags, bool, Flags]]:
+def _rows(variables: Sequence[Variable], found: Dependencies, linear: str) -> list[Unknown]:
+    """Return outputs and derivatives with the time, inputs and states that they depend on."""
     unknowns = [*references(variables, "output"), *derivative_references(variables)]
+    knowns = np.array([*references(variables, "input"), *references(variables, "local")])
+    times = [(known, "dependent") for known in references(variables, "independent")]
     # A description without derivatives, for co-simulation only, has no use for their rows.
     depends = np.concatenate([found.on_inputs, found.on_states], axis=1)[: len(unknowns)]
+    kinds = np.where(found.bent, "dependent", linear)
     return [
-        (unknown, row, bool(found.on_time[k]), found.bent[k])
-        for k, (unknown, row) in enumerate(zip(unknowns, depends, strict=True))
+        (
+            unknown,
+            times * bool(found.on_time[k])
+            + list(zip(knowns[depends[k]].tolist(), kinds[k][depends[k]].tolist(), strict=True)),
+        )
+        for k, unknown in enumerate(unknowns)
     ]
-
-
-def _marked(variables: Sequence[Variable], row: Flags, bent: Flags, linear: str) -> list[tuple[int, str]]:
-    knowns = [*references(variables, "input"), *references(variables, "local")]
-    kinds = ["dependent" if flag else linear for flag in bent]
-    return [(known, kind) for known, kind, flag in zip(knowns, kinds, row, strict=True) if flag]
-
-
-def _time(variables: Sequence[Variable], timed: bool) -> list[tuple[int, str]]:
-    return [(known, "dependent") for known in references(variables, "independent") if timed]
 
 
 def _points(model: Model, start: Array) -> list[tuple[Array, Array]]:
@@ -428,8 +420,8 @@ def variable_attributes(variable: Variable, reference: int) -> dict[str, str]:
 def unknown_attributes(unknown: Unknown, first: int) -> dict[str, str]:
     """Return what an unknown depends on, by places among the variables that count from `first`."""
     return {
-        "dependencies": " ".join(str(known + first) for known, _ in unknown[1]),
-        "dependenciesKind": " ".join(kind for _, kind in unknown[1]),
+        "dependencies": " ".join([str(known + first) for known, _ in unknown[1]]),
+        "dependenciesKind": " ".join([kind for _, kind in unknown[1]]),
     }
 
 

@@ -52,6 +52,11 @@ FAMILIES = {
     "pressure_dam": Family("scenes.pad_tables.DamTable", FILM),
     "tilting_pad": Family("scenes.pad_tables.TiltingTable", "scenes.export_scene.film_models"),
     "ball_bearing": Family("scenes.rolling.BallTable", FILM),
+    "thrust": Family(
+        "scenes.thrust.ThrustTable",
+        answer="scenes.thrust.answer_thrust",
+        ladders="questions.thrust.LADDERS",
+    ),
 }
 """By the name of its table in a scene."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import json
 import math
 import textwrap
 import tomllib
@@ -135,6 +136,16 @@ def _line(entry: str, wording: str) -> Iterator[str]:
         yield entry
 
 
+def scene_text(tables: Mapping[str, Any]) -> str:
+    """Return the tables of a scene as the text of a file."""
+    plain = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
+    parts = ["".join(f"{key} = {toml(value)}\n" for key, value in plain.items())]
+    for name, table in tables.items():
+        if isinstance(table, Mapping):
+            parts.append(f"[{name}]\n" + "".join(f"{key} = {toml(one)}\n" for key, one in table.items()))
+    return "\n".join(parts)
+
+
 def _wrapped(wording: str) -> list[str]:
     return textwrap.wrap(
         wording, WIDTH, initial_indent="# ", subsequent_indent="#   ", break_on_hyphens=False
@@ -146,7 +157,7 @@ def toml(value: Any, *, inline: bool = False) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        return f'"{value}"'
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{key} = {toml(one, inline=True)}' for key, one in value.items())} }}"
     if isinstance(value, list) and not inline and value and isinstance(value[0], Mapping):

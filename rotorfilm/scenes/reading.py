@@ -405,12 +405,16 @@ def reader_of(makes: type, name: str) -> Reader:
     return matrix(number) if others else number
 
 
+RADII = ("radius", "inner_radius", "outer_radius")
+"""Fields that may be given as a diameter, where they are required."""
+
+
 def _quantity_of(makes: type, name: str) -> Quantity:
     """Return the reader of a field that is a number; a required radius may be given as a diameter."""
     if sys.flags.optimize > 1:
         raise InputError("scene files need the units of docstrings, got a Python that runs without (-OO)")
     bare = makes.__dataclass_fields__[name].default is dataclasses.MISSING  # type: ignore[attr-defined]
-    twice = "diameter" if name == "radius" and bare else ""
+    twice = name.replace("radius", "diameter") if name in RADII and bare else ""
     return Quantity(si_name(units_of(makes)[name]), twice, name in temperatures_of(makes))
 
 

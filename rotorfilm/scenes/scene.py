@@ -169,10 +169,13 @@ class Scene:
         raise AttributeError(f"a scene has no attribute {name!r}")
 
     def _take_oil(self) -> None:
-        """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
-        oiled = {name: table.on(name, self.lubricant) for name, table in film_tables(self.tables).items()}
-        if self.shaft is not None:
-            oiled["shaft"] = self.shaft.on(self.lubricant)
+        """Give the oil of `[lubricant]` to the bearings that state no viscosity."""
+        _ = film_tables(self.tables)  # at most one
+        oiled = {
+            name: table.on(name, self.lubricant)
+            for name, table in self.tables.items()
+            if hasattr(table, "on")
+        }
         object.__setattr__(self, "tables", {**self.tables, **oiled})
 
     def _require_node(self, name: str, node: int) -> None:
@@ -277,6 +280,18 @@ class Scene:
         given = self.film_table.repeated_inputs(bearing)
         answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=self._remarks_of(bearing))
+
+    @property
+    def given(self) -> Mapping[str, Any]:
+        """The tables as the file has them, with its units; empty of a scene that was made in Python."""
+        return MappingProxyType(vars(self).get("_given", {}))
+
+    def report(self, **asked: Any) -> Any:
+        """Return a report of the scene, of which `save("report.html")` makes one page.
+
+        Its arguments and errors are those of `rotorfilm.reports.report_scene`.
+        """
+        return offered("report_scene")(self, **asked)
 
     def table(self, name: str) -> Any:
         """Return the table of a family by its name in the file; None if the scene has none."""
@@ -385,7 +400,9 @@ def read_scene(data: Mapping[str, Any], source: str) -> Scene:
     """Return the scene that the tables of a file describe; `source` names it in messages."""
     tables = dict(data)
     require_schema(source, tables)
-    return read_table(Scene, f"{source}: ", tables)
+    scene = read_table(Scene, f"{source}: ", tables)
+    object.__setattr__(scene, "_given", copy.deepcopy(dict(data)))
+    return scene
 
 
 def bundled_scene() -> Scene:

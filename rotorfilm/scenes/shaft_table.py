@@ -406,9 +406,9 @@ class ShaftTable(reading.Taking):
                     f"got {name!r}{nearest(name, known)}"
                 )
 
-    def on(self, lubricant: LubricantTable) -> ShaftTable:
+    def on(self, where: str, lubricant: LubricantTable) -> ShaftTable:
         """Return this table with the oil of the scene in its journal bearings; see `JournalTable.on`."""
-        oiled = tuple(one.on(f"shaft.bearings[{k}]", lubricant) for k, one in enumerate(self.bearings))
+        oiled = tuple(one.on(f"{where}.bearings[{k}]", lubricant) for k, one in enumerate(self.bearings))
         return self if oiled == self.bearings else replace(self, bearings=oiled)
 
     @property

@@ -601,7 +601,9 @@ def oil_remarks(tables: Mapping[str, Any], lubricant: LubricantTable) -> tuple[s
     """Return that bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
     if not lubricant.has_viscosity:
         return ()
-    journals: dict[str, Any] = dict(film_tables(tables))
+    journals: dict[str, Any] = {
+        name: table for name, table in tables.items() if hasattr(table, "on") and name != "shaft"
+    }
     shaft = tables.get("shaft")
     for k, one in enumerate(shaft.bearings if shaft is not None else ()):
         if one.journal is not None:

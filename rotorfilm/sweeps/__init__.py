@@ -6,5 +6,10 @@ from ..core.sources import show
 
 if TYPE_CHECKING:
     from .sweep_run import sweep as sweep
+    from .tolerance_study import (
+        ToleranceStudy as ToleranceStudy,
+        scatter_study as scatter_study,
+        tolerance_study as tolerance_study,
+    )
 else:
     show(__name__)

@@ -1,36 +1,20 @@
 """The HTML page of all charts: complete, in need of nothing else, drawn by a real browser."""
 
 import csv
-import json
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from open_in_browser import BROWSER, opened, wrong_with
 
 from rotorfilm import InputError
-from rotorfilm.charts import write_page
 from rotorfilm.charts.ladder_charts import STYLES
-from rotorfilm.charts.page import EXPLAINED
 from rotorfilm.cli import chart_commands
-
-BROWSER = next(
-    (name for name in ("chromium", "chromium-browser", "google-chrome") if shutil.which(name)), None
-)
-
-PROBE = """<script>
-const told = [];
-window.addEventListener("error", event => told.push(String(event.message)));
-const complain = console.error; console.error = (...all) => { told.push(all.join(" ")); complain(...all); };
-window.addEventListener("load", () => {
-    const drawn = [...document.images].map(image => image.naturalWidth);
-    const tables = document.querySelectorAll("table").length;
-    document.documentElement.dataset.found = JSON.stringify({ drawn, told, tables });
-});
-</script>"""
+from rotorfilm.reports import write_page
+from rotorfilm.reports.chart_page import EXPLAINED
 
 
 @pytest.fixture
@@ -79,19 +63,5 @@ def test_a_folder_without_charts_is_named(tmp_path):
 
 @pytest.mark.skipif(BROWSER is None, reason="no headless browser")
 def test_a_browser_draws_every_picture_and_complains_of_nothing(folder):
-    path = write_page(folder)
-    probed = folder / "probed.html"
-    probed.write_text(path.read_text().replace("</title>", f"</title>{PROBE}"))
-    quiet = [
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--no-first-run",
-        "--disable-background-networking",
-    ]
-    command = [BROWSER, *quiet, f"--user-data-dir={folder / 'profile'}", "--virtual-time-budget=5000"]
-    ran = subprocess.run(
-        [*command, "--dump-dom", probed.as_uri()], capture_output=True, text=True, check=True, timeout=120
-    )
-    found = json.loads(re.search(r'data-found="([^"]*)"', ran.stdout).group(1).replace("&quot;", '"'))
-    assert found == {"drawn": [150, 150], "told": [], "tables": 1}
+    found = opened(write_page(folder))
+    assert (found["images"], found["tables"], wrong_with(found)) == ([150, 150], 1, [])

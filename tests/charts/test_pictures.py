@@ -98,6 +98,7 @@ def damper_curve():
 
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 DOTS = [1.0, 2.0], [3.0, 4.0]
+DOTTED = [CurveMark(*DOTS, "dots")]
 GRID = [0.0, 1.0], [0.0, 1.0, 2.0]
 TABLE = [[-1, 1], [0, 2], [1, 3]]
 EVERY = Picture(
@@ -185,6 +186,10 @@ def test_every_mark_reaches_both_backends():
     assert names == {"line", "other", "dots", "level", "band", "bars"}
     shown = {text.get_text() for one in axes[:2] for text in one.get_legend().get_texts()}
     assert names == shown
+    assert len(figure.layout.shapes) == 2
+    first = Picture((PicturePanel([LevelMark(1.0), *DOTTED], "x", "y", legend="none"),)).to_plotly()
+    assert len(first.layout.shapes) == 1  # also where the line is behind all curves
+    assert first.layout.legend.visible is False
     heat = next(one for one in figure.data if one.type == "heatmap")
     mesh = axes[2].collections[0]
     np.testing.assert_array_equal(heat.z, mesh.get_array())

@@ -250,13 +250,15 @@ def test_another_process_builds_the_same_bytes(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the options are those of gcc and clang")
-@pytest.mark.parametrize("version", VERSIONS)
-def test_an_fmu_can_be_compiled_from_its_own_sources(version, tmp_path):
-    path = export_fmu(ROTOR, tmp_path / "rotor.fmu", version, component="rotor")
+@pytest.mark.parametrize(("model", "version"), [(ROTOR, "2.0"), (BEARING, "3.0")])
+def test_an_fmu_can_be_compiled_from_its_own_sources(model, version, tmp_path):
+    path = export_fmu(model, tmp_path / "part.fmu", version, component="part")
     files = tmp_path / "files"
     with zipfile.ZipFile(path) as archive:
         archive.extractall(files)
-        binary = next(name for name in archive.namelist() if name.startswith("binaries/"))
+        names = archive.namelist()
+    binary = next(name for name in names if name.startswith("binaries/"))
+    assert sum(name.startswith("sources/") for name in names) <= 40
     units = fmpy.read_model_description(str(path)).buildConfigurations[0].sourceFileSets[0].sourceFiles
     command = [
         os.environ.get("CC", "cc"),

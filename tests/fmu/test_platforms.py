@@ -1,5 +1,7 @@
 """Libraries for other machines: where they go, what they are made from, what is said without a compiler."""
 
+import os
+import shutil
 import subprocess
 import sys
 
@@ -8,6 +10,7 @@ import pytest
 from rotorfilm import FmuError
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.native import platforms
+from rotorfilm.native.resource import kernel_table
 from rotorfilm.rotors import RigidRotor
 
 FOLDERS = {
@@ -26,13 +29,13 @@ FOLDERS = {
 def test_each_library_has_the_folder_of_its_fmi_version(version, monkeypatch):
     made = {}
 
-    def compiled(target, sources, library):
+    def compiled(target, sources):
         made[target.folder] = sources
         processor = 7 if target.folder.startswith("x86_64") else 12
         return bytes.fromhex("cffaedfe") + processor.to_bytes(4, "little") + bytes(4)
 
     monkeypatch.setattr(platforms, "compiled", compiled)
-    found = platforms.all_binaries("part", version, "rotorfilm_states")
+    found = platforms.all_binaries("part", version, {"a.c": b""})
     assert set(found) == {f"binaries/{folder}" for folder in FOLDERS[version]}
     assert len(made) == 5
     fat = {path for path, content in found.items() if content.startswith(bytes.fromhex("cafebabe"))}
@@ -59,14 +62,11 @@ def test_a_library_is_compiled_once_for_each_source(monkeypatch, tmp_path):
     monkeypatch.setattr(platforms, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", run)
     target, sources = platforms.TARGETS[0], {"a.c": b"int a;", "sub/b.h": b""}
-    assert [platforms.compiled(target, sources, "rotorfilm") for _ in range(2)] == [b"library"] * 2
+    assert [platforms.compiled(target, sources) for _ in range(2)] == [b"library"] * 2
     assert len(runs) == 1
     assert runs[0][:4] == [sys.executable, "-m", "ziglang", "cc"]
-    platforms.compiled(target, {**sources, "a.c": b"int b;"}, "rotorfilm")
-    platforms.compiled(target, sources, "rotorfilm_systems")
-    assert len(runs) == 3
-    subsets = [next(option for option in command if "RF_SUBSET" in option) for command in runs]
-    assert subsets == [*["-DRF_SUBSET=RF_ROTORFILM"] * 2, "-DRF_SUBSET=RF_ROTORFILM_SYSTEMS"]
+    platforms.compiled(target, {**sources, "a.c": b"int b;"})
+    assert len(runs) == 2
     assert all("a.c" in command and "sub/b.h" not in command for command in runs)
 
 
@@ -77,7 +77,7 @@ def test_what_the_compiler_says_is_told(monkeypatch, tmp_path):
     monkeypatch.setattr(platforms, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", lambda *arguments, **options: failed)
     with pytest.raises(FmuError, match=r"zig must compile the library for x86_64-linux, got: a\.c:1: error"):
-        platforms.compiled(platforms.TARGETS[0], {"a.c": b""}, "rotorfilm")
+        platforms.compiled(platforms.TARGETS[0], {"a.c": b""})
 
 
 def test_sources_are_complete():
@@ -90,6 +90,31 @@ def test_sources_are_complete():
     }
     assert included <= {name.rpartition("/")[2] for name in sources}
     assert platforms.foreign_licenses()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the options are those of gcc and clang")
+@pytest.mark.long
+def test_each_kernel_links_from_its_own_sources(tmp_path):
+    compiler = os.environ.get("CC", "cc")
+    if shutil.which(compiler) is None:
+        pytest.skip("no C compiler")
+    sources = platforms.native_sources()
+    for path, content in sources.items():
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).write_bytes(content)
+    units = [path for path in sources if path.endswith(".c")]
+    options = ["-std=c99", "-O0", "-fPIC", "-I."]
+    for path in units:
+        command = [compiler, *options, "-c", path, "-o", path[:-1] + "o"]
+        subprocess.run(command, check=True, cwd=tmp_path)
+    for kernel in kernel_table():
+        own = platforms.model_sources([kernel], "3.0")
+        rows = own[platforms.KERNEL_LIST].decode().splitlines()
+        assert [row.split(",")[0][10:] for row in rows if row.startswith("RF_KERNEL(")] == [kernel]
+        (tmp_path / platforms.KERNEL_LIST).write_bytes(own[platforms.KERNEL_LIST])
+        objects = [path[:-1] + "o" for path in own if path.endswith(".c") and path != "kernels/kernels.c"]
+        command = [compiler, *options, "-shared", "-Wl,--no-undefined", "kernels/kernels.c", *objects, "-lm"]
+        subprocess.run([*command, "-o", "library"], check=True, cwd=tmp_path)
 
 
 def test_an_unknown_machine_is_named(monkeypatch):

@@ -280,6 +280,36 @@ def test_analyses_count_their_work():
         assert system.work == {"equilibria": 0, "solutions": 0, "factorizations": 1}
 
 
+def test_a_short_rotor_is_proven_in_few_shapes_and_solved_in_all_coordinates(monkeypatch):
+    """All coordinates of six elements need nine times as many steps for the same critical speeds."""
+    rotor, speeds = long_rotor(6), np.linspace(20.0, 700.0, 15)
+    found = critical_speeds(rotor, FILMS, speeds)
+    assert found.work["eigenproblems"] <= 100
+    monkeypatch.setattr(searching, "FEW", 1000)
+    whole = critical_speeds(rotor, FILMS, [found[0].speed - 1.0, found[0].speed + 1.0])
+    assert_allclose(found[0].speed, whole[0].speed, rtol=1e-9)
+    assert_allclose(found[0].log_decrement, whole[0].log_decrement, rtol=1e-9)
+
+
+def test_a_search_takes_up_where_more_shapes_are_asked_for(monkeypatch):
+    """Steps that were proven in fewer shapes are not proven again."""
+    rotor, speeds = long_rotor(30), np.linspace(20.0, 700.0, 15)
+    wanted = critical_speeds(rotor, FILMS, speeds)
+    monkeypatch.setattr(searching, "REACH", 0.3)
+    steps, proven = [], searching._Search._proven
+
+    def noted(search, low, middle, high):
+        steps.append((low, high, len(search.model.structure.mass)))
+        return proven(search, low, middle, high)
+
+    monkeypatch.setattr(searching._Search, "_proven", noted)
+    found = critical_speeds(rotor, FILMS, speeds)
+    assert_allclose([one.speed for one in found], [one.speed for one in wanted], rtol=1e-9)
+    few, last = steps[0][2], steps[-1]
+    assert few < last[2]
+    assert not any(size > few for low, _, size in steps if low < 60.0)
+
+
 def test_a_map_counts_its_eigenproblems(monkeypatch):
     """Beside those that numpy is asked for; the shapes of a rotor are found once."""
     asked = []

@@ -27,6 +27,7 @@ from ...core.errors import (
     require_non_negative,
     require_number,
     require_positive,
+    warn_user,
 )
 from ...core.model import Array
 from ...core.port import require_place
@@ -40,11 +41,14 @@ from ..films.finite_volumes import COARSENING, LEVELS, are_counts
 from ..films.geometry import TURN
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import WarmBearing, require_lubricant
-from ..oil.oil import warn_beyond_law
+from ..oil.oil import COLDEST_OIL, DENSITY, HOTTEST_OIL, warn_beyond_law
 from ..reaction import NOMINAL_SPEED
 
 ROWS, INPUTS, FACTS = 4, 7, 9
 """Force, moments and torque; z, tilts, their rates and the speed; what `rf_sector_field` tells besides."""
+
+TURBULENT_PADS = 600.0
+"""Reynolds number speed r h/nu, of mean radius and mean film, from about which thrust films are turbulent."""
 
 _THIN, _THICK = 1e-4, 1e3
 """Films, over the nominal one, between which a load is sought."""
@@ -504,7 +508,35 @@ class SectorPads(WarmBearing):
                 f"{_THICK * self.film_scale:.3g} m, {said}"
             )
         film = self.film_scale * math.exp(brentq(excess, low, high, rtol=1e-9))
-        return np.array([self.side * (film - self.gap), 0.0, 0.0])
+        place = np.array([self.side * (film - self.gap), 0.0, 0.0])
+        self._warn_of_turbulence(place, speed)
+        return place
+
+    def reynolds(self, position: ArrayLike, speed: float, density: float) -> float:
+        """Return speed r h/nu [1] of the mean radius and the mean film of a pad, at a place (3,) [m], [rad].
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+        speed : float [rad/s]
+        density : float [kg/m3]
+        """
+        film = (
+            self.gap + self.side * float(require_place(self, position)[0]) + float(self.grid.profile.mean())
+        )
+        radius = 0.5 * (self.inner_radius + self.outer_radius)
+        return abs(speed) * radius * film * density / self.film_viscosity
+
+    def _warn_of_turbulence(self, place: Array, speed: float) -> None:
+        density = DENSITY
+        if self.oil is not None and self.temperature is not None:
+            density = float(self.oil.density(min(max(self.temperature, COLDEST_OIL), HOTTEST_OIL)))
+        flow = self.reynolds(place, speed, density)
+        if flow > TURBULENT_PADS:
+            warn_user(
+                f"the film has Reynolds number {flow:.4g} at {speed:.6g} rad/s, beyond about "
+                f"{TURBULENT_PADS:g}, where thrust films become turbulent: a real film takes more power"
+            )
 
     # Losses and heat.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from importlib.resources import files
@@ -30,7 +31,7 @@ from ..description import (
 )
 from ..documentation import capabilities, general_texts, table_of, to_html
 from ..reference import reference_table, to_csv
-from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
+from .platforms import all_binaries, foreign_licenses, host_binary, model_sources
 
 ICON = "icon.png"
 REFERENCE = "documentation/reference.csv"
@@ -82,7 +83,8 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
     FmuError
         If the library is missing or cannot be compiled, or the model has no reference trajectory.
     """
-    variables, version, sources = native_model_variables(export), export.version, native_sources()
+    variables, version = native_model_variables(export), export.version
+    sources = model_sources((export.spec.kernel, *export.spec.parts), version)
     compiled = tuple(name for name in sources if name.endswith(".c"))
     times = np.linspace(0.0, export.stop_time, 7).tolist()
     description = Description(
@@ -97,7 +99,7 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
     contents = {f"sources/{name}": content for name, content in sources.items()}
     if version == "3.0":
         contents["sources/buildDescription.xml"] = build_description(export.component, compiled)
-    contents |= _files(export, variables)
+    contents |= _binaries(export, sources) | _files(export, variables)
     resource = f"resources/{FILE_NAME}"
     unnamed = {**contents, resource: pack(export.spec, "", variables)}
     token = guid_of(unnamed, to_xml(description, version, ""))
@@ -161,11 +163,15 @@ def _switches(export: Export) -> list[Variable]:
     return [Variable(name=label, causality="local", description=text, switch=True) for label in labels]
 
 
+def _binaries(export: Export, sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    if export.platforms == "all":
+        return all_binaries(export.component, export.version, sources)
+    return host_binary(export.component, export.version, carried_library(export.spec))
+
+
 def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
-    """Return all files but the sources, the XML and the resource, by path."""
-    fill = all_binaries if export.platforms == "all" else host_binary
+    """Return all files but the sources, the libraries, the XML and the resource, by path."""
     return {
-        **fill(export.component, export.version, carried_library(export.spec)),
         **licenses((PACKAGE,)),
         **foreign_licenses(),
         **_pictures(export),

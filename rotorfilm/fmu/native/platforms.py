@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import platform
+import re
 import struct
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from importlib.metadata import version
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
+from posixpath import dirname, join, normpath
 from typing import NamedTuple
 
 import fmpy
@@ -65,6 +67,8 @@ OPTIONS = (
 UNSHIPPED = ("loops", "master")
 """Folders of what only Python calls."""
 
+KERNEL_LIST = "kernels/kernel_list.h"
+
 _TRIMMED = {"dylib": ("-Wl,-dead_strip",), "so": ("-Wl,--gc-sections",), "dll": ("-Wl,--gc-sections",)}
 """What the linker leaves out: kernels of other libraries."""
 
@@ -82,6 +86,43 @@ def native_sources() -> dict[str, bytes]:
     found = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
     if not any(name.endswith(".c") for name in found):
         raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")
+    return found
+
+
+_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_INCLUDED = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+_DEFINED = re.compile(r"^(?!static|extern)\w[\w *]*?\b(rf_\w+)(?:\(|\[| =)", re.MULTILINE)
+_NAMED = re.compile(r"\brf_\w+")
+
+
+def model_sources(kernels: Sequence[str], fmi_version: str) -> dict[str, bytes]:
+    """Return of `native_sources` what a library with these kernels and one version of FMI needs.
+
+    These are the files that define what others of them name, and the headers that they include. The list of
+    kernels names these alone.
+    """
+    sources = native_sources()
+    texts = {path: _COMMENT.sub("", content.decode()) for path, content in sources.items()}
+    units = [path for path in sources if path.endswith(".c")]
+    homes = {symbol: path for path in units for symbol in _DEFINED.findall(texts[path])}
+    own = {f"kernel_{kernel}.c" for kernel in kernels} | {"kernels.c"}
+    other = "fmi/fmi3" if fmi_version == "2.0" else "fmi/fmi2"
+    ahead = [path for path in units if path.startswith("fmi/") and not path.startswith(other)]
+    ahead += [path for path in units if path.rpartition("/")[2] in own]
+    needed: set[str] = set()
+    while ahead:
+        path = ahead.pop()
+        if path not in needed:
+            needed.add(path)
+            ahead += [normpath(join(dirname(path), name)) for name in _INCLUDED.findall(texts[path])]
+            named = set(_NAMED.findall(texts[path])) if path in units else set()
+            ahead += [homes[symbol] for symbol in named & set(homes)]
+    found = {path: sources[path] for path in sorted(needed)}
+    rows = found[KERNEL_LIST].decode().splitlines(keepends=True)
+    kept = tuple(f"RF_KERNEL({kernel}," for kernel in kernels)
+    found[KERNEL_LIST] = "".join(
+        row for row in rows if row.startswith(kept) or not row.startswith("RF_KERNEL(")
+    ).encode()
     return found
 
 
@@ -110,26 +151,24 @@ def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, by
     return {_path(target, identifier, fmi_version): library_path(library).read_bytes()}
 
 
-def all_binaries(identifier: str, fmi_version: str, library: str) -> dict[str, bytes]:
-    """Return a library for all `TARGETS` by their paths in the FMU, compiled where not in the cache.
+def all_binaries(identifier: str, fmi_version: str, sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the library of these sources for all `TARGETS`, by path in the FMU.
 
-    FMI 2.0 has one folder for both kinds of Macs: they share a universal file there.
+    It is compiled where it is not in the cache. FMI 2.0 has one folder for both kinds of Macs: they share a
+    universal file there.
 
     Raises
     ------
     FmuError
         If zig is not installed or cannot compile the library.
     """
-    sources = native_sources()
     slices: dict[str, list[bytes]] = {}
     for target in TARGETS:
-        slices.setdefault(_path(target, identifier, fmi_version), []).append(
-            compiled(target, sources, library)
-        )
+        slices.setdefault(_path(target, identifier, fmi_version), []).append(compiled(target, sources))
     return {path: parts[0] if len(parts) == 1 else universal(parts) for path, parts in slices.items()}
 
 
-def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> bytes:
+def compiled(target: Target, sources: Mapping[str, bytes]) -> bytes:
     """Return a library for one platform, from the cache if it was compiled before.
 
     Raises
@@ -142,17 +181,17 @@ def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> byte
             "platforms must be 'host' unless the zig compiler is installed: "
             "python -m pip install '.[platforms]' in the source of rotorfilm"
         )
-    name = f"{library}-{_key(sources)}-{target.folder}.{target.suffix}"
+    name = f"rotorfilm-{_key(sources)}-{target.folder}.{target.suffix}"
     return cached(
         cache_folder() / "platforms" / name,
         from_bytes=bytes,
-        build=lambda: _compile(target, sources, library),
+        build=lambda: _compile(target, sources),
         to_bytes=bytes,
         what=f"the library for {target.folder}",
     )
 
 
-def _compile(target: Target, sources: Mapping[str, bytes], library: str) -> bytes:
+def _compile(target: Target, sources: Mapping[str, bytes]) -> bytes:
     with tempfile.TemporaryDirectory(prefix="rotorfilm-") as name:
         folder = Path(name)
         for path, content in sources.items():
@@ -161,7 +200,7 @@ def _compile(target: Target, sources: Mapping[str, bytes], library: str) -> byte
         units = [path for path in sources if path.endswith(".c")]
         output = f"rotorfilm.{target.suffix}"
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target.triple, *OPTIONS, "-I."]
-        command += [f"-DRF_SUBSET=RF_{library.upper()}", *_TRIMMED.get(target.suffix, ())]
+        command += _TRIMMED.get(target.suffix, ())
         command += ["-fPIC"] if target.suffix == "so" else []
         command += [*units, "-o", output, "-lm"]
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)

@@ -2,8 +2,8 @@
 
    A library is a bit. It is compiled with RF_SUBSET set to its name, into a file of that name in lower case
    without RF_. Python calls the first of them, and the last two, whose loops no FMU needs: over films, and over
-   the macro steps of a co-simulation, with all kernels but those that step by themselves. Without RF_SUBSET, as
-   from the sources in an FMU, a library has all kernels. */
+   the macro steps of a co-simulation, with all kernels but those that step by themselves. Without RF_SUBSET a
+   library has all kernels of the list, which names those of its model alone in the sources of an FMU. */
 #define RF_ROTORFILM 1
 #define RF_ROTORFILM_STATES 2
 #define RF_ROTORFILM_SYSTEMS 4

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 
 from ..core.errors import InputError
-from ..core.files import write_atomically
+from .page import Markup, Report, ReportSection, encoded
 
 NAME = "charts.html"
 
@@ -40,29 +39,6 @@ EXPLAINED = {
 ATLAS = "Error of each simplification against the next better model; above the dashed line it has failed."
 QUESTION = "Estimated error of every model that may answer this question over its cost, and the one chosen."
 
-STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 75rem; padding: 0 1rem }
-img { max-width: 100%; height: auto; border: 1px solid #ddd }
-nav a { margin-right: 1rem }
-details { margin: 1rem 0 3rem }
-div.table { overflow: auto; max-height: 30rem }
-table { border-collapse: collapse; font-size: .85rem }
-th, td { border: 1px solid #ddd; padding: .15rem .5rem; text-align: right }
-th { position: sticky; top: 0; background: #f4f4f4 }
-"""
-
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head><meta charset="utf-8"><title>rotorfilm: charts</title><link rel="icon" href="data:,">
-<style>{style}</style></head>
-<body>
-<h1>rotorfilm: charts</h1>
-<nav>{links}</nav>
-{sections}
-</body>
-</html>
-"""
-
 
 def write_page(folder: Path) -> Path:
     """Write `charts.html` into a folder, from the PNG and CSV files that are in it.
@@ -84,17 +60,7 @@ def write_page(folder: Path) -> Path:
     charts = sorted(folder.glob("*.png"))
     if not charts:
         raise InputError(f"out must be a folder with charts, got {str(folder)!r} without a PNG file")
-    names = [_title(chart) for chart in charts]
-    links = "".join(
-        f'<a href="#{chart.stem}">{escape(name)}</a>' for chart, name in zip(charts, names, strict=True)
-    )
-    sections = "\n".join(_section(chart, name) for chart, name in zip(charts, names, strict=True))
-    text = PAGE.format(style=STYLE, links=links, sections=sections)
-    return write_atomically(folder / NAME, text.encode())
-
-
-def _title(chart: Path) -> str:
-    return chart.stem.removeprefix("chart_").replace("_", " ")
+    return Report("rotorfilm: charts", tuple(map(_section, charts))).save(folder / NAME)
 
 
 def _explained(stem: str) -> str:
@@ -104,15 +70,11 @@ def _explained(stem: str) -> str:
     return EXPLAINED.get(stem, QUESTION if stem.startswith("chart_") else "")
 
 
-def _section(chart: Path, name: str) -> str:
-    picture = base64.b64encode(chart.read_bytes()).decode()
-    table = chart.with_suffix(".csv")
-    below = _table(table) if table.is_file() else ""
-    return (
-        f'<h2 id="{chart.stem}">{escape(name)}</h2>\n'
-        f"<p>{escape(_explained(chart.stem))}</p>\n"
-        f'<img src="data:image/png;base64,{picture}" alt="{escape(name)}">\n{below}'
-    )
+def _section(chart: Path) -> ReportSection:
+    name, table = chart.stem.removeprefix("chart_").replace("_", " "), chart.with_suffix(".csv")
+    picture = f'<img src="data:image/png;base64,{encoded(chart.read_bytes())}" alt="{escape(name)}">\n'
+    below = [Markup(_table(table))] if table.is_file() else []
+    return ReportSection(name, [_explained(chart.stem), Markup(picture), *below])
 
 
 def _table(path: Path) -> str:
@@ -120,7 +82,7 @@ def _table(path: Path) -> str:
     rows = list(csv.reader(text.splitlines()))
     shown = "".join(_rows(rows[: LINES + 1]))
     more = f" (the first {LINES} of {len(rows) - 1} rows)" if len(rows) > LINES + 1 else ""
-    data = base64.b64encode(text.encode()).decode()
+    data = encoded(text.encode())
     return (
         f"<details><summary>The table behind it{more}</summary>\n"
         f'<p><a download="{path.name}" href="data:text/csv;base64,{data}">{path.name}</a></p>\n'

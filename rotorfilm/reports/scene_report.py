@@ -1,0 +1,374 @@
+"""The report of a scene: its machine, inputs, assumptions, results, verdicts, models, errors and versions."""
+
+from __future__ import annotations
+
+import platform
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from .. import analysis, charts
+from ..bearings.journal import JournalBearing, ReynoldsFilm, film_state
+from ..bearings.seal import AnnularSeal
+from ..core.answers import LeftOutRemark, QuestionAnswer
+from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning
+from ..core.frames import Column, ResultTable
+from ..core.progress import Report as Progress, silent
+from ..core.readable import Readable, Row
+from ..scenes import Scene
+from ..scenes.new_scene import scene_text
+from ..scenes.reading import quantity_of
+from ..scenes.shared_tables import kind_of
+from ..scenes.solve_damper import DamperAnswer
+from ..scenes.solve_journal import Answer
+from ..scenes.solve_shaft import RotorAnswer, added_unbalance
+from .answer_rows import RPM, answer_rows, damper_rows, level_one_rows, rotor_rows, seconds_text
+from .motions import FollowedMotion, followed
+from .page import Block, Report, ReportSection, Verdict
+from .studies import study_sections
+
+MOVING = ("blade_loss", "run_up", "motor", "ground")
+"""Excitations that are followed over time."""
+
+AGAINST_SPEED = ("amplitude", "waterfall", "spectrogram", "orbits")
+STEADY = ("orbit", "windows", "full_spectrum")
+"""Pictures of a run whose speed changes, and of another."""
+
+SHAPES = 3
+"""Modes that are drawn in space."""
+
+PRESSURE = ReynoldsFilm(cells=(144, 12))
+"""Film of the pressure that is drawn."""
+
+PACKAGES = ("rotorfilm", "numpy", "scipy", "control")
+
+
+def report_scene(
+    scene: Scene,
+    *,
+    operating: tuple[float, float] | None = None,
+    vary: Mapping[str, Any] | None = None,
+    tolerances: Mapping[str, Any] | None = None,
+    quantity: str = "",
+    samples: int = 200,
+    report: Progress = silent,
+) -> Report:
+    """Return the report of a scene, of which `save("report.html")` makes one page.
+
+    A scene is answered as by `Scene.solve`; one whose excitation is a blade loss, a run-up, a motor or
+    ground that shakes is followed over time too.
+
+    Parameters
+    ----------
+    scene : Scene
+    operating : (float, float), optional [rad/s]
+        Operating range of a shaft, for the checks of API 617; by default the speed of its compressor or of
+        `[operation]` alone.
+    vary : mapping of str to sequence, optional
+        Keys and their values, for a sweep; see `sweep`.
+    tolerances : mapping of str to float or str, optional
+        Keys and how far they may be off, for a study of tolerances; see `tolerance_study`.
+    quantity : str
+        What the study of tolerances is about.
+    samples : int
+        Of that study.
+    report : callable
+        Is told the progress.
+
+    Raises
+    ------
+    RotorfilmError
+        Where the scene has no answer.
+    """
+    answer, motion = None, None
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        if _moves(scene):
+            motion = followed(scene, full=False, fmus=False, report=report)
+        if motion is None or scene.has_film or scene.shaft or scene.question:
+            answer = scene.solve(report)
+        parts = list(_results(scene, answer, operating))
+        if scene.question is not None and (scene.has_film or scene.shaft or scene.damper):
+            with suppress(
+                RotorfilmError
+            ):  # a question may have an answer where the film of the file has none
+                parts += _results(scene, replace(scene, question=None).solve(report), operating)
+        parts += [_motion(motion)] if motion else []
+        parts += study_sections(scene, vary or {}, tolerances or {}, quantity, samples)
+    told = [str(one.message) for one in caught if issubclass(one.category, ValidityWarning)]
+    found = Report(scene.title, tuple(parts))
+    summary = ReportSection("Summary", found.verdicts or _short(answer, motion))
+    sections = (
+        summary,
+        ReportSection("Machine", list(_machine(scene))),
+        ReportSection("Inputs", [_inputs(scene)]),
+        ReportSection("Assumptions and effects left out", list(_left_out(answer, told))),
+        *parts,
+        ReportSection("Models and versions", list(_models(answer))),
+    )
+    files = {"scene.toml": scene_text(scene.given)} if scene.given else {}
+    return Report(scene.title, sections, files)
+
+
+def _moves(scene: Scene) -> bool:
+    """Return whether a scene is followed over time."""
+    kind = kind_of(scene.excitation)
+    on_film = kind == "unbalance" and scene.rigid_rotor is not None and scene.has_film
+    return kind in MOVING or on_film or (scene.contact is not None and scene.excitation is not None)
+
+
+def _short(answer: Any, motion: FollowedMotion | None) -> list[Block]:
+    return [motion.rows] if motion else [answer_rows(answer)[:6]]
+
+
+# The machine and what was given.
+
+
+def _machine(scene: Scene) -> Iterator[Block]:
+    if scene.shaft is not None:
+        rotor, bearings = _shaft(scene)
+        yield charts.plot_rotor(rotor, bearings)
+        yield ResultTable(
+            (
+                Column("part", "", ["shaft and disks", "disks"]),
+                Column("mass", "kg", np.array([rotor.mass, sum(one.mass for one in rotor.disks)])),
+            ),
+            f"{len(rotor.elements)} elements, {len(rotor.disks)} disks, {len(rotor.stations)} bearings",
+        )
+        return
+    with suppress(InputError, AttributeError):  # a contact has no bearing to draw
+        bearing = scene.damper.build() if scene.damper is not None else scene.bearing
+        yield charts.plot_bearing(getattr(bearing, "bearing", bearing))
+
+
+def _shaft(scene: Scene) -> tuple[Any, dict[str, Any]]:
+    return scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
+
+
+def _inputs(scene: Scene) -> ResultTable:
+    """Return the keys of a scene as they were read, and in SI."""
+    rows = [row for key, value in scene.given.items() for row in _leaves((key,), value)]
+    names = ("key", "as read", "in SI")
+    return ResultTable(
+        tuple(Column(name, "", [row[k] for row in rows]) for k, name in enumerate(names)), "Inputs"
+    )
+
+
+def _leaves(path: tuple[str, ...], value: Any) -> Iterator[tuple[str, str, str]]:
+    """Yield key, text and value in SI of everything in a table of a scene."""
+    inner = list(value.items()) if isinstance(value, Mapping) else []
+    if isinstance(value, list) and any(isinstance(one, Mapping) for one in value):
+        inner = [(str(k), one) for k, one in enumerate(value)]
+    for key, one in inner:
+        yield from _leaves((*path, key), one)
+    if not inner:
+        reader = quantity_of(Scene, path)
+        known = reader is not None and not isinstance(value, list)
+        number = f"{reader.parse(value):.6g} {reader.unit.removeprefix('1')}" if known else ""  # type: ignore[union-attr]
+        yield ".".join(path), str(value), number
+
+
+def _left_out(answer: Any, told: list[str]) -> Iterator[Block]:
+    """Yield what was assumed, and what the physics leaves out with its size."""
+    remarks = [*getattr(answer, "remarks", ())]
+    sizes: dict[str, float] = {}
+    for one in remarks:
+        if isinstance(one, LeftOutRemark) and one.name:
+            sizes[one.name] = max(one.size, sizes.get(one.name, 0.0))
+    if sizes:
+        yield ResultTable(
+            (Column("effect", "", list(sizes)), Column("size", "1", np.array(list(sizes.values())))),
+            "Effects that are left out, relative to the answer",
+        )
+    for remark in remarks:
+        yield Verdict("left out", None, str(remark))
+    for line in getattr(answer, "assumptions", ()):
+        yield Verdict("assumed, as nobody gave it", None, line)
+    for line in dict.fromkeys(told):
+        if line.removeprefix("left out: ") not in remarks:
+            yield Verdict("warned", None, line)
+    yield "Unless the inputs say otherwise, films are laminar and of one temperature, and shafts linear."
+
+
+def _models(answer: Any) -> Iterator[Block]:
+    """Yield the models behind an answer with their errors, and the versions of all that computed it."""
+    if isinstance(answer, QuestionAnswer):
+        rungs = answer.rungs
+        errors = [np.nan if one.error_estimate is None else one.error_estimate for one in rungs]
+        yield ResultTable(
+            (
+                Column("model", "", [one.name for one in rungs]),
+                Column("verdict", "", [one.verdict for one in rungs]),
+                Column("error", "1", np.array(errors), "estimated error"),
+                Column("cost", "", [seconds_text(one.cost) for one in rungs]),
+                Column("method", "", [one.method or one.reason for one in rungs], "how it is known"),
+            ),
+            "Models that may answer, the cheapest first",
+        )
+        yield charts.plot_question(answer)
+    elif isinstance(answer, Answer):
+        yield [("film", answer.model), ("residual of the equilibrium", f"{answer.equilibrium.residual:.2g}")]
+    elif isinstance(answer, RotorAnswer):
+        yield [("residual of the equilibrium", f"{answer.residual:.2g}"), ("states", str(answer.states))]
+    yield [
+        *((name, version(name)) for name in PACKAGES),
+        ("Python", f"{platform.python_version()} on {platform.platform()}"),
+        ("made", time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime())),
+    ]
+
+
+# Results by kind.
+
+
+def _results(scene: Scene, answer: Any, operating: tuple[float, float] | None) -> Iterator[ReportSection]:
+    match answer:
+        case QuestionAnswer():
+            fine = Verdict(answer.quantity.replace("_", " "), answer.met, answer.message)
+            yield ReportSection("Answer", [fine, answer_rows(answer)])
+        case RotorAnswer():
+            yield from _rotor(scene, answer, operating)
+        case Answer():
+            yield ReportSection("Equilibrium, stiffness and damping", list(_film(scene, answer)))
+        case DamperAnswer():
+            stable, count = sum(orbit.stable for orbit in answer.orbits), len(answer.orbits)
+            told = f"orbits at this unbalance: {count}, stable: {stable}; jumps over it: {len(answer.folds)}"
+            if not count:
+                told = "no orbit: the rotor hits the wall"
+            kinds = ("transmissibility", "eccentricity", "phase")
+            pictures = [charts.picture_of(answer.response, kind) for kind in kinds]
+            fine = Verdict("orbit on the damper", stable == count == 1, told)
+            yield ReportSection("Orbits", [fine, damper_rows(answer), *pictures])
+        case Readable():
+            yield ReportSection("Results", [answer_rows(answer)])
+
+
+def _film(scene: Scene, answer: Answer) -> Iterator[Block]:
+    """Yield rows, verdict and pictures of a bearing with a film."""
+    found, speed = answer.whirl_threshold, abs(scene.speed)
+    if found is not None:
+        fine = found.speed is None or found.speed > speed
+        text = found.reason or f"whirl begins at {(found.speed or 0.0) * RPM:.5g} rpm"
+        yield Verdict(
+            "stability of the rigid rotor", fine, f"{text}; the shaft turns at {speed * RPM:.5g} rpm"
+        )
+    yield answer_rows(answer)
+    bearing, at = scene.bearing, answer.equilibrium
+    if isinstance(bearing, JournalBearing):
+        state = film_state(replace(bearing, film=PRESSURE), at.position, (0.0, 0.0), scene.speed)
+        yield f"Pressure by a two-dimensional film on {PRESSURE.cells[0]} x {PRESSURE.cells[1]} cells."
+        yield charts.picture_of(state)
+        yield charts.picture_of(state, "circumference")
+    with suppress(RotorfilmError):  # not every bearing has an equilibrium at every speed
+        speeds = np.linspace(0.5, 1.5, 11) * speed
+        table = analysis.coefficient_table(bearing, scene.static_load, speeds)
+        yield table.to_table()
+        yield charts.picture_of(table)
+
+
+def _rotor(
+    scene: Scene, answer: RotorAnswer, operating: tuple[float, float] | None
+) -> Iterator[ReportSection]:
+    """Yield the sections of a flexible rotor."""
+    rotor, bearings = _shaft(scene)
+    compressor = scene.shaft.compressor
+    last = compressor.speed if compressor else abs(scene.operation.speed) if scene.operation else 0.0
+    first, last = operating or (last, last)
+    speed = last or float(answer.campbell.speeds[-1])
+    modes = analysis.rotor_modes(
+        rotor, bearings, speed, highest_frequency=scene.shaft.highest_frequency or 2.0 * speed
+    )
+    shown = range(min(SHAPES, len(modes.eigenvalues)))
+    yield ReportSection(
+        "Modes and critical speeds",
+        [
+            *_threshold(answer, last),
+            rotor_rows(replace(answer, remarks=(), level_one=None)),
+            f"Modes at {speed * RPM:.5g} rpm.",
+            *modes._pages(),
+            *answer.campbell._pages(),
+            charts.picture_of(answer),
+            charts.picture_of(answer, "log_decrement"),
+            *(charts.plot_mode_orbits(rotor, modes, k) for k in shown),
+        ],
+    )
+    if answer.response is not None:
+        blocks: list[Block] = [charts.plot_unbalance_response(answer.response, peak_to_peak=True)]
+        if last:
+            blocks += _checks(answer.response, bearings, (first, last))
+        yield ReportSection("Unbalance response", blocks)
+    if compressor:
+        yield ReportSection("Stability by API 617", list(_certified(answer, rotor, bearings, speed)))
+
+
+def _threshold(answer: RotorAnswer, last: float) -> Iterator[Verdict]:
+    found = answer.threshold
+    text = found.reason or f"a whirl grows from {(found.speed or 0.0) * RPM:.5g} rpm on"
+    if last:
+        text += f"; the highest operating speed is {last * RPM:.5g} rpm"
+    yield Verdict("threshold of stability", found.speed is None or found.speed > last if last else None, text)
+
+
+def _checks(response: Any, bearings: Mapping[str, Any], operating: tuple[float, float]) -> Iterator[Block]:
+    """Yield separation margins and clearances by API 617, or why there are none."""
+    clearances = {
+        name: one.clearance for name, one in bearings.items() if isinstance(one, JournalBearing | AnnularSeal)
+    }
+    checks: dict[str, Callable[[], Any]] = {
+        "separation margins": lambda: analysis.separation_margins(response, *operating)
+    }
+    if clearances:
+        checks["running clearances"] = lambda: analysis.clearance_check(response, clearances, *operating)
+    for name, check in checks.items():
+        try:
+            found = check()
+        except InputError as error:
+            yield Verdict(name, None, f"not checked: {error}")
+            continue
+        yield Verdict(f"API 617, {name}", found.acceptable, found.verdict)
+        yield from found._pages() or [_peaks(found)]
+        yield charts.picture_of(found)
+
+
+def _peaks(found: analysis.SeparationMargins) -> list[Row]:
+    return [
+        (
+            f"{one.output} at {one.speed * RPM:.5g} rpm",
+            f"amplification factor {one.amplification_factor:.3g}, margin {one.separation_margin:.1%}, "
+            f"required {one.required_margin:.1%}",
+        )
+        for one in found.peaks
+    ]
+
+
+def _certified(answer: RotorAnswer, rotor: Any, bearings: Mapping[str, Any], speed: float) -> Iterator[Block]:
+    """Yield levels I and II."""
+    if answer.level_one is not None:
+        yield Verdict("API 617, level I", not answer.level_one.level_two_required, answer.level_one.verdict)
+        yield level_one_rows(answer.level_one)
+        yield charts.picture_of(answer.level_one)
+    try:
+        found = analysis.stability_level_two(rotor, bearings, speed)
+    except (RotorfilmError, SceneError) as error:
+        yield Verdict("API 617, level II", None, f"not checked: {error}")
+        return
+    yield Verdict("API 617, level II, bearings and seals as they are", found.acceptable, found.verdict)
+
+
+def _motion(found: FollowedMotion) -> ReportSection:
+    """Return what a run over time shows."""
+    run = found.trajectory
+    changes = "speed" in run.signals and np.ptp(run["speed"]) > 1e-3 * np.abs(run["speed"]).max()
+    pictures = [] if found.shown is run else [charts.picture_of(found.shown)]
+    for kind in AGAINST_SPEED if changes else STEADY:
+        with suppress(InputError):  # a ball on a contact has no orbit, a short run no spectrum
+            pictures.append(charts.picture_of(run, kind))
+    blocks: list[Block] = [found.rows, *pictures]
+    return ReportSection(
+        "Motion over time", [Verdict("contact", False, found.failure), *blocks] if found.failure else blocks
+    )

@@ -1,0 +1,260 @@
+"""Studies of tolerances: what manufacture and oil do to a quantity, by samples and one by one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import (
+    AbsentError,
+    InputError,
+    RotorfilmError,
+    require_count,
+    require_positive,
+    warn_user,
+)
+from ..core.frames import Column, ResultTable
+from ..core.inputs import arguments
+from ..core.model import Array
+from ..core.progress import Report, silent
+from ..core.readable import Drawable
+from ..scenes.reading import quantity_of
+from ..scenes.scene import Scene, read_tables, varied
+from .sweep_run import sweep
+
+SAMPLE = "sample"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToleranceStudy(Drawable):
+    """How a quantity scatters with parameters that are within tolerances.
+
+    Attributes
+    ----------
+    quantity : str
+    unit : str
+    nominal : float
+        The quantity without deviations.
+    mean, deviation : float
+        Of the samples, and their standard deviation.
+    values : ndarray, shape (n_samples,)
+        The quantity of each sample; not-a-number where it has none.
+    parameters : dict of str to ndarray, shape (n_samples,)
+        Drawn values, in the unit of each.
+    effects : dict of str to (float, float)
+        The quantity at the low and at the high end of each parameter, the others nominal.
+    failures : int
+        Samples without an answer.
+    """
+
+    quantity: str
+    unit: str
+    nominal: float
+    mean: float
+    deviation: float
+    values: Array
+    parameters: dict[str, Array]
+    effects: dict[str, tuple[float, float]]
+    failures: int = 0
+
+    _tabled = ("values", "parameters", "effects")
+
+    def _own_units(self) -> dict[str, str]:
+        return dict.fromkeys(("nominal", "mean", "deviation", "values"), self.unit)
+
+    def to_table(self) -> ResultTable:
+        """Return a row for each sample: its parameters and the quantity."""
+        columns = [Column(name, "", values) for name, values in self.parameters.items()]
+        notes = {"nominal": self.nominal, **{name: list(ends) for name, ends in self.effects.items()}}
+        return ResultTable(
+            (*columns, Column(self.quantity, self.unit, self.values)),
+            "Samples",
+            "",
+            notes,
+            {"nominal": self.unit},
+        )
+
+    def _pages(self) -> tuple[ResultTable, ...]:
+        ends = np.array(list(self.effects.values()))
+        known = self.values[np.isfinite(self.values)]
+        shares = (0.05, 0.5, 0.95)
+        return (
+            ResultTable(
+                (
+                    Column("parameter", "", list(self.effects)),
+                    Column("low", self.unit, ends[:, 0], f"{self.quantity} at the low end"),
+                    Column("high", self.unit, ends[:, 1], "at the high end"),
+                ),
+                "One by one",
+            ),
+            ResultTable(
+                (
+                    Column("share", "1", np.array(shares), "share below"),
+                    Column(self.quantity, self.unit, np.quantile(known, shares)),
+                ),
+                f"{known.size} samples",
+            ),
+        )
+
+
+@arguments
+def scatter_study(
+    solve: Callable[..., float],
+    nominal: Mapping[str, float],
+    tolerances: Mapping[str, float],
+    *,
+    quantity: str = "value",
+    unit: str = "",
+    samples: int = 200,
+    seed: int = 0,
+) -> ToleranceStudy:
+    """Return how a quantity scatters, by a function of your own.
+
+    Parameters
+    ----------
+    solve : callable
+        Takes the parameters by their names and returns the quantity. A RotorfilmError of it is a failure.
+    nominal, tolerances : mapping of str to float
+        Nominal values, and the largest deviation of those that scatter, in the same units. All values within
+        are equally likely, and independent.
+    quantity, unit : str
+        What `solve` returns, for tables and pictures.
+    samples, seed : int
+        Samples, and the seed of their random numbers.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    AbsentError
+        If nothing has an answer without deviations.
+    """
+    draws = _draws(nominal, tolerances, samples, seed)
+
+    def solved(values: Mapping[str, float]) -> float:
+        try:
+            return float(solve(**{**nominal, **values}))
+        except RotorfilmError:
+            return np.nan
+
+    rows = [dict(zip(draws, row, strict=True)) for row in zip(*draws.values(), strict=True)]
+    return _study(draws, np.array([solved(row) for row in rows]), quantity, unit)
+
+
+@arguments
+def tolerance_study(
+    scene: str | os.PathLike[str] | Mapping[str, Any],
+    tolerances: Mapping[str, Any],
+    quantity: str = "",
+    *,
+    samples: int = 200,
+    seed: int = 0,
+    changes: Mapping[str, Any] = MappingProxyType({}),
+    path: str | os.PathLike[str] | None = None,
+    workers: int | None = None,
+    report: Report = silent,
+) -> ToleranceStudy:
+    """Return how a quantity of a scene scatters with keys that are within tolerances.
+
+    Parameters
+    ----------
+    scene : path or mapping
+        A scene file, or its tables; of a shaft with a question.
+    tolerances : mapping of str to float or str
+        Largest deviation by dotted key, as `{"journal.clearance": "5 um", "journal.viscosity": "10 %"}`. All
+        values within are equally likely, and independent.
+    quantity : str
+        A number that `sweep` has, as "minimum_film"; by default the answer to the question, or the
+        eccentricity ratio.
+    samples, seed : int
+        Samples, and the seed of their random numbers.
+    changes, path, workers, report
+        As of `sweep`.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, a key is no quantity of the scene, or there is no such quantity.
+    AbsentError
+        If the scene has no answer without deviations.
+    """
+    tables = varied(scene if isinstance(scene, Mapping) else read_tables(scene), changes)
+    nominal, deviations = {}, {}
+    for key, tolerance in tolerances.items():
+        nominal[key], deviations[key] = _read(tables, key, tolerance)
+    draws = _draws(nominal, deviations, samples, seed)
+    parameters = {key: (SAMPLE, values) for key, values in draws.items()}
+    found = sweep(tables, parameters, path=path, workers=workers, report=report)
+    name = quantity or ("value" if "value" in found else "eccentricity_ratio")
+    numbers = [
+        one for one in found.data_vars if found[one].dims == (SAMPLE,) and found[one].dtype.kind == "f"
+    ]
+    if name not in numbers:
+        raise InputError(f"quantity must be one of {', '.join(map(str, numbers))}, got {name!r}")
+    asked = str(tables["question"]["quantity"]) if name == "value" else name
+    return _study(draws, found[name].values, asked, str(found[name].attrs.get("units", "")))
+
+
+def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, float]:
+    """Return the value of a key and its largest deviation, in SI."""
+    value: Any = tables
+    for part in key.split("."):
+        try:
+            value = value[int(part) if isinstance(value, list) else part]
+        except (KeyError, IndexError, ValueError, TypeError):
+            raise InputError(f"tolerances must have keys that the scene gives, got {key!r}") from None
+    reader = quantity_of(Scene, key.split("."))
+    if reader is None or isinstance(value, list):
+        raise InputError(f"tolerances must have keys of quantities, got {key!r} = {value!r}")
+    nominal, share = reader.parse(value), str(tolerance).strip().removesuffix("%")
+    if share != str(tolerance).strip():
+        return nominal, abs(nominal) * float(share) / 100.0
+    return nominal, reader.parse(tolerance)
+
+
+def _draws(
+    nominal: Mapping[str, float], tolerances: Mapping[str, float], samples: int, seed: int
+) -> dict[str, Array]:
+    """Return the values of all parameters: nominal, the ends of each in turn, and samples."""
+    require_count("samples", samples, 2)
+    if not tolerances:
+        raise InputError("tolerances must have at least one parameter, got none")
+    rng, draws = np.random.default_rng(seed), {}
+    for k, (name, tolerance) in enumerate(tolerances.items()):
+        if name not in nominal:
+            raise InputError(
+                f"tolerances must have names of nominal values, {', '.join(nominal)}, got {name!r}"
+            )
+        require_positive(f"tolerances[{name!r}]", tolerance)
+        ends = np.zeros(2 * len(tolerances))
+        ends[2 * k : 2 * k + 2] = -1.0, 1.0
+        draws[name] = nominal[name] + tolerance * np.concatenate(
+            [[0.0], ends, rng.uniform(-1.0, 1.0, samples)]
+        )
+    return draws
+
+
+def _study(draws: dict[str, Array], values: Array, quantity: str, unit: str) -> ToleranceStudy:
+    first = 1 + 2 * len(draws)
+    if not np.isfinite(values[0]):
+        raise AbsentError(f"{quantity} must have a value without deviations, got none")
+    drawn = values[first:]
+    failures = int(np.count_nonzero(~np.isfinite(drawn)))
+    if failures:
+        warn_user(f"{failures} of {drawn.size} samples have no answer, and are not in the histogram")
+    return ToleranceStudy(
+        quantity=quantity,
+        unit=unit,
+        nominal=float(values[0]),
+        mean=float(np.nanmean(drawn)),
+        deviation=float(np.nanstd(drawn)),
+        values=drawn,
+        parameters={name: column[first:] for name, column in draws.items()},
+        effects={name: (float(values[1 + 2 * k]), float(values[2 + 2 * k])) for k, name in enumerate(draws)},
+        failures=failures,
+    )

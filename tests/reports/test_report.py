@@ -1,0 +1,208 @@
+"""A report of a scene: complete, without network, checked by API 617, and drawn by a browser."""
+
+import json
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from control import FrequencyResponseData
+from open_in_browser import BROWSER, opened, wrong_with
+
+import rotorfilm as rf
+from rotorfilm.analysis import clearance_check, vibration_limit
+from rotorfilm.charts import CurveMark, FieldMark, Picture, PicturePanel
+from rotorfilm.cli.main import main
+from rotorfilm.reports import Report, ReportSection, Verdict
+from rotorfilm.reports.page import SHOWN, thinned
+from rotorfilm.sweeps import scatter_study, tolerance_study
+
+pytest.importorskip("plotly")
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+RPM = np.pi / 30.0
+
+ROTOR = """
+schema = 1
+title = "Overhung <rotor>"
+[shaft]
+material = { young_modulus = "205 GPa", shear_modulus = "79 GPa", density = 7830 }
+elements = [{ length = "0.6 m", outer_diameter = "40 mm", pieces = 3 }]
+disks = [{ node = 2, width = "40 mm", outer_diameter = "0.2 m" }]
+unbalances = [{ node = 2, unbalance = "100 g mm" }]
+speeds = { first = "500 rpm", last = "6000 rpm", count = 8 }
+[[shaft.bearings]]
+name = "left"
+node = 0
+journal = { diameter = "40 mm", length = "20 mm", clearance = "0.05 mm", viscosity = "20 mPa s" }
+[[shaft.bearings]]
+name = "right"
+node = 3
+journal = { diameter = "40 mm", length = "20 mm", clearance = "0.05 mm", viscosity = "20 mPa s" }
+"""
+
+
+@pytest.fixture(scope="module")
+def rotor(tmp_path_factory):
+    path = tmp_path_factory.mktemp("scenes") / "rotor.toml"
+    path.write_text(ROTOR)
+    return rf.Scene.load(path, {"shaft.speeds.count": 6}).report(operating=(2000.0 * RPM, 3000.0 * RPM))
+
+
+UNBALANCE = {"kind": "unbalance", "unbalance": "1 g mm"}
+
+
+@pytest.fixture(scope="module")
+def bearing():
+    scene = rf.Scene.load(
+        EXAMPLES / "friswell.toml",
+        {"cosimulation.revolutions": 3, "excitation": UNBALANCE, "rigid_rotor.unbalance": 0.0},
+    )
+    return scene.report(
+        vary={"journal.clearance": ["80 um", "100 um"], "operation.speed": ["1500 rpm", "2000 rpm"]},
+        tolerances={"journal.clearance": "5 um", "journal.viscosity": "10 %"},
+        samples=8,
+    )
+
+
+def test_a_report_has_inputs_as_read_results_verdicts_and_its_scene(rotor):
+    headings = [part.heading for part in rotor.sections]
+    assert headings[:4] == ["Summary", "Machine", "Inputs", "Assumptions and effects left out"]
+    assert headings[4:] == ["Modes and critical speeds", "Unbalance response", "Models and versions"]
+    subjects = [one.subject for one in rotor.verdicts]
+    assert subjects == [
+        "threshold of stability",
+        "API 617, separation margins",
+        "API 617, running clearances",
+    ]
+    page = rotor.to_html()
+    assert "<title>Overhung &lt;rotor&gt;</title>" in page
+    assert "<td>shaft.bearings.1.journal.clearance</td><td>0.05 mm</td><td>5e-05 m</td>" in page
+    assert rf.__version__ in page
+    attached = tomllib.loads(rotor.files["scene.toml"])
+    assert attached == tomllib.loads(ROTOR.replace("count = 8", "count = 6"))
+
+
+def test_a_report_has_the_run_the_sweep_and_the_tolerances_that_are_asked_for(bearing):
+    headings = [part.heading for part in bearing.sections]
+    assert headings[4:8] == ["Equilibrium, stiffness and damping", "Motion over time", "Sweep", "Tolerances"]
+    sweep = bearing.sections[6].blocks
+    points = {one.name: one.values for one in sweep[0].columns}
+    assert len(points["eccentricity_ratio"]) == 4
+    (field,) = sweep[1].panels[0].marks
+    assert isinstance(field, FieldMark)
+    np.testing.assert_array_equal(field.x, [80.0, 100.0])
+    assert any("thinn" in line or "viscosity" in line for line in map(str, bearing.sections[3].blocks))
+
+
+def test_a_page_of_a_question_has_its_ladder():
+    page = rf.Scene.load(
+        EXAMPLES / "friswell.toml", {"question": {"quantity": "stiffness", "tolerance": 0.05}}
+    )
+    found = page.report()
+    assert found.verdicts[0].fine
+    models = found.sections[-1].blocks[0]
+    assert "map" in list(models.columns[0].values)
+
+
+def test_the_command_writes_a_page_and_tells_the_verdicts(tmp_path, capsys):
+    out = tmp_path / "page.html"
+    arguments = ["report", str(EXAMPLES / "elliptical.toml"), "--out", str(out), "--json"]
+    with pytest.raises(SystemExit) as ended:
+        main(arguments)
+    assert not ended.value.code
+    assert json.loads(capsys.readouterr().out)["report"] == str(out)
+    assert out.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    for wrong in (["--operating", "3000 rpm"], ["--tolerance", "journal"], ["--vary", "a"]):
+        with pytest.raises(SystemExit) as ended:
+            main([*arguments, *wrong])
+        assert ended.value.code == 2
+
+
+def test_long_curves_keep_their_extremes():
+    x = np.arange(100 * SHOWN)
+    y = np.sin(x)
+    y[12345] = 7.0
+    (thin,) = thinned(Picture((PicturePanel([CurveMark(x, y)], "x", "y"),))).panels[0].marks
+    assert thin.x.size <= SHOWN + 2
+    assert (thin.y.max(), thin.y.min()) == (7.0, y.min())
+    assert thin.x[thin.y.argmax()] == 12345
+
+
+def response(x, y, speeds):
+    data = np.array([[x], [y]], dtype=complex)
+    return FrequencyResponseData(data, speeds, inputs=["u"], outputs=["brg_x", "brg_y"])
+
+
+@pytest.mark.closed_form
+def test_clearances_are_compared_with_the_scaled_response():
+    """An ellipse of half axes 3 and 1 um, turned; A_vl at 12000 rpm is 25.4 um, and 6 the largest scale."""
+    speeds = np.array([4000.0, 8000.0, 12000.0]) * RPM
+    turn, a, b = 0.7, 3e-6, 1e-6
+    x = np.full(3, a * np.cos(turn) + 1j * b * np.sin(turn)) * [0.5, 1.0, 1.0]
+    y = np.full(3, a * np.sin(turn) - 1j * b * np.cos(turn)) * [0.5, 1.0, 1.0]
+    found = clearance_check(response(x, y, speeds), {"brg": 20e-6}, 8000.0 * RPM, 12000.0 * RPM)
+    assert found.scale_factor == pytest.approx(25.4 / 6.0)
+    np.testing.assert_allclose(found.vibration, 25.4e-6)
+    assert found.acceptable
+    assert not clearance_check(response(x, y, speeds), {"brg": 16e-6}, 8000 * RPM, 12000 * RPM).acceptable
+    small = clearance_check(response(0.1 * x, 0.1 * y, speeds), {"brg": 20e-6}, 8000 * RPM, 12000 * RPM)
+    np.testing.assert_allclose(small.vibration, 6.0 * 0.6e-6)
+    assert vibration_limit(48000.0 * RPM) == pytest.approx(12.7e-6)
+    assert vibration_limit(600.0 * RPM) == pytest.approx(25.4e-6)
+    with pytest.raises(rf.InputError, match="places must be in the response"):
+        clearance_check(response(x, y, speeds), {"seal": 1e-4}, 8000 * RPM, 12000 * RPM)
+
+
+@pytest.mark.closed_form
+def test_a_study_of_tolerances_has_the_effects_and_the_scatter_of_a_linear_law():
+    """Of q = 3 a + b within 0.1 and 0.2 the deviation is sqrt((0.3^2 + 0.2^2) / 3)."""
+    study = scatter_study(lambda a, b: 3 * a + b, {"a": 1.0, "b": 2.0}, {"a": 0.1, "b": 0.2}, samples=20000)
+    assert study.nominal == 5.0
+    np.testing.assert_allclose([study.effects["a"], study.effects["b"]], [(4.7, 5.3), (4.8, 5.2)])
+    assert study.deviation == pytest.approx(np.sqrt(0.13 / 3.0), rel=0.02)
+    assert study.mean == pytest.approx(5.0, abs=0.01)
+    assert study.plot("tornado").get_xlabel() == "value [1]"
+    assert "20000 samples" in str(study)
+
+
+def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quantity():
+    scene = EXAMPLES / "friswell.toml"
+    found = tolerance_study(
+        scene, {"journal.clearance": "5 um", "journal.viscosity": "10 %"}, samples=4, workers=1
+    )
+    nominal = rf.Scene.load(scene).solve().equilibrium.eccentricity_ratio
+    assert found.nominal == pytest.approx(nominal, rel=1e-12)
+    low, high = found.effects["journal.clearance"]
+    assert low < nominal < high
+    assert np.abs(found.parameters["journal.viscosity"] - 0.1).max() <= 0.01
+    for wrong, message in (
+        ({"journal.film": 1}, "keys that the scene gives"),
+        ({"title": 1}, "keys of quantities"),
+        ({}, "at least one parameter"),
+    ):
+        with pytest.raises(rf.InputError, match=message):
+            tolerance_study(scene, wrong, samples=4)
+    with pytest.raises(rf.InputError, match=r"quantity must be one of .*minimum_film"):
+        tolerance_study(scene, {"journal.clearance": "5 um"}, "height", samples=2, workers=1)
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no headless browser")
+def test_a_browser_draws_every_figure_toggles_a_curve_and_asks_for_nothing(rotor, tmp_path):
+    found = opened(rotor.save(tmp_path / "page.html"))
+    pictures = sum(isinstance(block, Picture) for part in rotor.sections for block in part.blocks)
+    assert (found["figures"], found["drawn"]) == (pictures, pictures)
+    assert not wrong_with(found)
+    assert found["hidden"] >= 1
+
+
+def test_reports_of_ones_own_have_texts_rows_and_verdicts():
+    own = Report(
+        "Spindle",
+        (ReportSection("Checks", [Verdict("preload", False, "too small"), "See <below>.", [("a", "b")]]),),
+    )
+    page = own.to_html()
+    assert '<p class="verdict bad"><b>preload</b>: too small</p>' in page
+    assert "See &lt;below&gt;." in page
+    assert "<tr><th>a</th><td>b</td></tr>" in page
+    assert 'src="http' not in page
