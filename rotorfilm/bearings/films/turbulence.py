@@ -173,12 +173,11 @@ class Turbulence:
     Parameters
     ----------
     closure : str
-        "ng_pan", "constantinescu", "hirs", or the slower "reichardt", the quadrature that the first two are
-        fits of.
+        "ng_pan", "constantinescu", "hirs", or "reichardt", the quadrature that the first two are fits of.
     band : bool or (float, float) [1]
         Local Reynolds numbers between which the film passes from laminar to turbulent; True for the `onset`
         of the bearing and twice that, False for closures at any Reynolds number. No measurement stands
-        behind the band: what it changes is a part of the error.
+        behind the band: compare the answers with and without it.
     density : float or None [kg/m3]
         Of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
 
