@@ -534,7 +534,7 @@ class FilmRest(JournalEquilibrium):
         Of the film that may answer.
     film : FilmCandidate
     bearing : PlanarReaction
-        With one of both films.
+        Bearing with one of both films.
     position : ndarray, shape (2,) [m]
     matrices : callable
         Returns K and C there.
@@ -618,7 +618,7 @@ class FilmRung(FilmCandidate):
     Attributes
     ----------
     reaction : JournalBearing
-        With this film.
+        Reaction with this film.
     rich : JournalBearing
         With the richer one.
     """
@@ -698,7 +698,7 @@ def tangent(
     smooth : bool
         Whether the derivatives in the source are taken from differences, `STEP`: of a film on a grid.
     curvature_distance : float [m]
-        By which the wedge is measured; None for the distance from the center.
+        Curvature distance by which the wedge is measured; None for the distance from the center.
     """
     rest = np.zeros(2)
     slopes = bearing.jacobian(position, rest, speed)[:, :4]
@@ -808,7 +808,7 @@ class Counted(InertialModel):
     Parameters
     ----------
     reaction : PlanarReaction
-        Without states.
+        Reaction without states.
     """
 
     def __init__(self, reaction: PlanarReaction) -> None:

@@ -68,9 +68,9 @@ class MobileMapTable(BoundedTable):
     reach : float [1]
         X of the last node; beyond it J goes on as a power of X.
     largest_reynolds_number : float [1]
-        Of the last node; beyond it the force is that of this node.
+        Largest Reynolds number of the last node; beyond it the force is that of this node.
     scale : float [1]
-        Of y.
+        Scale of y, in Reynolds numbers.
     log_center : ndarray, shape (cells_y + 5,)
         Spline coefficients of L0 over y.
     coefficients : ndarray, shape (cells_x + 5, cells_y + 5, cells_cos + 5)
@@ -127,13 +127,14 @@ class MobileMapFilm(KernelFilm):
     Parameters
     ----------
     mobility : Mobility
-        With a density, its factor of the Couette flow 1.
+        Mobility with a density, its factor of the Couette flow 1.
     cells : (int, int)
         Cells of the film on the grid, as of `ExtrapolatedFilm`.
     nodes : (int, int, int)
         Cells of the map over eccentricity, direction of the source and Reynolds number; at least 6.
     largest_eccentricity_ratio, largest_reynolds_number : float [1]
-        Of the last nodes; the latter with a band of transition follows from the number of cells.
+        Largest eccentricity ratio and Reynolds number of the last nodes. With a band of transition the latter
+        follows from the number of cells.
     table : MobileMapTable, optional
         The map, where it is there already.
     reynolds_scale : float [m3/kg s]
@@ -210,7 +211,9 @@ class MobileMapFilm(KernelFilm):
             return self.table
         resolution = self.cells, self.nodes, self.largest_eccentricity_ratio, self.largest_reynolds_number
         rounded = float(f"{slenderness:.9g}")
-        path = table_path("mobile", (source_digest(__name__), rounded, *resolution, repr(self.mobility.at(1.0))))
+        path = table_path(
+            "mobile", (source_digest(__name__), rounded, *resolution, repr(self.mobility.at(1.0)))
+        )
         telling = told(report, f"{TITLE}, length/diameter {rounded:.6g}", path.parent)
         return cached_table(MobileMapTable, path, lambda: build_mobile_table(self, rounded, telling))
 
