@@ -350,7 +350,7 @@ def _richest(table: DamperTable, own: dampers.SqueezeLaw) -> dampers.SqueezeLaw:
 
 
 EDDIES = (0.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0), (0.0, 0.01, 0.03, 0.08, 0.26, 0.58)
-"""Speed R c/nu of a whirl, and what the eddy viscosity of the squeeze flow adds to the force: orbit 0.4, L/D 0.5."""
+"""Speed R c/nu of a whirl, and what eddies of the squeeze flow add to the force: orbit 0.4, L/D 0.5."""
 
 
 def damper_numbers(

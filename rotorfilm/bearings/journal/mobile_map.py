@@ -41,9 +41,9 @@ from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, 
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 SCALE, EDGE = 30.0, 5.236
-"""Reynolds number below which the nodes are uniform, and above which their logarithms are. Where the mobility has a
-larger one, at which a band of transition begins, it is that over the second number: then ln(1 + Re/scale) of both
-ends of the band are as 3 to 4, and both can be nodes."""
+"""Reynolds number below which the nodes are uniform, and above which their logarithms are. Where a band of
+transition begins at a larger one, it is that over the second number: then both ends of the band can be nodes,
+as ln(1 + Re/scale) of them are as 3 to 4."""
 
 BANDS = (0.5, 0.8, 0.9)
 """Eccentricity ratios between which the largest error is sought; the last band ends with the map."""
